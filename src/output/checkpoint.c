@@ -22,8 +22,8 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Composes the path of an archive entry in the HDF5 file, path[capacity]. All entries are in one group: '/' in the name
- * becomes '.', so that the name of one entry may be the beginning of another name. */
+/* Composes path[capacity], the path of an archive entry in the HDF5 file, from its name. All entries are in the
+ * group /state: '/' in a name becomes '.', so that the name of one entry may be the beginning of another name. */
 static void entry_path(char *path, size_t capacity, const char *name)
 {
     int length = snprintf(path, capacity, "/state/%s", name);
@@ -74,8 +74,9 @@ static struct archive archive_of(struct hdf *f, bool saving)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the state to an HDF5 file under the temporary name of `path`, without the footer. archive_all(context, a)
- * passes all entries to the archive. Returns FAILED, and removes the file, on a fault. */
+/* Writes the state to an HDF5 file under the temporary name of `path`, without the footer. scene_text: text of the
+ * scene, stored in the file. archive_all(context, a) must pass all entries to the archive a. Returns FAILED on a
+ * fault, with the file removed. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {
@@ -95,8 +96,8 @@ static status state_write(struct output *o, const char *path, const char *scene_
     return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
-/* Syncs history.csv to the disk: the samples before a checkpoint must be there before it. Returns FAILED if that is not
- * possible. */
+/* Syncs history.csv to the disk: a checkpoint may only be written after the samples that precede it. Returns FAILED
+ * if that is not possible. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;
@@ -124,7 +125,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the open checkpoint belongs to the scene with this text. */
+/* Returns true if the open checkpoint f belongs to the scene with the text scene_text. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
     int64_t length = hdf_dataset_size(f, "/Cleave/scene");
@@ -136,8 +137,9 @@ static bool same_scene(struct hdf *f, const char *scene_text)
     return same;
 }
 
-/* Restores the state from the checkpoint `path`, whose hash has been checked. archive_all(context, a) reads all
- * entries. Returns FAILED for a file of another format or another scene, and if it cannot be read. */
+/* Restores the state from the checkpoint `path`, whose hash must have been checked. archive_all(context, a) must
+ * read all entries from the archive a. Returns FAILED if the file has another format, belongs to another scene than
+ * scene_text, or cannot be read. */
 static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct hdf f;

@@ -13,7 +13,8 @@ enum { BLOCK = 1 << 14 }; /* [byte] fits the stack of any thread; a multiple of 
 
 /* ---- the hash ---------------------------------------------------------------------------------------------------- */
 
-/* Four independent lanes of the hash: within a lane each step waits for the multiplication of the previous one. */
+/* The hash has LANES_OF_HASH lanes that are computed independently, since within a lane each step waits for the
+ * multiplication of the previous one. STRIDE: bytes that are added to all lanes at once. */
 enum { LANES_OF_HASH = 4, STRIDE = LANES_OF_HASH * 8 };
 struct hash {
     uint64_t lane[LANES_OF_HASH], length;
@@ -34,7 +35,7 @@ static void hash_start(struct hash *h)
     h->length = 0;
 }
 
-/* Adds `strides` blocks of STRIDE bytes each to the hash, one word of each block to each lane. */
+/* Adds `strides` blocks of STRIDE bytes each to the hash: word k of a block to lane k. */
 static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
 {
     uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];
@@ -48,7 +49,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds `length` bytes to the hash, filled up with zeros to a multiple of STRIDE. */
+/* Adds `length` bytes to the hash. If `length` is no multiple of STRIDE, the last block is filled up with zeros. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};
@@ -76,8 +77,8 @@ uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length)
     return hash_value(&h);
 }
 
-/* Computes the hash *value of the first `length` bytes of the open file fd. Returns 0, or an errno if the file cannot
- * be read. */
+/* Computes *value, the hash of the first `length` bytes of the open file fd. Returns 0, or an errno if the file
+ * cannot be read. */
 static int hash_file(int fd, uint64_t length, uint64_t *value)
 {
     struct hash h;
@@ -126,8 +127,8 @@ bool file_has_footer(const char *path)
     return has;
 }
 
-/* Checks length and hash of the open file fd against its footer. Returns NULL if the file is whole, else a phrase for a
- * message, such as "is empty". */
+/* Checks length and hash of the open file fd against its footer. Returns NULL if the file is complete and unchanged,
+ * else a phrase for a message, such as "is empty". */
 static const char *open_fault(int fd)
 {
     struct stat s;

@@ -54,8 +54,9 @@ static bool read_row(const struct history *h, const char *line, double *row)
     return true;
 }
 
-/* Reads all complete lines of the open file `from` into h->value [rows][columns]. path: its name, for messages; line,
- * room: buffer of getline. Returns FAILED, with file and line in the message, for a malformed line. */
+/* Reads all complete lines of the open file `from` into h->value [rows][columns]. path: name of the file, for
+ * messages; *line, *room: buffer of getline and its size, released by the caller. Returns FAILED, with file and line
+ * in the message, for a malformed line. */
 static status read_rows(struct history *h, FILE *from, const char *path, char **line, size_t *room)
 {
     ssize_t length;

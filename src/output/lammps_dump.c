@@ -25,7 +25,8 @@ struct dump {
     char text[LINE_ROOM];
 };
 
-/* Header of one time step: number of particles, and the column of each wanted quantity, -1 if it is missing. */
+/* Header of a time step: its number, the number of particles, and the column of each quantity that is read, -1 if
+ * the dump does not have it. */
 struct dump_head {
     int64_t step, n;
     int column[WANTED];
@@ -78,8 +79,8 @@ static status head_columns(struct dump *d, struct dump_head *h)
     return OK;
 }
 
-/* Reads the header of the next time step into h. Sets *more to false at the end of the file, also within a header.
- * Returns FAILED for text that is no dump of LAMMPS. */
+/* Reads the header of the next time step into *h. Sets *more to false if the file ends before the header is
+ * complete. Returns FAILED for text that is no dump of LAMMPS. */
 static status head_next(struct dump *d, struct dump_head *h, bool *more)
 {
     *more = dump_line(d);
@@ -106,8 +107,8 @@ static bool skip_rows(struct dump *d, int64_t n)
     return more;
 }
 
-/* Appends the numbers of all complete time steps of a dump to the array *step, of *n entries, which grows. Returns
- * FAILED unless they ascend. */
+/* Appends the numbers of all complete time steps of the dump d to the array *step of *n entries, which grows.
+ * Returns FAILED unless they ascend. */
 static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
@@ -156,7 +157,7 @@ void lammps_frame_free(struct lammps_frame *f)
     *f = (struct lammps_frame){0};
 }
 
-/* Reads the wanted quantities of one particle from the current line of d into value[WANTED]; 0 for those that the dump
+/* Reads the quantities of one particle from the current line of d into value[WANTED]; 0 for quantities that the dump
  * does not have. h: header with their columns. Returns false if a column is missing or not a finite number. */
 static bool dump_row_read(const struct dump *d, const struct dump_head *h, double value[WANTED])
 {
@@ -175,9 +176,9 @@ static bool dump_row_read(const struct dump *d, const struct dump_head *h, doubl
     return true;
 }
 
-/* Reads the lines of all particles of the time step with header h into f, in the order of their ids. seen[n]: marks the
- * ids that have been read; zeros on entry. Returns FAILED if an id is repeated or out of range, or a line is
- * malformed. */
+/* Reads the lines of all particles of the time step with header h into f, in the order of their ids. seen[n]:
+ * working memory, all 0 before, that marks the ids read. Returns FAILED if an id is repeated or out of range, or a
+ * line is malformed. */
 static status rows_take(struct dump *d, const struct dump_head *h, struct lammps_frame *f, uint8_t *seen)
 {
     double value[WANTED];

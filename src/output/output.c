@@ -17,7 +17,7 @@
 #include "output/pictures.h"
 #include "output/summary_read.h"
 
-/* Released memory that HDF5 keeps of each kind [byte]. */
+/* Released memory that HDF5 may keep for reuse in each of its free lists [byte]. */
 enum { HDF5_KEPT = 4 << 20 };
 
 void output_configure_hdf5(void)
@@ -34,8 +34,8 @@ void output_configure_hdf5(void)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Files of a run in the order of their removal: checkpoints first, because none may outlive the frames that it refers
- * to. begin: required first characters of a table; NULL: any. */
+/* Files of a run in the order of their removal: checkpoints first, because no checkpoint may exist without the
+ * frames to which it refers. begin: required first characters of a table; NULL: any. */
 static const struct {
     const char *name, *begin;
 } made[] = {
@@ -89,9 +89,9 @@ static bool has_frames(const char *folder)
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* Returns the part of a line of scene.yaml that has to be equal for two scenes to be equal, and stores its length. The
- * part is the whole line or, in a line with the hash of a file, only the hash, since the path of the file may
- * differ. */
+/* Returns the part of a line of scene.yaml that decides whether two scenes are equal, and stores its length in
+ * *length. It is the whole line; in a line with the hash of a file it is only the hash, since the path of the file
+ * may differ. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -222,7 +222,7 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* Checks that `mode` suits an older run of the scene in the folder. Returns REFUSED if there is one and mode is
+/* Checks that `mode` suits an older run in the folder. Returns REFUSED if there is an older run and mode is
  * OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has advanced but has no checkpoints. Warns if there is
  * nothing to resume. */
 static status mode_check(const char *folder, enum output_mode mode)
@@ -256,9 +256,9 @@ static status file_each(const char *folder, const char *name, file_visit_fn *eac
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls each(path) for the frames in the folder `inner` (frames_NAME) of a region, below `folder`, and for its index
- * files. end: additional ending of the file names, "" or that of temporary files. If `each` removes files, removes the
- * folder too, unless other files are in it. Returns the first status other than OK. */
+/* Calls each(path) for all frames and index files of one region. inner: folder of its frames, frames_NAME, below
+ * `folder`; end: additional ending of the file names, "" or that of temporary files. If `each` removes files, the
+ * folder is removed too, unless other files are in it. Returns the first status other than OK. */
 static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -283,8 +283,9 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
     return strstr(scene_text, line) != NULL;
 }
 
-/* Calls region_each for every region that scene.yaml in the folder defines. Other folders named frames_* remain
- * untouched. end: additional ending of the file names. Returns the first status other than OK. */
+/* Calls each(path) for the frames and index files of every region that scene.yaml in the folder defines. Other
+ * folders named frames_* are not touched. end: additional ending of the file names, "" or that of temporary files.
+ * Returns the first status other than OK. */
 static status regions_each(const char *folder, const char *end, file_visit_fn *each)
 {
     char *text;
@@ -323,7 +324,7 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* Returns true if the index of frames lists the file `path`: FOLDER/frames.xdmf for FOLDER/frames/FILE, or
+/* Returns true if an index of frames lists the frame `path`: FOLDER/frames.xdmf for FOLDER/frames/FILE, or
  * FOLDER/NAME.xdmf of a region for FOLDER/frames_NAME/FILE. */
 static bool index_lists(const char *path)
 {
@@ -456,8 +457,8 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the number, times and sizes of the frames of a series, and the number and hash of its last particles file, to
- * the archive a, or restores them. Returns FAILED if the restored lists do not match. */
+/* Saves the frames of a series (number, times, sizes) and the number and hash of its last particles file to the
+ * archive a if a->saving, else restores them. Returns FAILED if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], entry_name[100], number_name[100], content_name[100];

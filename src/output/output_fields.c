@@ -7,8 +7,8 @@
 
 #include "data/derived_fields.h"
 
-/* Copies one number per particle, of[i] or of[i] - less[i] if `less` is not NULL, to column c of an array `rows` with
- * `columns` numbers per row, as floats. row[r]: particle i of row r, for rows first .. end - 1. */
+/* Copies one number per particle to column c of the array `rows`, which has `columns` floats per row: of[row[r]], or
+ * of[row[r]] - less[row[r]] if `less` is not NULL, for rows r = first .. end - 1. */
 static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int32_t *row, int64_t first, int64_t end,
                                       const real *of, const real *less)
 {
@@ -16,8 +16,8 @@ static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int
         rows[columns * r + c] = (float)(less ? of[row[r]] - less[row[r]] : of[row[r]]);
 }
 
-/* Copies the vectors `of` [dim][n], or the differences of - less if `less` is not NULL, to the rows first .. end - 1 of
- * an array with dim numbers per row. row[r]: particle of row r. */
+/* Copies the vectors of[dim][n] of the particles row[r], or the differences of - less if `less` is not NULL, to the
+ * rows first .. end - 1 of an array with dim floats per row. */
 static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t end, real *const *of,
                          real *const *less, int dim)
 {
@@ -49,10 +49,12 @@ static void copy_scalars(float *rows, const int32_t *row, int64_t first, int64_t
     copy_column(rows, 1, 0, row, first, end, of, NULL);
 }
 
-/* Returns the number of leading components of a symmetric tensor in VTK's order that are stored; the others are 0. */
+/* Returns how many components of a symmetric tensor, in VTK's order xx yy zz xy yz xz, are stored in `dim`
+ * dimensions; the others are 0. */
 static inline int tensor_stored(int dim) { return dim == 1 ? 1 : dim == 2 ? 4 : SYM_MAX; }
 
-/* Index in VTK's order of component k of struct particles, by dimension; differs only in 2D, which has xx yy xy. */
+/* Index in VTK's order xx yy zz xy yz xz of component k of a tensor in struct particles, by dimension. Both orders
+ * differ in 2D only, where struct particles has xx yy xy. */
 static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
 /* Copies the stress of particle i [Pa] to row[6] in VTK's order xx yy zz xy yz xz. In plane strain this includes the
@@ -75,8 +77,8 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
         ((float *)rows)[stored * r + 2] = (float)particle_out_of_plane_stress(p, row[r]);
 }
 
-/* Fills the rows first .. end - 1 of a field that is derived from the stress or velocity of the particles. row[r]:
- * particle of row r. */
+/* Fills the rows first .. end - 1 of a field that is derived from stress or velocity, such as the von Mises stress,
+ * for the particles row[r]. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
@@ -92,10 +94,10 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
 
 /* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
 
-/* Returns the Green-Lagrange strain zz normal to a plane-stress plane, 1/2 (F_zz^2 - 1) [1], of particle i; 0 in other
- * spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow preserves
- * volume, so that a yielding material has F_zz = J/J_plane with the elastic volume ratio J of its mean stress.
- * strain[6]: in-plane strains in VTK's order. */
+/* Returns the Green-Lagrange strain zz of particle i normal to the plane in plane stress, 1/2 (F_zz^2 - 1) [1]; 0 in
+ * other spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow
+ * preserves volume, so that a yielding material has F_zz = J/J_plane, with the elastic volume ratio J that belongs
+ * to its mean stress. strain[6]: in-plane strains, in the order xx yy zz xy yz xz. */
 static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
 {
     const struct material *m = &s->extra.material[s->p->material[i]];
@@ -106,8 +108,8 @@ static real strain_across(const struct frame_source *s, int64_t i, const real *s
     return 0.5 * (square(elastic / plane) - 1);
 }
 
-/* Computes the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i from its displacement gradient H, in VTK's
- * order into strain[6] [1]. E is invariant under rotation. */
+/* Computes strain[6], the Green-Lagrange strain E = 1/2 (H + H^T + H^T H) of particle i [1], from its displacement
+ * gradient H, in the order xx yy zz xy yz xz. */
 static void strain_row(const struct frame_source *s, int64_t i, real *strain)
 {
     static const int row[SYM_MAX] = {0, 1, 2, 0, 1, 0}, column[SYM_MAX] = {0, 1, 2, 1, 2, 2};
@@ -181,8 +183,8 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
-/* Copies the damage of the particles row[r] to the rows first .. end - 1: that of the frame's state if it has one, else
- * that of the particles. */
+/* Copies the damage of the particles row[r] to the rows first .. end - 1: the damage computed for the frame if there
+ * is one, else that of struct particles. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
@@ -217,8 +219,8 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 
 /* ---- fields of the particles file -------------------------------------------------------------------------------- */
 
-/* Copies the spacing [m] of the particles row[r], or of material points of coarse cells, to the rows first .. end -
- * 1. */
+/* Copies the spacing of the particles row[r] to the rows first .. end - 1 [m]. Material points of coarse grid cells
+ * have larger spacings. */
 static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)
@@ -286,7 +288,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {"/Cleave/reference", "m", HDF_F64, 0, ROW_VECTOR, true, copy_reference},
 };
 
-/* Indices of the fields that are written only if the scene requests them; bit k of the request selects field k + 1. */
+/* First and last index of the fields that are written only if the scene requests them; bit k of the request selects
+ * field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
 /* Returns true if a frame contains a field: its data exist and, if the field is written on request only, the scene

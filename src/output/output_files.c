@@ -15,7 +15,7 @@
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path that consists of three texts in sequence; an empty path if it is too long. */
+/* Returns the path that consists of the texts `first`, `between` and `last`; an empty path if it is too long. */
 static struct path path_compose(const char *first, const char *between, const char *last)
 {
     struct path p;
@@ -73,8 +73,8 @@ bool path_is_folder(const char *path)
 
 /* ---- unfinished files -------------------------------------------------------------------------------------------- */
 
-/* Paths of files that are being written, by the stepping thread or by the thread that writes frames; "" marks a free
- * slot. */
+/* Paths of the files that are being written at present, by the stepping thread or by the thread that writes frames;
+ * "" marks an unused entry. */
 enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
@@ -203,8 +203,8 @@ static int write_all(int fd, const char *bytes, size_t length)
     return 0;
 }
 
-/* Opens the file `path` with further flags of open(2), writes `length` bytes at its end, syncs and closes it. With
- * O_EXCL an existing file is removed first. Returns 0, or an errno on a fault. */
+/* Opens the file `path` with additional `flags` of open(2), writes `length` bytes at its end, syncs and closes it.
+ * With O_EXCL an existing file is removed first. Returns 0, or an errno on a fault. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
     if (flags & O_EXCL) unlink(path); /* left by a killed run; a link of this name is not followed */
@@ -231,7 +231,7 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* Converts the result of a write to a status: OK if fault is 0. If it is an errno, removes the incomplete file of
+/* Converts the errno `fault` of a write (0: none) to a status. On a fault, removes the incomplete temporary file of
  * `path` and returns FAILED with a message. */
 static status outcome(const char *path, int fault)
 {

@@ -22,7 +22,7 @@ enum { FRAME_VERSION = 2 };
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
-/* A frame that is being written. */
+/* Everything that is needed to write one frame in another thread. */
 struct frame_job {
     struct path path;
     struct output *o;            /* borrowed */
@@ -43,8 +43,8 @@ struct frame_job {
     char message[512];
 };
 
-/* Returns true if the frame of a job has field k, and stores its rows in the frame itself, not in the particles
- * file. */
+/* Returns true if the frame of a job stores field k itself. Fields that do not change are stored in the particles
+ * file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
 /* Copies the rows of the fields that the frame itself stores to o->frame_copy. Its memory is reused for the next
@@ -68,7 +68,8 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     }
 }
 
-/* Removes the field of contact forces from a frame in which all are 0, and marks the frame as untouched. */
+/* If all contact forces of a frame are 0, removes their field from the frame and marks the frame as one without
+ * contact. */
 static void job_drop_contact(struct frame_job *job)
 {
     const float *force = (const void *)job->field[FIELD_CONTACT];
@@ -80,8 +81,8 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Sets the particles file to which the frame of the job links: the last one of the series, or a new one if its contents
- * would differ. scene_text: text of the scene, which the file contains. */
+/* Determines the particles file (data that do not change) to which the frame of the job links: the last one of the
+ * series, or a new one if its contents would differ. scene_text: text of the scene, which the file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -100,8 +101,8 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     job->particles.compress = job->compress;
 }
 
-/* Creates the job of a frame at time t [s] and time step number `step`, and copies the fields of the particles.
- * scene_text: text of the scene, for the particles file. */
+/* Creates the job of writing a frame at time t [s] and time step number `step`, and copies the fields of the
+ * particles. scene_text: text of the scene, for the particles file. The caller owns the job. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -124,7 +125,7 @@ static void job_free(struct frame_job *job)
 
 /* ---- the rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the indices 0 .. n - 1 in an array to be released with free; NULL if memory is exhausted. */
+/* Returns the array 0 .. n - 1, to be released with free; NULL if memory is exhausted. */
 static int32_t *ascending_order(int64_t n)
 {
     int32_t *order = calloc((size_t)n + 1, sizeof *order);
@@ -150,8 +151,7 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-/* Releases the list of the rows of a series, the particles that its frames show. They are selected again for the next
- * frame. */
+/* Releases the list of the particles that the frames of a series show. They are selected again for the next frame. */
 static void rows_free(struct frame_series *s)
 {
     free(s->rows.index);
@@ -169,9 +169,9 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the rows of a series, the particles that its frames show, in the order of their ids. The selection is kept
- * until output_discard_particle_order, unless there are material points of coarse cells, which may change at any step.
- * Returns false if memory is exhausted. */
+/* Selects the particles that the frames of a series show, in the order of their ids, as the rows of its frames. The
+ * selection is kept until output_discard_particle_order, unless there are material points of coarse grid cells,
+ * which may change at any step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -269,8 +269,8 @@ status output_wait_for_frame(struct output *o)
     return s;
 }
 
-/* Appends a frame to the list of its series, before it is written. If writing fails, output_wait_for_frame removes it
- * from the list. */
+/* Appends a frame to the list of its series, before it is written. If writing fails later, output_wait_for_frame
+ * removes it from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -278,8 +278,8 @@ static void frame_count(struct frame_series *s, const struct frame_job *job)
         (struct frame_entry){.time = job->t, .rows = job->n, .fields = job->fields, .particles = s->particles.number};
 }
 
-/* Starts the thread that writes the frame of a job; writes it at once if no thread is available. The thread blocks all
- * signals except those of its own faults, so that the stepping thread receives them. */
+/* Starts a thread that writes the frame of a job; if no thread is available, writes the frame at once. The thread
+ * blocks all signals except those of its own faults, so that the stepping thread receives them. */
 static void output_frames_job_start(struct frame_job *job)
 {
     sigset_t all, before;
@@ -330,9 +330,9 @@ struct particles_seen {
     int64_t content;           /* this hash */
 };
 
-/* Checks the particles file `number` of a series in the folder of a run, unless it is the one that was checked last,
- * and stores what it finds in `seen`. The checkpoint has the hash of the last particles file of the series; a file with
- * another hash belongs to another run and counts as lost. */
+/* Checks particles file number `number` of a series in the folder of a run, and stores name, fault and hash in
+ * *seen. Does nothing if it is the file checked last. The checkpoint has the hash of the last particles file of the
+ * series: a file with another hash belongs to another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -359,9 +359,9 @@ static bool frame_read_marks(const char *path, real *time, int64_t *content)
     return read;
 }
 
-/* Returns true if the frame at `path` is lost, and writes a phrase that completes "FRAME ..." to text[capacity].
- * Returns false if the frame has no fault or cannot be read. e: its entry in the list of frames; particles: the
- * particles file to which it should link. */
+/* Returns true if the frame at `path` is damaged or missing for certain, and writes a phrase that completes "FRAME
+ * ..." to text[capacity]. Returns false if the frame has no fault or cannot be read. e: its entry in the list of
+ * frames; particles: the particles file to which it should link. */
 static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
                           char *text, size_t capacity)
 {
@@ -378,9 +378,9 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
 
-/* Marks the lost frames of a series, adds their number to *lost, and describes the first lost frame of all in
- * text[capacity]. Frames that were marked at an earlier restart and exist again lose their mark. A particles file that
- * is lost is not used for further frames. */
+/* Marks the frames of a series that are lost (damaged or missing), adds their number to *lost, and describes the
+ * first lost frame of all series in text[capacity]. Frames that were marked at an earlier restart and exist again
+ * lose their mark. A particles file that is lost is not used for further frames. */
 static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};

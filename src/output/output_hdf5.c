@@ -7,15 +7,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Largest number of rows in a chunk of a table: chunks fit HDF5's chunk cache of 1 MiB, without which each row is read
- * by a call of its own; the index of chunks takes about 0.02 bytes per row. */
+/* CHUNK_ROWS: largest number of rows in a chunk of a table. Chunks of this size fit HDF5's chunk cache of 1 MiB,
+ * without which each row is read by a call of its own; their index takes about 0.02 bytes per row. GZIP_LEVEL: level
+ * of compression. */
 enum { CHUNK_ROWS = 4096, GZIP_LEVEL = 4 };
 
-/* Half of the number of chunks in a node of their index. HDF5's 32 give every dataset 2 to 4 kB of index. */
+/* Half of the number of chunks in a node of the tree that indexes chunks. With HDF5's default of 32 every dataset
+ * has 2 to 4 kB of index. */
 enum { INDEX_HALF = 4 };
 
-/* Size of the buffers in which HDF5 converts the reference to a text of variable length [byte]; HDF5 clears its default
- * of 1 MiB for every text. */
+/* Size of the buffers in which HDF5 converts a text of variable length [byte]; HDF5 clears its default of 1 MiB for
+ * every text. */
 enum { TEXT_BUFFER = 1024 };
 
 size_t hdf_type_size(enum hdf_type type)
@@ -149,7 +151,7 @@ struct table {
     size_t number;       /* size of a number [byte] */
 };
 
-/* Returns true if the rows first .. end - 1 of a table hold only the fill value, bit for bit. */
+/* Returns true if all numbers in the rows first .. end - 1 of a table equal the fill value, bit for bit. */
 static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
 {
     const char *at = t->data + (size_t)first * t->row;
@@ -174,8 +176,8 @@ static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t firs
            good(f, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(f, H5Sclose(from));
 }
 
-/* Writes all chunks of a table that hold more than the fill value; HDF5 reads the others as fill value. Returns false
- * on a fault. */
+/* Writes all chunks of a table in which a number differs from the fill value; HDF5 reads the others as fill value.
+ * Returns false on a fault. */
 static bool table_write_chunks(struct hdf *f, const struct table *t)
 {
     for (int64_t first = 0; first < t->rows; first += t->chunk) {
@@ -239,9 +241,9 @@ bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capa
 
 /* ---- virtual datasets -------------------------------------------------------------------------------------------- */
 
-/* Maps the rows of one source file to the rows from at[0] on of a virtual dataset. list: creation properties of the
- * dataset; space: its data space; name: path of the dataset in the source; shape[rank]: rows and columns of the source.
- * Returns false on a fault. */
+/* Maps the rows of one source file to the rows of a virtual dataset from at[0] on. list: creation properties of the
+ * dataset; space: its data space; name: path of the dataset in the source; shape[rank]: rows and columns of the
+ * source. Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -272,8 +274,8 @@ void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int 
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Returns an HDF5 type for this text with its length, or -1 on a fault: VTK 9.1 cannot read texts of variable length.
- * Release it with H5Tclose. */
+/* Returns an HDF5 type of fixed length for the text `text`, or -1 on a fault. VTK 9.1 cannot read texts of variable
+ * length. Release it with H5Tclose. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
     hid_t type = -1;
@@ -313,7 +315,8 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
     free(plain);
 }
 
-/* Writes the attribute `name` of a group with one value of this type and data space, and closes the data space. */
+/* Writes the attribute `name` of the group `group`, with one value of type `type`, and closes the data space
+ * `space`. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

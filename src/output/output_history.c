@@ -12,8 +12,8 @@
 
 static struct path history_path(const struct output *o) { return path_join(o->folder, "history.csv"); }
 
-/* Returns the FNV-1a hash (Fowler, Noll and Vo) updated with n bytes. The hash of history.csv is updated with each
- * line, so that a checkpoint need not read the file. It begins with HASH_START. */
+/* Returns `hash`, a hash of Fowler, Noll and Vo (FNV-1a), updated with n bytes. A new hash is HASH_START. The hash
+ * of history.csv is updated with each line, so that a checkpoint need not read the file. */
 #define HASH_START UINT64_C(0xCBF29CE484222325)
 static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
 {
@@ -21,7 +21,7 @@ static uint64_t hash_bytes(uint64_t hash, const char *bytes, size_t n)
     return hash;
 }
 
-/* A line under construction. */
+/* A line of history.csv under construction: memory stream `to` with its text. */
 struct line {
     char *text;
     size_t length;
@@ -69,8 +69,9 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Cuts history.csv to its length at the checkpoint. A new file is created, so that targets of links and other hard
- * links remain unchanged. Returns FAILED if the file is missing or shorter, or if this part of it has changed. */
+/* Shortens history.csv to its length at the checkpoint that is resumed. Creates a new file, so that targets of links
+ * and other hard links remain unchanged. Returns FAILED if the file is missing or shorter, or if this part of it has
+ * changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
@@ -88,8 +89,8 @@ static status history_cut(const struct output *o)
                       path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
 }
 
-/* Opens history.csv at `path` for writing, new or at its end (resume), without following a link. Returns NULL and sets
- * errno on a fault. */
+/* Opens history.csv at `path` for writing, without following a link: at its end if `resume`, else as a new file.
+ * Returns NULL and sets errno on a fault. */
 static FILE *history_file(const char *path, bool resume)
 {
     if (!resume) unlink(path);

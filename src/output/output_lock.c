@@ -15,7 +15,8 @@ static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
-/* Returns true if `path` still is the file that is open as fd, and has not been removed or replaced. */
+/* Returns true if `path` is still the file that is open as fd. It may have been removed or replaced since it was
+ * opened. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;

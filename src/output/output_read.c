@@ -14,12 +14,12 @@
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Largest plausible number of particles per byte of a frame: gzip compresses the 8-byte reference positions by a
- * smaller factor. It limits the memory that a damaged file can request. */
+/* Largest plausible number of particles per byte of a frame: gzip compresses the 8-byte reference positions of
+ * particles by less. The limit bounds the memory that a damaged file can request. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads the dataset `name` of n rows and `columns` columns, and copies its column from[k] to a new array out[k], [n],
- * for k < wanted. The caller releases the arrays. */
+/* Reads the dataset `name` of n rows and `columns` columns, and copies its columns from[k] to new arrays out[k][n],
+ * k = 0 .. wanted - 1. The caller releases the arrays. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -39,8 +39,8 @@ static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int6
     return data;
 }
 
-/* Reads all fields of a frame into new arrays of f. Stress components are in the order of struct particles, with zz
- * last in plane spaces. */
+/* Reads all fields of a frame into new arrays of f. Stress components are in the order of struct particles; in plane
+ * spaces zz is the last one. */
 static void read_fields(struct output_frame *f, struct hdf *h)
 {
     static const int plain[] = {0, 1, 2, 3, 4, 5}, plane[] = {0, 1, 3, 2};
@@ -118,8 +118,8 @@ void frame_free(struct output_frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Copies the velocity or stress of particle i, from which another field is derived, to row[SYM_MAX]. Components that
- * the space does not have are 0. */
+/* Copies the stress or velocity (`from`) of particle i, from which a derived field is computed, to row[SYM_MAX].
+ * Components that the space does not have are 0. */
 static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */

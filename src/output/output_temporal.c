@@ -15,7 +15,8 @@
 #include "output/output_files.h"
 #include "particles_file.h"
 
-/* Largest number of frames; with more, a file of virtual datasets takes longer to open than the frames. */
+/* Largest number of frames in a temporal file. With more, opening its virtual datasets takes longer than opening the
+ * frames. */
 enum { TEMPORAL_MOST = 2000 };
 
 struct temporal {
@@ -31,8 +32,8 @@ struct temporal {
     struct hdf_source *source; /* [n] scratch; its numbers of rows are those of the frames */
 };
 
-/* Lists in `a` the frames of a series whose files exist, with their particles files, and the fields that all of them
- * have; contact forces are listed if any frame has them. */
+/* Lists in *a the frames of a series whose files exist, with their particles files, and the fields that all of them
+ * have. Contact forces are listed if any frame has them. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
@@ -77,9 +78,9 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes a virtual dataset that concatenates a field of all frames. needed: bits of the fields that a frame must have
- * to contain the dataset (0: every frame has it); its rows are 0 for other frames. more: number of rows in each frame
- * beyond its number of points. */
+/* Writes a virtual dataset that concatenates a field of all frames. needed: bits of the fields that a frame must
+ * have to contain the dataset, 0 if every frame has it; the rows of other frames read as 0. more: number of rows in
+ * each frame beyond its number of points. */
 static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {
@@ -133,8 +134,8 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     }
 }
 
-/* Writes the temporal file under the temporary name of `path` and renames it. Returns FAILED if that is not possible;
- * if HDF5 fails, sets *broken to true and removes the incomplete file. */
+/* Writes the temporal file under the temporary name of `path` and renames it. Returns FAILED on a fault; if HDF5 has
+ * failed, sets *broken to true and removes the incomplete file. */
 static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
 {
     static const int32_t version[2] = {2, 0};

@@ -8,7 +8,7 @@
 
 enum { PARTICLES_VERSION = 1, VTK_VERTEX = 1 };
 
-/* Datasets of a frame besides its fields that are in the particles file. */
+/* Datasets, besides fields, that frames link to their particles file. */
 static const char *const linked[] = {
     "/VTKHDF/NumberOfPoints",  "/VTKHDF/NumberOfCells",   "/VTKHDF/NumberOfConnectivityIds",
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
@@ -58,8 +58,8 @@ void particles_file_free(struct particles_file *f)
     f->rows = NULL, f->cells = NULL;
 }
 
-/* Writes the list of VTK cells number `list` (CELLS_*), such as their offsets, to h. of[entries]: values in the type of
- * the list. */
+/* Writes list number `list` (CELLS_*) of VTK cells, such as their offsets, to h. of[entries]: values of the list, in
+ * its type. */
 static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
 {
     hdf_write_rows_zero_padded(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);

@@ -14,8 +14,8 @@ enum { END_LENGTH = 64, END_SLACK = 3 }; /* bytes searched for the mark; most li
 
 #define BYTES(text) text, sizeof text - 1
 
-/* End of a whole file and mark of Cleave for each format: a chunk, comment, box or extension that the format provides
- * for such data. */
+/* For each format of pictures: the bytes at the end of a complete file, and the mark by which Cleave recognises its
+ * own pictures: a chunk, comment, box or extension that the format provides for such data. */
 static const struct picture_end {
     const char *end; /* last bytes of a whole file; "": a sequence of boxes up to the length of the file */
     size_t end_length;
@@ -63,8 +63,8 @@ static bool boxes_are_whole(int fd, int64_t length)
     return length > 0;
 }
 
-/* Returns the offset in the open file of `length` bytes at which the end of its format e begins; for a file made of
- * boxes the length of the file [byte]. Returns -1 if the file is incomplete. */
+/* Returns the offset in the open file of `length` bytes at which the end that format e requires begins [byte]; for a
+ * format made of boxes, the length of the file. Returns -1 if the file is incomplete. */
 static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
 {
     char last[END_LENGTH];

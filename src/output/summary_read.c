@@ -49,8 +49,8 @@ static bool escape(struct reader *r)
     return true;
 }
 
-/* Parses a JSON string. *from, *to: receive its beginning and end without the quotes; escapes remain as they are.
- * Returns false if the string is malformed. */
+/* Parses a JSON string. *from, *to: receive its beginning and its end in the text, without the quotes; escapes are
+ * not replaced. Returns false if the string is malformed. */
 static bool string(struct reader *r, const char **from, const char **to)
 {
     if (!summary_read_take(r, '"')) return false;
@@ -96,8 +96,8 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* Returns the part of the dotted key `rest` below its first part, if the first part is `name` of `length` characters.
- * Returns NULL if it is another name or rest is NULL. */
+/* Returns what follows the first part of the dotted key `rest`, if that part is `name` of `length` characters.
+ * Returns NULL if it is another one, or if rest is NULL. */
 static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
@@ -105,9 +105,9 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
-/* Parses the value of the member `name` of an object. Meanwhile r->key is the dotted key of the value, truncated if it
- * is too long. rest: part of the wanted key from this member on. depth: levels of nesting. Returns false if the text is
- * malformed. */
+/* Parses the value of the member `name` (`length` characters) of an object. During the call r->key is the dotted key
+ * of the value, truncated if it is too long. rest: part of the wanted key from this member on, NULL if the value is
+ * not on its path; depth: levels of nesting. Returns false if the text is malformed. */
 static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
 {
     const size_t above = r->length;
@@ -206,9 +206,9 @@ static status read_text(const char *path, char **text)
     return OK;
 }
 
-/* Parses summary.json in a folder from the first to the last byte, in search of the value of `key`. *text: receives the
- * bytes of the file, which the caller frees, also on a fault. Returns FAILED, with file and line in the message, if the
- * text is not JSON. */
+/* Parses summary.json in a folder from the first to the last byte, and finds the value of `key`. *text: receives the
+ * contents of the file, which the caller frees, also on a fault. Returns FAILED, with file and line in the message,
+ * if it is not JSON. */
 static status summary_read_document(struct reader *r, const char *folder, const char *key, char **text)
 {
     char path[4096];
@@ -225,9 +225,9 @@ static status summary_read_document(struct reader *r, const char *folder, const 
     return status_set(FAILED, "%s:%d: not JSON", path, line);
 }
 
-/* Finds the value of `key` in summary.json of a folder, also under its earlier name. *text: receives the document,
- * which the caller frees; *found: first byte of the value in it. Returns FAILED, with the document freed, if it is not
- * JSON or has no such key. */
+/* Finds the value of `key`, or of its name in another version of Cleave, in summary.json of a folder. *text:
+ * receives the contents of the file, which the caller frees; *found: first byte of the value in it. Returns FAILED,
+ * with *text freed, if the file is not JSON or has no such key. */
 static status summary_read_find(const char *folder, const char *key, char **text, const char **found)
 {
     struct reader r = {0};
