@@ -69,7 +69,7 @@ status particle_draft_add(struct particle_draft *d, const real *X, real volume, 
 
 /* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
-/* Lattice positions along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last. */
+/* Lattice positions along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last, where half_count is m/2. */
 struct axis {
     real centre, half_count, spacing; /* [m], m/2, [m] */
     int64_t first, last;
@@ -94,8 +94,8 @@ static void axis_round(struct axis *a)
     a->spacing = 2 * half;
 }
 
-/* Writes the corners low[dim], high[dim] of the bounding box of the first added solid of a shape, or of the whole shape
- * if it is an intersection of solids [m]. Returns false if the box is unbounded. */
+/* Computes low[dim], high[dim], the corners of the bounding box of the first added solid of a shape [m]; if the
+ * shape begins with an intersection of solids, of the whole shape. Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
     if (shape->n > 0 && shape->solid[0].intersect) return region_bounding_box(shape, dim, low, high);
@@ -145,8 +145,8 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts a particle that is inside a body but not created, and extends the bounding box d->low, d->high of these
- * particles by its position place[dim] [m]. Returns OK. */
+/* Counts in d->skipped a particle that is inside a body but not created. Extends d->low, d->high, the bounding box
+ * of these particles, by its position place[dim] [m]. Returns OK. */
 static status place_skip(struct particle_draft *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
@@ -157,9 +157,10 @@ static status place_skip(struct particle_draft *d, const real *place)
     return OK;
 }
 
-/* Adds a particle to the draft d if the lattice position place[dim] [m] is in the shape of the body. Its position is
- * shifted at random by up to half of `particles.irregularity` spacings along each axis (Imachi et al. 2019, eq. 49).
- * volume: volume of the particle [m^3]. Returns REFUSED if the draft cannot take it. */
+/* Adds a particle to the draft d (particles before they are created) if the lattice position place[dim] is in the
+ * shape of the body [m]. Its position is shifted at random by up to half of `particles.irregularity` spacings along
+ * each axis (Imachi et al. 2019, eq. 49). body: index in the scene; volume: of the particle [m^3]. Returns REFUSED
+ * if the draft cannot take it. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -171,8 +172,9 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
     return particle_draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
-/* Adds the particles of the lattice in the shape of a body to the draft d, x varying fastest. body: index in the scene.
- * Returns REFUSED if the scene has no spacing or the shape does not fit it. */
+/* Adds the particles of the lattice in the shape of a body to the draft d (particles before they are created), with
+ * x varying fastest. body: index in the scene. Returns REFUSED if the scene has no spacing or the shape does not fit
+ * it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
@@ -248,9 +250,9 @@ static real spacing_of(const struct particle_draft *d)
                1.0 / s->dim);
 }
 
-/* Creates the particles p from the draft d. Velocities and masses that the draft leaves NAN follow from the body's
- * velocity and the material's density; the method of the scene sets the kind of the particles. optional: arrays to
- * create besides the usual ones (WITH_*). */
+/* Creates the particles p from the draft d. If the draft leaves a velocity or mass NAN, it follows from the body's
+ * velocity or the material's density. The method of the scene determines the kind of the particles. optional:
+ * optional arrays to create (WITH_*). */
 static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -273,8 +275,8 @@ static void take_draft(struct particles *p, const struct particle_draft *d, int 
     }
 }
 
-/* Sets p->n_body to the number of particles including those that were not created (d->skipped), and p->low, p->high to
- * the bounding box of both [m]. */
+/* If particles were left out (d->skipped), sets p->n_body to the number of particles including these, and p->low,
+ * p->high to the bounding box of all [m]. */
 static void take_skipped(struct particles *p, const struct particle_draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
@@ -320,8 +322,9 @@ static status check_start(const struct particles *p, const struct particle_draft
     return OK;
 }
 
-/* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair whose first particle
- * has the smallest index, so that it does not depend on the number of threads. spacing [m]. */
+/* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair with the smallest
+ * index of its first particle, so that it does not depend on the number of threads. d: draft, for the name of the
+ * body; spacing [m]. */
 static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     struct cells cells;
@@ -479,8 +482,7 @@ static void start_at_rest(struct particles *p, int64_t i)
 }
 
 /* Creates the particles p of the draft d, applies the initial states, checks values and distances, and sorts the
- * particles. optional: arrays to create besides the usual ones (WITH_*). Returns REFUSED for invalid values, lists or
- * positions. */
+ * particles. optional: optional arrays to create (WITH_*). Returns REFUSED for invalid values, lists or positions. */
 static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;

@@ -7,9 +7,9 @@
 #include "list_lattice.h"
 #include "scene/particle_list.h"
 
-/* Writes the location of entry i of the particle list l to text[PLACE_LENGTH] and returns text. The form is
- * `path:line`, or `path: entry i` for HDF5 files. material: true to append the column of the entry's material, if the
- * list has it. */
+/* Writes the location of entry i of the particle list l in its file `path` to text[PLACE_LENGTH], and returns text.
+ * The form is `path:line`, or `path: entry i` for HDF5 files. material: true to append the column of the entry's
+ * material, if the list has materials. */
 static const char *entry_place(char *text, const struct particle_list *l, const char *path, int64_t i, bool material)
 {
     int used = snprintf(text, PLACE_LENGTH, "%.460s:%s%lld", path, l->line ? "" : " entry ",
@@ -34,8 +34,8 @@ static const char *materials_in_words(char *text, size_t capacity, const struct 
     return text;
 }
 
-/* Returns REFUSED with the message that the scene s does not have the material of entry i. given: the entry of the
- * list: a material number, or -1 - k for the name l->name[k]. path: file of the list l. */
+/* Returns REFUSED with the message that the scene s does not have the material of entry i of the list l. given: that
+ * material, a number, or -1 - k for the name l->name[k]; path: file of the list. */
 static status refuse_material(const struct scene *s, const struct particle_list *l, const char *path, int64_t i,
                               real given)
 {
@@ -55,8 +55,8 @@ static bool shares_file(const struct scene *s, int k, const char *file)
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
 }
 
-/* Sets *material to the index in the scene s of the material of entry i: the one that the list l gives, or the material
- * of the body b if the list has none. Returns REFUSED if the scene does not have it. */
+/* Finds *material, the index in the scene s of the material of entry i: the one that the list l gives, or that of
+ * the body b if the list has no materials. Returns REFUSED if the scene does not have it. */
 static status entry_material(const struct scene *s, const struct particle_list *l, const struct scene_body *b,
                              int64_t i, int *material)
 {
@@ -67,8 +67,8 @@ static status entry_material(const struct scene *s, const struct particle_list *
     return *material < s->materials ? OK : refuse_material(s, l, b->file, i, given);
 }
 
-/* Adds entry i of the list l to the draft d as a particle of a body. body: index in the scene. volume: volume of the
- * particle if the list has no volumes [m^3]. Returns REFUSED for an unknown material. */
+/* Adds entry i of the list l to the draft d (particles before they are created). body: its index in the scene;
+ * volume: volume of the particle if the list has no volumes [m^3]. Returns REFUSED for an unknown material. */
 static status take_entry(struct particle_draft *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
@@ -86,9 +86,9 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
     return OK;
 }
 
-/* Adds the entries of a body from its list l to the draft d: entries that name the body, or all entries of a list
- * without a body column. body: index in the scene. Returns REFUSED if an entry names a body with another file, and if
- * neither the list gives volumes nor the scene a spacing. */
+/* Adds the entries of the list l that belong to a body to the draft d (particles before they are created): entries
+ * that name the body, or all if the list has no column of bodies. body: index in the scene. Returns REFUSED if an
+ * entry names a body with another file, or if neither the list gives volumes nor the scene a spacing. */
 static status take_list(struct particle_draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
@@ -110,8 +110,8 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     return OK;
 }
 
-/* Rounds the positions of the particles `first` .. d->n - 1 of the draft to lattice sites if they form a lattice to the
- * precision of the decimals in their list. Planes of symmetry of the scene are then on sites or midway between two. */
+/* If the particles `first` .. d->n - 1 of the draft form a lattice to the precision of the decimals in their list,
+ * rounds their positions to its sites. Planes of symmetry of the scene are then on sites or midway between two. */
 static void take_lattice(struct particle_draft *d, int64_t first)
 {
     const struct scene *s = d->scene;

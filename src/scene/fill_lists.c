@@ -10,11 +10,11 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-/* Bodies of at most this many particles are not checked: they are mass points, placed one by one, without
- * neighbours. */
+/* Number of particles up to which the list of a body is not checked: such bodies are mass points, placed one by one,
+ * without neighbours. */
 enum { FEW = 7 };
-/* Number of particles sampled per body. Each is compared with all particles of the body. Shares estimated from the
- * sample are accurate to 4 %, whatever the shape of the body. */
+/* Number of particles sampled per body. Each is compared with all particles of the body. Shares that are estimated
+ * from the sample are accurate to 4 %, whatever the shape of the body. */
 enum { LOOKED_AT = 128 };
 /* Largest share of the sample that may have no neighbour [1]; a list with more is refused. In a wrong unit nearly all
  * particles have none. Correct lists have fewer: grains of several particles have neighbours of their own grain, chips
@@ -43,7 +43,7 @@ struct crowd {
     real one_place;            /* distance below which positions count as one [m] */
 };
 
-/* Statistics of a sample of the particles of a body. */
+/* Statistics of a sample of the particles of a body, which show whether its list has the right unit. */
 struct verdict {
     real lone;   /* share without a neighbour                          [1]     */
     real apart;  /* median distance of the nearest other position    [m] */
@@ -125,9 +125,10 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Returns a guess of the unit of a list as text for a message, or "". ratio: a length of the list over its expected
- * value, such as 1e3 for mm. by_volume: the same ratio from the volumes that the list gives in m^3; NAN if there are
- * none. It decides between cm and mm where the lengths fit both; without it the text names both units. */
+/* Returns a guess of the unit of a list as text for a message, such as " (is it in mm?)", or "". ratio: a length of
+ * the list over its expected value, such as 1e3 for mm; by_volume: the same ratio from the volumes that the list
+ * gives in m^3, NAN without volumes. If the lengths fit both cm and mm, by_volume decides; without it the text names
+ * both. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {
@@ -162,8 +163,8 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
                       why);
 }
 
-/* Returns REFUSED with a message if the statistics v of the list of body c->body show units that do not match the
- * spacing, or bonds that exceed the memory. */
+/* Returns REFUSED with a message if v, the statistics of the list of body c->body, shows units that do not match the
+ * spacing, or so many bonds that they exceed the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
@@ -208,7 +209,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 /* ---- all lists --------------------------------------------------------------------------------------------------- */
 
 /* Returns the distance over which particles of the scene interact [spacings]: the larger of the horizon of bonds and
- * one cell of the grid, at least REACH_LEAST. */
+ * one cell of the grid, but at least REACH_LEAST. */
 static real fill_lists_reach_of(const struct scene *s)
 {
     const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;

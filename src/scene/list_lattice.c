@@ -14,7 +14,7 @@
 #define FARTHEST 1e6         /* largest distance of a site from the first [spacings] */
 enum { BODIES = 256 };
 
-/* A lattice site and its body. Sites are sorted by body, then by the last axis first and x last. */
+/* A lattice site and its body. Sites are sorted by body, then by the position along the last axis, and along x last. */
 struct site {
     int32_t body, at[DIM_MAX];
 };
@@ -30,8 +30,8 @@ static int site_order(const void *a, const void *b)
 
 static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
 
-/* Sorts site[n] by body and position, and returns true if at least NEIGHBOURS_LEAST of the sites have a neighbour along
- * x. */
+/* Sorts site[n] by body and position. Returns true if at least the share NEIGHBOURS_LEAST of the sites has a
+ * neighbour along x. */
 static bool sites_dense(struct site *site, int64_t n)
 {
     int64_t beside = 0;
@@ -66,8 +66,7 @@ bool particle_list_is_lattice(const struct particle_list *l, real spacing, real 
     return lattice;
 }
 
-/* Returns the largest power of two such that all its multiples up to `most` are exact doubles: 2^(ceil(log2 most) -
- * 53). */
+/* Returns 2^(ceil(log2 most) - 53), a power of two whose multiples up to `most` are all exact doubles. */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
 void coordinates_round_to_lattice(real *X, int64_t n, real spacing, real anchor)

@@ -44,12 +44,12 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
-/* Largest number of rows per byte of an HDF5 file. Bounds the memory that a small file can claim; gzip does not
- * compress equal numbers further. */
+/* Largest number of rows per byte of an HDF5 file [1]: gzip does not compress equal numbers further. It bounds the
+ * memory that a small file can claim. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
-/* Returns REFUSED if the dataset `name` of the file `path` claims more rows t->rows than a file of that size can hold,
- * or than the memory allows. */
+/* Returns REFUSED if the dataset `name` of the file `path` claims more rows, t->rows, than a file of its size can
+ * contain or than the memory allows. */
 static status table_check(const struct table *t, const char *path, const char *name)
 {
     struct stat about;
@@ -87,8 +87,8 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
 }
 
-/* Copies column k of the dataset t, converted to SI, to a new array for column `column` of the list l (COLUMN_*). path:
- * name of the file, for messages. Returns REFUSED for an invalid value. */
+/* Copies column k of the dataset t, converted to SI, to a new array for the column `column` (COLUMN_*) of the list
+ * l. path: name of the file, for messages. Returns REFUSED for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
@@ -169,7 +169,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
 
 /* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
-/* Returns true if a path ends with `ending` and is longer, in capital or small letters. */
+/* Returns true if `path` ends with `ending` and is longer than it. Capitals are equal to small letters. */
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), tail = strlen(ending);
@@ -190,9 +190,9 @@ static int list_format(const char *path)
 
 bool is_particle_list_name(const char *path) { return list_format(path) != NO_LIST; }
 
-/* Reads a particle list of any format into l. form: unit and columns that the scene gives; NULL: none. dim: coordinates
- * per position. head: true to read only the column names (CSV files). Returns REFUSED, with l released, if the file is
- * missing or invalid. */
+/* Reads a particle list of any format from the file `path` into l. form: unit and columns that the scene gives, or
+ * NULL if it gives none; dim: coordinates per position; head: true to read only the column names (CSV files).
+ * Returns REFUSED, with l released, if the file is missing or invalid. */
 static status list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim,
                         bool head)
 {

@@ -37,7 +37,7 @@ static bool names_block(const char *name)
     return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
 }
 
-/* Returns the list column (COLUMN_*) that a column name of the file means; COLUMN_NONE if there is none, or if it has
+/* Returns the list column (COLUMN_*) that a column name of the file means, or COLUMN_NONE if there is none or it has
  * no use in `dim` dimensions. */
 static int column_named(const char *name, int dim)
 {
@@ -51,7 +51,7 @@ static int column_named(const char *name, int dim)
     return found == COLUMN_NONE || particle_list_column_is_unused(found, dim) ? COLUMN_NONE : found;
 }
 
-/* Sets *column to COLUMN_MASS or COLUMN_VOLUME, the meaning of a column `weight`, by its unit. name, unit: parts of the
+/* Finds *column, what a column `weight` means by its unit: COLUMN_MASS or COLUMN_VOLUME. name, unit: parts of the
  * column name in the current line of c. Returns REFUSED for another unit. */
 static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
 {
@@ -62,9 +62,9 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     return csv_report_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
-/* Appends a column to c->column from its name with unit, such as `x [mm]`. A column of unknown name is noted in l->head
- * and ignored. has[COLUMNS]: list columns named so far. Returns REFUSED if a column is named twice or its unit is of
- * another quantity. */
+/* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified. A column with an
+ * unknown name is noted in l->head and ignored. has[COLUMNS]: list columns named so far. Returns REFUSED if a column
+ * is named twice or its unit is of another quantity. */
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
@@ -152,7 +152,7 @@ static void tabs_to_blanks(char *text)
         if (*text == '\t') *text = ' ';
 }
 
-/* Returns the number of names in the header line `names`. *all: receives whether all `dim` coordinates are among
+/* Returns the number of names in the header line `names`. *all: receives true if all `dim` coordinates are among
  * them. */
 static int header_count(const char *names, int dim, bool *all)
 {
@@ -171,8 +171,7 @@ static int header_count(const char *names, int dim, bool *all)
     return n;
 }
 
-/* Returns true if a comment line names all `dim` coordinates, separated by tabs or by blanks, so that it is a
- * header. */
+/* Returns true if a comment line is a header: it names all `dim` coordinates, separated by tabs or by blanks. */
 static bool comment_names(const char *comment, int dim)
 {
     char blank[CSV_LINE_LENGTH];
@@ -184,9 +183,9 @@ static bool comment_names(const char *comment, int dim)
     return by_tabs || by_blanks;
 }
 
-/* Replaces the tabs in the header line `names` by blanks if both separate names: the header then has as many names as
- * the first entry has values. Otherwise leaves the header unchanged; each tab ends a field, which may be empty. entry:
- * line of the first entry. */
+/* If both tabs and blanks separate the names in the header line `names`, replaces the tabs by blanks. The first
+ * entry shows this: the header then has as many names as the entry has values. Else the header remains unchanged;
+ * each tab ends a name, which may be empty. entry: line of the first entry; dim: coordinates per position. */
 static void header_unify(char *names, const char *entry, int dim)
 {
     char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
@@ -217,8 +216,8 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the column names from the text `names`, which is line `line` of the file. The current line of c is the first
- * entry; it remains current and is read as an entry next. Returns REFUSED for invalid names. */
+/* Reads the column names from the text `names`, line number `line` of the file. The current line of c is the first
+ * entry; it remains the current line, to be read as an entry next. Returns REFUSED for invalid names. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -276,8 +275,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Takes the column names from the scene (l->form.columns) instead of the file. The first line that is not a comment is
- * the first entry; it shows what separates fields. Returns REFUSED for an empty file or invalid names. */
+/* Uses the column names that the scene gives (l->form.columns) in place of those of the file. The first line that is
+ * not a comment is the first entry, which shows what separates fields. Returns REFUSED for an empty file or invalid
+ * names. */
 static status csv_header_given(struct csv *c, struct particle_list *l)
 {
     char entry[CSV_LINE_LENGTH];
@@ -325,7 +325,7 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line, converted to SI, as entry l->n of the list column to which it belongs. field: text of the
+/* Reads field k of a line, converts it to SI and stores it as entry l->n of its list column. field: text of the
  * field. Returns REFUSED if it is no valid value. */
 static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
 {

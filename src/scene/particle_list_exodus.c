@@ -6,7 +6,7 @@
 #include "geometry/exodus_file.h"
 #include "particle_list_parts.h"
 
-/* A file while it is read. */
+/* An Exodus file while its particles are read. */
 struct exodus_list {
     struct exodus_file file;
     struct particle_list *l;

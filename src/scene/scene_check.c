@@ -15,8 +15,8 @@ static const struct yaml_node *scene_check_below(const struct yaml_node *root, c
     return yaml_node_find(yaml_node_find(root, group), leaf);
 }
 
-/* Returns REFUSED if `thickness` is missing in a plane space or given in another, or if `section` is given outside
- * space line. Sets a thickness without meaning to 1. root: tree of the scene. */
+/* Returns REFUSED if `thickness` is missing in a plane space or given in another one, or if `section` is given
+ * outside space line. In spaces without a thickness, sets it to 1. root: tree of the scene. */
 static status check_measure(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
@@ -36,13 +36,13 @@ static real longest_side(const real *from, const real *to, int dim)
     return longest;
 }
 
-/* Largest number of lattice positions in the bounding box of a surface that is read from a file; testing each takes 5
- * us. */
+/* Largest number of lattice positions in the bounding box of a surface that is read from a file. Testing whether one
+ * position is inside takes 5 us. */
 #define PLACES_OF_FILES 1e8
 
 /* Returns REFUSED if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit indices and of
- * memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions. The number is
- * estimated from the bounding boxes. root: tree of the scene, for the location in the message. */
+ * memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions. Numbers of
+ * particles are estimated from bounding boxes. root: tree of the scene, for the location in the message. */
 status check_particle_count(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -114,9 +114,9 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for loads that other keys of the scene exclude: pressures on irregular particles, and with static
- * solvers following loads, rotations and velocities by formula, whose displacement is unknown. root: tree of the scene,
- * for the location in the message. */
+/* Returns REFUSED for loads that other keys of the scene exclude: pressures on particles at irregular (randomly
+ * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by formula,
+ * whose displacement is unknown. root: tree of the scene, for the location in the message. */
 status check_supported_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -147,7 +147,8 @@ status check_supported_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if the given time step would lead to more than 1e12 time steps. root: tree of the scene. */
+/* Returns REFUSED if the scene gives a time step with which the run would take more than 1e12 steps. root: tree of
+ * the scene. */
 static status check_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -171,7 +172,7 @@ static status check_origin(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED if mpm.transfer is given as apic together with linear shape functions. root: tree of the scene. */
+/* Returns REFUSED if mpm.transfer is given as apic and the shape functions are linear. root: tree of the scene. */
 static status check_transfer(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -193,8 +194,8 @@ void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Sets the default of contact.between. There is contact if the scene has several bodies, rigid bodies or cracks, except
- * with static solvers or where bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact
+/* Sets the default of contact.between: contact exists if the scene has several bodies, rigid bodies or cracks, but
+ * not with static solvers or if bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact
  * settings that contradict the solver or the model. */
 status resolve_contact(struct reader *r, const struct yaml_node *root)
 {
@@ -217,11 +218,11 @@ status resolve_contact(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns the default of pd.surface, the correction of bonds near surfaces. Only with `method: pd` do bonds fill whole
- * bodies, whose surfaces need the correction; families with a given normalisation are corrected already. Surfaces of
- * growing cracks get no weights: load steps compare the loads of pre-crack and grown crack, so that their bonds use the
- * rule that ignores pre-cracks, too (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments
- * by 5 %). root: tree of the scene. */
+/* Returns the default of pd.surface, the correction of bonds near surfaces. Only with `method: pd` do bonds fill
+ * whole bodies, whose surfaces need the correction; families with a given normalisation are corrected already.
+ * Scenes in load steps with growing cracks use the rule that ignores pre-cracks: they compare the loads of pre-crack
+ * and grown crack, and surfaces of a growing crack get no weights (`cleave bench slow`: double cantilevers of 10
+ * layers deviate by 1 %, with moments by 5 %). root: tree of the scene. */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -233,8 +234,8 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
-/* Sets the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (by the full family or by
- * each particle's own). root: tree of the scene, to see which keys are given. */
+/* Sets the defaults of pd.surface (correction of bonds near surfaces) and pd.normalisation (whether bonds are
+ * normalised by a full family or by each particle's own). root: tree of the scene, to see which keys are given. */
 static void resolve_surface(struct scene *s, const struct yaml_node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
@@ -301,7 +302,7 @@ static bool body_yields(const struct scene *s, int body)
     return false;
 }
 
-/* Returns the reason why a body cannot be in the reference frame, as part of a message; NULL if it can. body: index in
+/* Returns the reason why a body cannot use the reference frame, as part of a message; NULL if it can. body: index in
  * the scene. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body)
 {
@@ -340,7 +341,7 @@ const char *scene_why_reference_frame_no_remedy(const struct scene *s)
     return why;
 }
 
-/* Returns, as part of a message, which key of the scene requires the current frame; NULL if no key does. */
+/* Returns, as part of a message, which key of the scene requires the current frame; NULL if there is no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -434,7 +435,8 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for what state-based models do not support where bonds soften. root: tree of the scene. */
+/* Returns REFUSED for keys that state-based models do not support if the bonds of a material soften. root: tree of
+ * the scene. */
 static status check_soft_states(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -453,8 +455,8 @@ static status check_soft_states(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. root:
- * tree of the scene, for the location in the message. */
+/* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are
+ * read. root: tree of the scene, for the location in the message. */
 status check_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;

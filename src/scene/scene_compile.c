@@ -10,7 +10,7 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of the UTF-8 character at `place` in c->text, from 1. place: position inside c->text. */
+/* Returns the number, from 1, of the UTF-8 character at `place`, a position inside c->text. */
 int compile_character_number(const struct compile *c, const char *place)
 {
     int characters = 1;
@@ -86,8 +86,8 @@ bool compile_add_operation(struct compile *c, enum expression_op op, const struc
 /* Returns true if an operand is a constant 0 written without a unit, which is compatible with every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Checks that the two topmost operands have the same unit; a 0 without a unit takes the unit of the other operand.
- * Returns false otherwise, with a message in c that names the operation `word` at position `at` of c->text. */
+/* Checks that the two topmost operands have the same unit; a 0 without a unit gets the unit of the other operand. If
+ * they differ, returns false with a message in c that names the operation `word` at position `at` of c->text. */
 bool compile_check_equal_units(struct compile *c, const char *word, const char *at)
 {
     struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
@@ -132,9 +132,9 @@ bool compile_add_product(struct compile *c, char sign, const char *at)
            compile_add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Replaces *unit by its power: exponents of m, kg and s times `power`. Returns false, with a message in c, if an
- * exponent becomes neither whole nor half, or too large. place: number of the operator's character in the text, for the
- * message. */
+/* Replaces *unit by its power: the exponents of m, kg and s times `power`. Returns false, with a message in c, if an
+ * exponent becomes neither whole nor half, or too large. place: number of the operator's character in the text, for
+ * the message. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {

@@ -41,8 +41,8 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Decodes the UTF-8 character at c to its code point *code, and returns its number of bytes. An invalid byte counts as
- * a character with the value of the byte. */
+/* Decodes the UTF-8 character at c to its code point *code, and returns its number of bytes. An invalid byte counts
+ * as one character with the value of the byte. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -159,8 +159,8 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     }
 }
 
-/* Returns true if the echo of the scene writes the key k: it has a value of a type of the table, given or by default,
- * that is not empty. base: the structure of the key's group; place: address of the value in it. */
+/* Returns true if scene.yaml contains the key k: its value, given or by default, is of a type of the table and not
+ * empty. base: the structure of the key's group; place: address of the value in it. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -178,9 +178,9 @@ const void *key_value_address(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
-/* Returns true if the key k of `bodies` has no meaning for the body `base`: material and frame of a rigid body; mass,
- * force, ramp and rigid of another body; ramp of a rigid body with a mass, which moves freely; mass and force of a
- * rigid body without one, which is driven, and its ramp if that is 0. group: path of the key's group. */
+/* Returns true if key k of `bodies` has no meaning for the body `base`. For a rigid body these are material and
+ * frame; with a mass (it moves freely) also ramp; without one (it is driven) mass and force, and ramp if it is 0.
+ * For any other body they are mass, force, ramp and rigid. group: path of the key's group. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
@@ -192,7 +192,7 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Writes the regions of the scene for which frames are written (`output.regions`) as a list below `output`. */
+/* Writes the list output.regions: the regions of the scene that have frames of their own. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -232,7 +232,8 @@ void write_group(struct writer *w, const char *group, const void *base)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Begins an item of a list: sets the indent, and requests a dash before the first key of the item. */
+/* Begins an item of a YAML list: sets the indent, and makes writer_begin_key write a dash before the item's first
+ * key. */
 void writer_begin_item(struct writer *w)
 {
     w->indent = 4;
@@ -250,7 +251,8 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
     w->indent -= 2;
 }
 
-/* Writes the key `table` with `points` pairs of x[k] and y[k]. units: of both, as a comment. */
+/* Writes the key `table` with the pairs x[k], y[k], k = 0 .. points - 1. units: units of x and y, written as a
+ * comment. */
 static void write_pairs(struct writer *w, const real *x, const real *y, int points, const char *units)
 {
     writer_begin_key(w, "table");
@@ -261,8 +263,8 @@ static void write_pairs(struct writer *w, const real *x, const real *y, int poin
     fprintf(w->out, "]  # %s\n", units);
 }
 
-/* Writes the flow law and the kinematic hardening of a material that yields. Writes no flow law if it is linear
- * hardening by the key yield_tangent. */
+/* Writes the flow law and the kinematic hardening of a material that yields. Linear hardening that the key
+ * yield_tangent gives is not written here. */
 static void write_material_law(struct writer *w, const struct material *m)
 {
     const struct law *law = &m->law;
@@ -315,9 +317,9 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* Writes the line `key: "file"` with the absolute path, so that the echo runs from any folder. contents: hash of the
- * file, written as a comment since a run resumes only with identical contents; 0: the file has not been read, and the
- * name is written as it is. */
+/* Writes the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
+ * contents: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
+ * has not been read, and its name is written as it is. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;

@@ -9,9 +9,9 @@
 
 enum { DEPTH_MOST = 24, NAME_MOST = 40 };
 
-/* Rule by which the unit of a function's result follows from the units of its operands. PLAIN: operands and result have
- * no unit. KEEPS: unit of the operand. ROOT: its square root. FORGETS: none, from any unit. SAME: the equal unit of all
- * operands. ANGLE: none, from two equal units. */
+/* Rules by which the unit of a function's value follows from its operands. PLAIN: operands and value have no unit.
+ * KEEPS: the unit of the operand. ROOT: its square root. FORGETS: no unit, from any unit. SAME: the unit that all
+ * operands must have. ANGLE: no unit, from two equal units. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
 struct function {
     const char *name;
@@ -51,8 +51,8 @@ static void skip(struct compile *c)
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
 }
 
-/* Appends `length` characters of `text` to c->kept, the text of the expression that the echo writes. Returns false,
- * with a message in c, if it becomes too long. */
+/* Appends `length` characters of `text` to c->kept, the text of the expression that scene.yaml contains. Returns
+ * false, with a message in c, if c->kept becomes too long. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
@@ -63,8 +63,8 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Appends the source text from c->copied, up to which it is copied already, to `here` to c->kept. Returns false, with a
- * message in c, if that becomes too long. */
+/* Appends the source text from c->copied (the end of what is copied already) to `here` to c->kept. Returns false,
+ * with a message in c, if c->kept becomes too long. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -72,8 +72,8 @@ static bool keep_to(struct compile *c, const char *here)
     return keep(c, from, (size_t)(here - from));
 }
 
-/* Appends the value q of a variable in brackets to c->kept, in place of the variable's name, which begins at `word` in
- * the source text and ends at c->at. Returns false, with a message in c, if c->kept becomes too long. */
+/* Appends the value q of a variable, in brackets, to c->kept in place of its name. word: beginning of the name in
+ * the source text, which ends at c->at. Returns false, with a message in c, if c->kept becomes too long. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
@@ -146,9 +146,9 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     return compile_add_operation(c, f->op, &unit);
 }
 
-/* Compiles a call of the function f with its operands in brackets; c->at is at the opening bracket. min and max have
- * two operands or more. at: position of the function's name, for messages. Returns false with a message in c if it is
- * invalid. */
+/* Compiles a call of the function f with its operands in brackets; c->at must be at the opening bracket. min and max
+ * have two operands or more. at: position of the function's name, for messages. Returns false, with a message in c,
+ * if the call is invalid. */
 static bool compile_call(struct compile *c, const struct function *f, const char *at)
 {
     const bool two = f->rule == SAME || f->rule == ANGLE;
@@ -236,8 +236,8 @@ static bool compile_number(struct compile *c, bool power)
                                 letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
 }
 
-/* Compiles what is at c->at: a number, a variable, a function call or an expression in brackets. power: true in an
- * exponent, where a number has no unit. Returns false with a message in c if there is none. */
+/* Compiles what begins at c->at: a number, a variable, a function call or an expression in brackets. power: true in
+ * an exponent, where a number has no unit. Returns false, with a message in c, if nothing of these begins there. */
 static bool compile_primary(struct compile *c, bool power)
 {
     struct quantity q;

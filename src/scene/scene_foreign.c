@@ -7,9 +7,9 @@
 
 #include "scene_internal.h"
 
-/* Table of words of other programs. words: a|b|c. paths: keys to show, separated by spaces; the first is the equivalent
- * of the words. text: advice, appended to the name of the first key; the whole message if it begins with =; NULL:
- * none. */
+/* Table of words of other programs. words: alternatives a|b|c. paths: related keys, separated by spaces; the first
+ * one is equivalent to the words. text: advice that follows the name of the first key; if it begins with =, the
+ * whole message; NULL: none. */
 static const struct foreign {
     const char *words, *paths, *text;
 } foreign[] = {

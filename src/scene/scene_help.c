@@ -78,8 +78,8 @@ static void range_text(const struct key *k, char *text, size_t capacity)
     }
 }
 
-/* Writes the default of key k to text[capacity], without the brackets of a default that the code sets; "" if the key
- * has none. */
+/* Writes the default of key k to text[capacity], "" if the key has none. A default that depends on other keys is in
+ * brackets in the table, which are omitted. */
 static void default_text(const struct key *k, char *text, size_t capacity)
 {
     bool explained = *k->fallback == '(';
@@ -214,8 +214,8 @@ static void help_foreign(FILE *out, const char *word)
     }
 }
 
-/* Prints the keys whose path ends with `word`, the keys that have it as a value, and the keys equivalent to it if it is
- * a word of other programs. Returns the number of keys printed; the last kind counts as one. */
+/* Prints the keys whose path ends with `word`, the keys that have it as a value, and the keys that are equivalent to
+ * it if it is a word of other programs. Returns the number of keys printed, where the equivalent ones count as one. */
 static int help_word_of_keys(FILE *out, const char *word)
 {
     int printed = 0;
@@ -294,7 +294,7 @@ static bool is_item_list(const char *path, size_t length)
     return false;
 }
 
-/* Writes the path of a key as an override gives it, with index 0 for each list: `boundary.time` as
+/* Writes the path of a key as an override on the command line has it, with index 0 for each list: `boundary.time` as
  * `boundary.0.time`. */
 static void override_path(FILE *out, const char *path)
 {
