@@ -43,11 +43,12 @@ status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxe
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the value of a node is the word `void`, which leaves out the pixels of its grey values. */
+/* Returns true if the value of a node is the word `void`: pixels with the grey values of this entry are left out of
+ * the body. */
 static bool is_void(const struct yaml_node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
-/* Returns REFUSED if a voxel of v has a grey value without material. in[GREY_MAX + 1]: true for grey values in a range
- * of `materials`. n: node of the image, for messages. */
+/* Returns REFUSED if a voxel of v has a grey value for which the scene names no material. in[GREY_MAX + 1]: true for
+ * grey values in a range of `materials`; n: node of the image, for messages. */
 static status check_covered(struct reader *r, const struct yaml_node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
@@ -91,8 +92,8 @@ status read_grey_materials(struct reader *r, const struct yaml_node *n, const st
     return s;
 }
 
-/* Returns a copy of a node and its descendants, without entries with the key `without`, in memory of the reader's
- * arena. parent: parent of the copy. */
+/* Returns a copy of a node and its descendants, without entries that have the key `without`. The copy is in the
+ * arena of the reader r, which frees it. parent: parent of the copy. */
 static struct yaml_node *node_copy(struct reader *r, const struct yaml_node *n, struct yaml_node *parent,
                                    const char *without)
 {
@@ -111,8 +112,8 @@ static int material_called(const struct scene *s, const char *name)
     return -1;
 }
 
-/* Reads one entry of `materials` of an image as a part of the body b: the image restricted to the grey values of the
- * entry, with the motions of the solid. solid: node of the image's solid; entry: grey values as key, name of the
+/* Reads one entry of `materials` of an image as a part of the body b: the image, restricted to the grey values of
+ * the entry, with the motions of its solid. solid: node of that solid; entry: grey values as key, name of the
  * material as value. Returns REFUSED for an unknown material or invalid grey values. */
 static status read_grey_part(struct reader *r, const struct yaml_node *solid, const struct yaml_node *entry,
                              struct scene_body *b)

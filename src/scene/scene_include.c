@@ -10,7 +10,8 @@
 
 enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
 
-/* Chain of files that are being read: each file is included by the one in `up`, the last one is the scene. */
+/* Chain of the files that are being read, known by device and inode number. Each file is included by the one in
+ * `up`; the last one is the scene itself. */
 struct chain {
     const struct chain *up;
     dev_t device;
@@ -19,8 +20,8 @@ struct chain {
 
 /* ---- one mapping over another ------------------------------------------------------------------------------------ */
 
-/* Returns true if the value of the key at `path` is a mapping that is merged key by key with an included one. Other
- * values replace the included value as a whole. path "": the whole scene. */
+/* Returns true if the value of the key at `path` is a mapping that is merged entry by entry with an included one;
+ * path "": the whole scene. Any other value replaces the included value as a whole. */
 bool key_is_merged_mapping(const char *path)
 {
     if (*path == '\0') return true;
@@ -70,8 +71,8 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a file is one of those in the chain that are being read, so that it would include itself. file: its
- * status from stat. */
+/* Returns true if a file is one of those in the chain that are being read; it would then include itself. file: its
+ * status, from stat. */
 static bool is_open(const struct chain *chain, const struct stat *file)
 {
     for (; chain; chain = chain->up)
@@ -133,9 +134,9 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Reads the files in the list `include` of the scene in order, merges each over the previous ones, and then the scene
- * itself over all of them, in place. root: tree of the scene. chain: files that are being read. Returns REFUSED for an
- * invalid list or file. */
+/* Reads the files in the list `include` of the scene in order, and merges each over the previous ones, then the
+ * scene itself over all of them. root: tree of the scene, replaced by the merged tree; chain: files that are being
+ * read. Returns REFUSED for an invalid list or file. */
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain)
 {
     struct yaml_node *list = yaml_node_find(root, "include"), *file;

@@ -34,9 +34,9 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     return OK;
 }
 
-/* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns it to b. Bonds between joined bodies are
- * told apart by their materials, so that two bodies cannot share one. n: node of the interface, for messages. Returns
- * REFUSED if there are 255 materials already. */
+/* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns it to b. Joined bodies must not have one
+ * material, because bonds between them are recognised by their materials. n: node of the interface, for messages.
+ * Returns REFUSED if there are 255 materials already. */
 static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
@@ -51,10 +51,10 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
     return OK;
 }
 
-/* Computes face->critical_stretch, the critical stretch of bonds across an interface, from its energy release rate, if
- * it has one. The bonds count as those of a material with the harmonic mean of the Young's moduli of both bodies, and
- * otherwise with the properties of the softer one. n: node of the interface. Returns REFUSED for bodies of several
- * materials or with softening bonds. */
+/* If the interface `face` has an energy release rate, computes face->critical_stretch, the critical stretch of bonds
+ * across it. Such a bond counts as one of a material with the harmonic mean of both Young's moduli, and else with
+ * the properties of the softer body. n: node of the interface. Returns REFUSED for bodies of several materials or
+ * with softening bonds. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

@@ -4,12 +4,12 @@
 
 #include <math.h>
 
-/* Relative excess up to which a slope of a hardening curve counts as no steeper than the previous one [1]; it allows
- * for the rounding of decimal numbers. */
+/* Relative excess up to which a segment of a hardening curve counts as no steeper than the previous one [1]: the
+ * numbers of a scene are rounded decimals. */
 #define SLOPE_ROUNDING 1e-9
 
-/* Returns REFUSED unless the return mapping can solve for the hardening curve c without search: plastic strains ascend
- * from 0, stresses do not fall, slopes do not grow. n: list of the points, for messages. */
+/* Returns REFUSED unless the hardening curve c allows the return mapping to solve its equation segment by segment:
+ * plastic strains ascend from 0, stresses do not fall, slopes do not grow. n: list of the points, for messages. */
 static status check_curve(struct reader *r, const struct yaml_node *n, const struct flow_curve *c)
 {
     const struct yaml_node *point = n->first;
@@ -122,8 +122,8 @@ static status read_heat(struct reader *r, const struct yaml_node *material, stru
     return OK;
 }
 
-/* Returns REFUSED if the material m has a yield stress or tangent that its flow law replaces, or if its law needs a
- * yield stress and there is none. material: node of the material; law_node: node of the law. */
+/* Returns REFUSED if the material m has a yield stress or yield tangent although its flow law replaces them, or if
+ * its law needs a yield stress and none is given. material: node of the material; law_node: node of the law. */
 static status check_first_yield(struct reader *r, const struct yaml_node *material, const struct yaml_node *law_node,
                                 const struct material *m)
 {
@@ -138,8 +138,8 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
     return OK;
 }
 
-/* Returns REFUSED if the method of the scene has no flow laws (all but mpm). law_node: node of the law, for
- * messages. */
+/* Returns REFUSED unless the method of the scene is mpm, which alone has these flow laws. law_node: node of the law,
+ * for messages. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
     return r->scene->method == METHOD_MPM ? OK : refuse_flow_law(r, law_node);

@@ -183,8 +183,8 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
     return read_axis(r, at, at->text, &axis);
 }
 
-/* Checks an absorbing face. map: node of the boundary; n: node of its `absorbing`. Returns REFUSED if a time is given,
- * and for another value than true. */
+/* Checks the entry `absorbing` of a boundary condition. map: node of the boundary; n: node of the entry. Returns
+ * REFUSED if a time is given, and for another value than true. */
 static status read_absorbing(struct reader *r, const struct yaml_node *map, const struct yaml_node *n)
 {
     const struct yaml_node *time = yaml_node_find(map, "time");
@@ -214,8 +214,8 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
     return OK;
 }
 
-/* Reads face and depth of the layer that boundary b drives, if a face is given. The depth is by default one horizon, or
- * one spacing with method mpm. map: node of the boundary. Returns REFUSED for a depth without face. */
+/* Reads face and depth of the layer of particles that boundary b drives, if a face is given. By default the depth is
+ * one horizon, or one spacing with method mpm. map: node of the boundary. Returns REFUSED for a depth without face. */
 static status read_layer(struct reader *r, const struct yaml_node *map, struct boundary *b)
 {
     const struct yaml_node *depth = yaml_node_find(map, "depth");
@@ -227,8 +227,8 @@ static status read_layer(struct reader *r, const struct yaml_node *map, struct b
     return read_face(r, map, b);
 }
 
-/* Finds the entry *kind of a boundary condition that gives its kind, such as velocity or pressure. map: node of the
- * boundary. Returns REFUSED if there is none or more than one. */
+/* Finds *kind, the entry of a boundary condition that determines its kind, such as velocity or pressure. map: node
+ * of the boundary. Returns REFUSED if there is none or more than one. */
 static status kind_of_boundary(struct reader *r, const struct yaml_node *map, const struct yaml_node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
@@ -245,8 +245,7 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", words_for_message(r, words));
 }
 
-/* Returns true if node n is a number or formula with a unit, other than 0. value: the number that it has been read
- * as. */
+/* Returns true if node n is a number or formula with a unit, other than 0. value: the number as read from n. */
 static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -258,8 +257,8 @@ static bool carries_unit(struct reader *r, const struct yaml_node *n, real value
     return unit;
 }
 
-/* Returns REFUSED if boundary b takes its factor of time from a file column with a unit and also has a value with a
- * unit: only one of them can give the magnitude of the load. kind: node of the value. */
+/* Returns REFUSED if the factor of time of boundary b is a file column with a unit, and the value of b has a unit
+ * too: only one of them can give the magnitude of the load. kind: node of the value. */
 static status check_time_unit(struct reader *r, const struct yaml_node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -372,8 +371,8 @@ status read_boundaries(struct reader *r, const struct yaml_node *root)
 const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
-/* Finds the kind of a probe, and *map, the mapping of its keys, NULL if it has none. n: node of the probe in one of the
- * forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED for unknown or several kinds. */
+/* Finds *kind, the kind of a probe, and *map, the mapping of its keys, or NULL if it has none. n: node of the probe
+ * in one of the forms `tip`, `tip:` or `tip: {at: [..]}`. Returns REFUSED for an unknown kind or several kinds. */
 static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum probe_kind *kind,
                             const struct yaml_node **map)
 {
@@ -464,8 +463,8 @@ static status check_sif(struct reader *r, const struct yaml_node *n, const struc
     return fault(r, yaml_node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
 }
 
-/* Reads the probe of node n, in any of its forms, into p. Numbers without default that are not given become NAN.
- * Returns REFUSED for an invalid probe. */
+/* Reads the probe of node n, in any of its forms, into *p. A number that is not given and has no default becomes
+ * NAN. Returns REFUSED for an invalid probe. */
 static status read_probe(struct reader *r, const struct yaml_node *n, struct probe_request *p)
 {
     const struct yaml_node *map;

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cuts the next part, `key` or `[index]`, off the path *path and advances *path behind it. *key, *length: a key in the
- * path; *index: the index, or -1 for a key. Returns false if the path is malformed. */
+/* Reads the next part of the path *path, `key` or `[index]`, and advances *path behind it. *key, *length: receive
+ * the key (within the path) and its length; *index: receives the index, or -1 for a key. Returns false if the path
+ * is malformed. */
 static bool step_of_path(const char **path, const char **key, size_t *length, int *index)
 {
     const char *c = *path;
@@ -42,8 +43,8 @@ static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, cons
     return n;
 }
 
-/* Returns the name by which an item of a list is addressed: the value of its key `name`; for a probe the `name` below
- * its kind, or else the kind. Returns NULL if the item has none. */
+/* Returns the name by which an override addresses an item of a list: the value of its key `name`; for a probe the
+ * `name` below its kind, else its kind. Returns NULL if the item has no name. */
 static const char *item_name(const struct yaml_node *list, const struct yaml_node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -56,8 +57,8 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Sets the origin of node n to override number `origin`, so that the following error message names the override, and
- * returns n. The tree must not be used afterwards. */
+/* Sets the origin of node n to override number `origin`, so that the error message that follows names the override.
+ * Returns n. The tree must not be used afterwards. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
@@ -95,9 +96,9 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
     return arena_text(r, text, strlen(text));
 }
 
-/* Sets *out to the item of a list that a key of `length` characters addresses: by index, by name, or by the name of the
- * list with the index, as in boundary0. origin: number of the override, for messages. Returns REFUSED, with the names
- * of all items, if there is no such item. */
+/* Finds *out, the item of a list that `key` (of `length` characters) addresses: by index, by name, or by the name of
+ * the list followed by the index, as in boundary0. origin: number of the override, for messages. Returns REFUSED,
+ * with the names of all items, if there is no such item. */
 static status item_called(struct reader *r, struct yaml_node *list, const char *key, size_t length, int origin,
                           struct yaml_node **out)
 {
@@ -123,7 +124,7 @@ static bool is_key(const struct yaml_node *n, const char *key, size_t length)
     return strlen(n->key) == length && (length == 0 || memcmp(n->key, key, length) == 0);
 }
 
-/* Turns a node with a word as its value into a mapping with one entry of this key, whose value is `text` (NULL: an
+/* If the value of node n is a word, turns n into a mapping with the one entry `key`, whose value is `text` (NULL: an
  * empty mapping). For example, `exact: step bar` becomes `exact: {form: step bar}`. Leaves other nodes unchanged.
  * origin: number of the override. */
 static void write_out(struct reader *r, struct yaml_node *n, const char *key, const char *text, int origin)
@@ -134,8 +135,8 @@ static void write_out(struct reader *r, struct yaml_node *n, const char *key, co
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
-/* Returns the mapping in which a key of an item is searched: the item itself, or for a probe the mapping below its
- * kind, so that a path can omit the kind (probes.0.at is probes.0.point.at). key: text of `length` characters. origin:
+/* Returns the mapping in which `key` (of `length` characters) of an item must be searched: the item itself, or for a
+ * probe the mapping below its kind, so that a path can omit the kind (probes.0.at for probes.0.point.at). origin:
  * number of the override. */
 static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, const char *key, size_t length,
                                     int origin)
@@ -148,9 +149,9 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
     return item->first;
 }
 
-/* Sets *out to the node that one part of a path addresses: in a mapping the entry with this key, created if it is
- * missing; in a list the item with this index or name. key: text of `length` characters. origin: number of the
- * override, for messages. Returns REFUSED for a list without such an item, and for nodes without keys. */
+/* Finds *out, the node that one part of a path addresses: in a mapping the entry `key` (of `length` characters),
+ * created if it is missing; in a list the item with this index or name. origin: number of the override, for
+ * messages. Returns REFUSED for a list without such an item, and for nodes without keys. */
 static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
                                       int origin, struct yaml_node **out)
 {
@@ -171,8 +172,9 @@ static status scene_override_entry_of(struct reader *r, struct yaml_node *map, c
     return OK;
 }
 
-/* Returns true if the last part of a path addresses the item behind the last one of a list, and `value` can be one:
- * a mapping or list, or for probes a word. key[length]: the part, or index: its [index]. */
+/* Returns true if the last part of a path addresses the position after the last item of a list, and `value` can be
+ * such an item: a mapping or list, or for probes a word. key[length]: the part of the path; index: its value if the
+ * part is [index], else -1. */
 static bool is_new_item(const struct yaml_node *list, const char *key, size_t length, int index,
                         const struct yaml_node *value)
 {
@@ -183,7 +185,7 @@ static bool is_new_item(const struct yaml_node *list, const char *key, size_t le
     return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
 }
 
-/* Replaces the value of node n by that of `value`; its key and its position in the tree are kept. */
+/* Replaces the value of node n by that of the node `value`. Key and position of n in the tree do not change. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
     struct yaml_node whole = *value;
@@ -194,9 +196,9 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
     for (struct yaml_node *c = n->first; c; c = c->next) c->parent = n;
 }
 
-/* Applies override number `origin` to the tree of the scene: sets the value at its path, appends it to a list if the
- * path ends in the index behind the last item, or removes the key if the value is empty. Returns REFUSED for a
- * malformed path, and if the key to remove is missing. */
+/* Applies override number `origin` to the tree of the scene. Sets the value at its path; appends the value to a list
+ * if the path ends in the index after the last item; removes the key if the value is empty. Returns REFUSED for a
+ * malformed path, and if the key to be removed is missing. */
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];

@@ -49,8 +49,8 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
     return refuse_poisson(r, poisson);
 }
 
-/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from one of the keys yield_tangent
- * and yield_hardening. The hardening modulus H gives E_t = E H/(E + H). n: node of the material. Returns REFUSED if
+/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or
+ * the hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED if
  * both are given, or unless E_t < E. */
 static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
 {
@@ -71,8 +71,8 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
                  node_text(r, tangent ? tangent : hardening));
 }
 
-/* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m: in closed form, or
- * for model mospd from the energy that separates the lattice. */
+/* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form,
+ * or for model mospd from the energy that separates the two halves of a lattice. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
@@ -83,8 +83,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / family_separation_work_per_area(&f, &modulus, !s->bulk));
 }
 
-/* Reads the random scatter of the strength of material m. n: node of `scatter`; NULL: none. Returns REFUSED for a
- * material whose bonds do not break, and if the parameter of the distribution is missing. */
+/* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
+ * REFUSED for a material whose bonds do not break, and if the parameter of the distribution is missing. */
 static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
@@ -106,9 +106,9 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     return OK;
 }
 
-/* Reads the viscosity of material m. Then all cells have one time step, and regions at rest are computed as well,
- * because viscous forces act between moving regions and regions at rest. n: node of `viscosity`; NULL: none. Returns
- * REFUSED where viscosity has no effect. */
+/* Reads the viscosity of material m. n: node of `viscosity`, or NULL if there is none. With viscosity all cells have
+ * one time step, and regions at rest are computed as well, because viscous forces act between moving regions and
+ * regions at rest. Returns REFUSED where viscosity has no effect. */
 static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct scene *s = r->scene;
@@ -195,8 +195,8 @@ static status read_list_columns(struct reader *r, const struct yaml_node *n, str
     return OK;
 }
 
-/* Reads the particle list of body b: its path and checksum, its unit and columns if given, and the head of the file. n:
- * node of `particles`, a file name or a mapping. Returns REFUSED for an invalid file. */
+/* Reads the particle list of body b: path and hash of its file, unit and columns if the scene gives them, and the
+ * column names in the file. n: node of `particles`, a file name or a mapping. Returns REFUSED for an invalid file. */
 static status read_particle_list(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     const bool mapping = n->kind == NODE_MAP;
@@ -376,7 +376,7 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
     return OK;
 }
 
-/* Reads an initial velocity, numbers [m/s] or formulas, from node n; NULL: none. REFUSED if invalid. */
+/* Reads an initial velocity, numbers [m/s] or formulas, from node n (NULL: none). Returns REFUSED if it is invalid. */
 static status read_initial_velocity(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     if (!n) return OK;

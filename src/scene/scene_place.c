@@ -17,8 +17,8 @@ static int64_t nodes_count(const struct yaml_node *node, int depth)
     return n;
 }
 
-/* Appends the locations of the nodes below `node`, down to `depth` levels, to s->key_place, which must have room for
- * them. path: path of `node`, "" for the root. */
+/* Appends the locations of all nodes below `node`, down to `depth` levels, to s->key_place, where memory for them
+ * must be allocated. path: path of `node`, "" for the root. */
 static void places_add(const struct reader *r, const struct yaml_node *node, const char *path, int depth)
 {
     struct scene *s = r->scene;
@@ -53,8 +53,8 @@ static bool begins_with(const char *text, const char *kind, const char *name)
     return text[first + second] == ':' || text[first + second] == ' ';
 }
 
-/* Writes to place[PLACE_LENGTH] the location of the key with which the message `text` begins, or of the group that
- * contains this key, followed by a colon. Writes nothing if the scene has neither. */
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the key with which the message `text` begins,
+ * or else of the group that contains this key. Writes nothing if the scene has neither. */
 static void place_of_key(const struct scene *s, const char *text, char *place)
 {
     char key[100] = "";

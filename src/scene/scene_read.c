@@ -30,9 +30,9 @@ static const struct yaml_node *auto_method(const struct yaml_node *root)
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Parses a text of `length` bytes, fills the scene r->scene and writes its echo to s->text. With `method: auto` fills
- * only *wish, the request for pilot runs. Returns REFUSED for an invalid scene, and for `method: auto` if wish is
- * NULL. */
+/* Parses a text of `length` bytes, fills the scene r->scene and writes the scene as run to s->text. With `method:
+ * auto` fills only *wish, the request for pilot runs. Returns REFUSED for an invalid scene, and for `method: auto`
+ * if wish is NULL. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -52,9 +52,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
                : status_set(FAILED, "%s: out of memory, the scene with all its defaults cannot be written", r->name);
 }
 
-/* Reads a scene from a text of `length` bytes in the C locale into r->scene. With `method: auto` only the request for
- * pilot runs is stored, in *wish. Returns REFUSED for an invalid scene, and for `method: auto` if wish is NULL. The
- * scene is freed on failure and if a request is stored. */
+/* Reads a scene from a text of `length` bytes into r->scene, in the C locale. With `method: auto` stores only the
+ * request for pilot runs, in *wish, and frees the scene. Returns REFUSED, with the scene freed, for an invalid
+ * scene, and for `method: auto` if wish is NULL. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -80,9 +80,9 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from the file `path` into s. override[overrides]: values of the command line. With `method: auto` only
- * the request for pilot runs is stored, in *wish. Returns REFUSED for an invalid scene, and for `method: auto` if wish
- * is NULL. */
+/* Reads a scene from the file `path` into s. override[overrides]: values given on the command line. With `method:
+ * auto` stores only the request for pilot runs, in *wish. Returns REFUSED for an invalid scene, and for `method:
+ * auto` if wish is NULL. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

@@ -1,12 +1,13 @@
-/* What the method of a scene could be changed to, for refusals: a remedy in a message must be one that the scene then
- * passes with. A table says what each method and model can do; what a scene has is compared with it. */
+/* Proposes changes of the method of a scene, for refusals: with a proposed change the scene must no longer be
+ * refused for the same reason. A table contains what each method and model supports; the features of the scene are
+ * compared with it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scene_remedies.h"
 
-/* Things that not every method and model can do; bits. */
+/* Features of a scene that not every method and model supports, as bits. */
 enum {
     HAS_RIGID = 1,       /* rigid bodies */
     HAS_RATIO = 2,       /* a Poisson's ratio that bonds do not have */
@@ -17,7 +18,8 @@ enum {
     HAS_INTERFACES = 64, /* bodies that are joined */
 };
 
-/* What scenes may have with a method and model. Models of method mpm do not matter, but `bond` has no other keys. */
+/* Features (bits HAS_...) that a scene may have with a method and a model. With method mpm the model has no effect;
+ * `bond` stands for all. */
 static const struct {
     enum method method;
     enum model model;
@@ -30,7 +32,7 @@ static const struct {
     {METHOD_MPM, MODEL_BOND, HAS_RATIO | HAS_YIELD | HAS_FLOW | HAS_VISCOSITY | HAS_INTERFACES},
 };
 
-/* Names of what a scene has, in the order of the bits. */
+/* Names of the features that a scene may have, in the order of the bits HAS_... */
 static const char *const had[] = {"rigid bodies",     "a Poisson's ratio that bonds do not have",
                                   "yield_stress",     "a law of plasticity other than linear hardening",
                                   "tensile_strength", "viscosity",
@@ -56,8 +58,8 @@ static bool has_rigid_bodies(const struct yaml_node *root)
     return rigid;
 }
 
-/* Returns what the scene has of the things that not every method can do (bits HAS_...). Poisson's ratios of materials
- * that have not been read are not known yet and count as those of bonds. */
+/* Returns the features of the scene that not every method supports (bits HAS_...). Poisson's ratios of materials
+ * that have not been read yet are unknown and count as those of bonds. */
 static unsigned scene_has(const struct reader *r)
 {
     const struct scene *s = r->scene;
@@ -77,8 +79,8 @@ static unsigned scene_has(const struct reader *r)
     return has;
 }
 
-/* Returns the row of the table for a method that can do all of `has`, with the model of the scene if possible; -1 if
- * there is none. */
+/* Returns the row of the table `combination` for a method that supports all features in `has` (bits HAS_...), with
+ * the model of the scene if possible; -1 if there is none. */
 static int row_of_method(const struct scene *s, enum method method, unsigned has)
 {
     int row = -1;
@@ -89,8 +91,9 @@ static int row_of_method(const struct scene *s, enum method method, unsigned has
     return row;
 }
 
-/* Writes the change of the scene to the method and model of a row of the table to text[capacity]. A model that is not
- * used may stay, unless the scene has plasticity, which state-based models do not have. has: what the scene has. */
+/* Writes to text[capacity] how the scene must be changed to the method and model in row number `row` of the table
+ * `combination`. A model that is not used may remain, unless the scene has plasticity, which state-based models do
+ * not support. has: features of the scene (bits HAS_...). */
 static void write_change(const struct scene *s, int row, unsigned has, char *text, size_t capacity)
 {
     static const char *const methods[] = {
@@ -108,8 +111,9 @@ static void write_change(const struct scene *s, int row, unsigned has, char *tex
         snprintf(text, capacity, "%s%s%s", methods[method], other ? " with " : "", other ? model : "");
 }
 
-/* Returns the changes of method or model by which the scene could have all of `has`, as words of a message in the
- * arena: that of the model alone if it suffices; NULL if there is none. */
+/* Returns the changes of method or model with which the scene could have all features in `has` (bits HAS_...), as
+ * words of a message in the reader's arena. If another model suffices, only that is named. Returns NULL if there is
+ * no such change. */
 static const char *changes_that_allow(struct reader *r, unsigned has)
 {
     static const enum method methods[] = {METHOD_PD, METHOD_ADAPTIVE, METHOD_MPM};
@@ -127,7 +131,7 @@ static const char *changes_that_allow(struct reader *r, unsigned has)
     return *text ? arena_text(r, text, strlen(text)) : NULL;
 }
 
-/* Returns the names of the things `has`, joined by "and", in the arena. */
+/* Returns the names of the features in `has` (bits HAS_...), joined by "and", in the reader's arena. */
 static const char *names_of(struct reader *r, unsigned has)
 {
     char text[240] = "";

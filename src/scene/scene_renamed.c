@@ -24,8 +24,8 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Appends the old and new name of the renamed key number k to s->renamed, which is printed later as a warning, unless
- * it is there already. */
+/* Appends the old and the new name of row k of the table `renamed` to s->renamed, which is printed later as a
+ * warning. Does nothing if they are there already. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);

@@ -37,8 +37,8 @@ static void write_words(FILE *out, const char *words)
     fputs("]}", out);
 }
 
-/* Writes the JSON types of key k: a number of type `type` ("number", "integer") in its range, or a text, since formulas
- * and numbers with units are texts. */
+/* Writes the JSON types of key k: a number of type `type` ("number" or "integer") within its range, or a text, since
+ * formulas and numbers with units are texts. */
 static void write_numbers(FILE *out, const struct key *k, const char *type)
 {
     char least[32], most[32];
@@ -58,7 +58,8 @@ static void write_list_of(FILE *out, const char *definition)
     fprintf(out, "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}", definition);
 }
 
-/* Writes the list of required keys of a group, if there are any. begin: text before the first of them. */
+/* Writes the list of required keys of a group, if it has any. group: path of the group; begin: text before the first
+ * key. */
 static void write_required(FILE *out, const char *group, const char *begin)
 {
     const char *between = begin;
@@ -130,8 +131,8 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-/* Returns the path of the group that holds the keys of an item of the list k: material for `materials`, bodies.parts
- * for `parts`, else the path of the list. */
+/* Returns the path of the group in which the table has the keys of an item of list k: material for `materials`,
+ * bodies.parts for `parts`, else the path of the list. */
 static const char *items_group(const struct key *k)
 {
     if (strcmp(k->path, "materials") == 0) return "material";
@@ -211,8 +212,8 @@ static void write_property(FILE *out, const struct key *k)
     fputs("]}", out);
 }
 
-/* Writes the members of the JSON type of a mapping with the keys of a group. The list of required keys is left out if
- * the mapping can be merged with that of another scene. */
+/* Writes the members of the JSON type of a mapping with the keys of a group. group: path of the group. If scenes
+ * that include each other merge this mapping, the list of required keys is omitted. */
 static void write_members(FILE *out, const char *group)
 {
     const char *between = "";

@@ -18,8 +18,8 @@ enum { SLICES_MOST = 65536 };
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 
-/* Combines the hash `contents` of one more file with the hash of the files before, f->contents (FNV-1a). A single file
- * keeps its own hash. */
+/* Combines `contents`, the hash of one more file, with f->contents, the hash of the files before (FNV-1a). If f has
+ * one file, f->contents is the hash of that file. */
 static void contents_add(struct shape_file *f, uint64_t contents)
 {
     if (f->files == 0)
@@ -110,7 +110,7 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Sets *spacing to the spacing that the scene gives [m], or to NAN if it gives none. n: any node of the scene's tree.
+/* Finds *spacing, the spacing that the scene gives [m], or NAN if it gives none. n: any node of the scene's tree.
  * Returns REFUSED if the spacing is no length in its range. */
 static status read_spacing(struct reader *r, const struct yaml_node *n, real *spacing)
 {
@@ -121,8 +121,8 @@ static status read_spacing(struct reader *r, const struct yaml_node *n, real *sp
     return given && k ? read_number(r, k, given, spacing) : OK;
 }
 
-/* Reads the file f of a solid, or finds the same file with the same settings among those already read. Takes ownership
- * of f, and frees it if it is not needed or cannot be read. n: node of the solid. *known: receives the file that has
+/* Reads the file f of a solid, unless the same file with the same settings has been read already. Takes ownership of
+ * f, and frees it if it is not needed or cannot be read. n: node of the solid; *known: receives the file that has
  * been read, which the scene owns. Returns REFUSED if the file is invalid. */
 static status shape_take(struct reader *r, const struct yaml_node *n, struct shape_file *f, struct shape_file **known)
 {
@@ -146,8 +146,8 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
     return OK;
 }
 
-/* Returns REFUSED if the scene gives the hash of the contents of a file and the file has another one. n: node of the
- * solid; words: its keys; contents: hash of the file. */
+/* Returns REFUSED if the scene gives the hash of a file and the file has another one. n: node of the solid; words:
+ * its keys; contents: hash of the file. */
 static status check_contents(struct reader *r, const struct yaml_node *n, const struct shape_words *words,
                              uint64_t contents)
 {

@@ -17,9 +17,9 @@ struct softening_model scene_softening_model(const struct scene *s, const struct
     return (struct softening_model){modulus.A / unit, modulus.B / unit, rotates};
 }
 
-/* Sets the onset at which bonds of material m have its tensile strength, and, in state-based models, whose bonds spend
- * energy together, the critical stretch with which a lattice that is separated spends G_c: both by fixed-point
- * iteration. */
+/* Sets m->onset_stretch such that bonds of material m have its tensile strength. In state-based models, where bonds
+ * dissipate energy together, also sets the critical stretch at which the separation of a lattice dissipates G_c.
+ * Both follow from a fixed-point iteration. */
 static void set_stretches(const struct scene *s, struct material *m)
 {
     const struct softening_model model = scene_softening_model(s, m);
@@ -70,7 +70,8 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
                  most / s->horizon, strength_unit_hint(s, most));
 }
 
-/* Reads the list n of pairs of strain rate and factor into m->rate. Returns REFUSED for points out of order. */
+/* Reads the list n of pairs of strain rate and factor of strength into *rate. Returns REFUSED for points out of
+ * order. */
 static status read_rate_table(struct reader *r, const struct yaml_node *n, struct strength_rate *rate)
 {
     const struct key rates = {
@@ -96,8 +97,9 @@ static status read_rate_table(struct reader *r, const struct yaml_node *n, struc
     return OK;
 }
 
-/* Reads how the tensile strength of material m grows with the strain rate, after m->onset_stretch is set. n: the
- * material. Returns REFUSED where rates have no meaning, and for a strength that bonds of this horizon do not reach. */
+/* Reads how the tensile strength of material m grows with the strain rate. m->onset_stretch must be set. n: node of
+ * the material. Returns REFUSED where rates have no meaning, and for a strength that bonds of this horizon do not
+ * reach. */
 static status read_rate(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
@@ -123,7 +125,8 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
                  s->horizon * s->spacing, strongest, most, most / s->horizon);
 }
 
-/* Returns REFUSED for a key of a strength surface, or of a rate, in a material without tensile strength. */
+/* Returns REFUSED if a material without tensile strength has a key of a strength surface or of a strain rate. n:
+ * node of the material. */
 static status check_no_surface(struct reader *r, const struct yaml_node *n)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength",
@@ -137,8 +140,8 @@ static status check_no_surface(struct reader *r, const struct yaml_node *n)
     return OK;
 }
 
-/* Returns true if load steps could do the softening of a material: with bonds alone and without a strength surface. n:
- * node of the material. */
+/* Returns true if the solver with load steps supports the softening of a material: the method is pd, and the
+ * material has no strength surface. n: node of the material. */
 static bool steps_can_soften(const struct scene *s, const struct yaml_node *n)
 {
     return s->method == METHOD_PD && !yaml_node_find(n, "compressive_strength") &&

@@ -147,8 +147,8 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Sets *called to the node of the region whose name is the value of node n; inside an extrusion to that of the named
- * section. Returns REFUSED, with the nearest name, if there is none. */
+/* Finds *called, the node of the region whose name is the value of node n; inside an extrusion the node of the
+ * section with this name. Returns REFUSED, with the nearest name, if there is none. */
 static status region_called(struct reader *r, const struct yaml_node *n, const struct yaml_node **called)
 {
     const struct yaml_node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
@@ -196,8 +196,8 @@ static status read_named(struct reader *r, const struct yaml_node *n, struct sol
     return OK;
 }
 
-/* Reads the regions in a mapping of names to solids into named[map->n]. *count: increased by the number of regions that
- * have been read, also on failure. Returns REFUSED for invalid names or solids. */
+/* Reads the regions in a mapping of names to solids into named[map->n]. count: increased by the number of regions
+ * that have been read, also on failure. Returns REFUSED for invalid names or solids. */
 static status read_names(struct reader *r, const struct yaml_node *map, struct named_region *named, int *count)
 {
     for (const struct yaml_node *n = map->first; n; n = n->next) {
@@ -212,8 +212,8 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
     return OK;
 }
 
-/* Sets *map to the mapping of names to solids that is the value of `key` at the top of the scene; NULL if the key is
- * missing. Returns REFUSED if its value is no mapping or is empty. */
+/* Finds *map, the mapping of names to solids that is the value of `key` at the top of the scene; NULL if the key is
+ * missing. root: tree of the scene. Returns REFUSED if the value is no mapping or is empty. */
 static status names_find(struct reader *r, const struct yaml_node *root, const char *key, const struct yaml_node **map)
 {
     *map = yaml_node_find(root, key);
@@ -222,8 +222,8 @@ static status names_find(struct reader *r, const struct yaml_node *root, const c
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
 }
 
-/* Reads all named sections in r->sections and discards them, so that faults in unused ones are found; extrusions read
- * them again. Returns REFUSED for a fault, and outside 3D. */
+/* Reads all named sections in r->sections and discards them; extrusions read those that they use again. In this way
+ * faults in unused sections are found. Returns REFUSED for a fault, and outside 3D. */
 static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
@@ -273,9 +273,9 @@ static status read_operation(struct reader *r, const struct yaml_node *n, const 
     return read;
 }
 
-/* Reads the solid of node n with its motions into s. It may be the operand of add, subtract or intersect.
- * signed_before: true if it is such an operand already; then another operation is refused. Returns REFUSED for an
- * invalid solid, or too many copies. */
+/* Reads the solid of node n with its motions into s. The node may also be an operation add, subtract or intersect
+ * with its operand. signed_before: true if the solid is such an operand itself; then a further operation is refused.
+ * Returns REFUSED for an invalid solid, or too many copies. */
 static status read_solid(struct reader *r, const struct yaml_node *n, struct solid *s, bool signed_before)
 {
     const struct yaml_node *child = NULL;
@@ -415,8 +415,8 @@ static status read_crack(struct reader *r, const struct yaml_node *n, struct cra
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
-/* Appends the slits of all meshes in a shape to the cracks of the scene s, once at the position of each copy of a
- * mesh. */
+/* Appends the slits (inner free surfaces) of all meshes in a shape to the cracks of the scene s, once for each copy
+ * of a mesh, at its position. */
 static void take_slits(struct scene *s, const struct region *shape)
 {
     const struct placement there = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

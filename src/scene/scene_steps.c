@@ -35,8 +35,8 @@ static status check_steps_motion(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns REFUSED for boundaries that load steps do not support: following loads, and velocities by formula, whose
- * displacement is unknown. root: tree of the scene. */
+/* Returns REFUSED for boundaries that load steps do not support: loads that follow the surface, and velocities by
+ * formula, whose displacement is unknown. root: tree of the scene. */
 static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -57,7 +57,7 @@ bool steps_soften(const struct scene *s)
     return softens && scene_has_load_steps(s);
 }
 
-/* Returns REFUSED for settings that load steps do not support where bonds soften. */
+/* Returns REFUSED for settings that load steps do not support if bonds soften. root: tree of the scene. */
 static status check_steps_softening(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
@@ -123,8 +123,8 @@ status check_load_steps(struct reader *r, const struct yaml_node *root)
                  "distance grows");
 }
 
-/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because the
- * echo of every scene writes all keys. root: tree of the scene. */
+/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
+ * scene.yaml, the scene as run, has all keys. root: tree of the scene. */
 status check_load_step_keys_unused(struct reader *r, const struct yaml_node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

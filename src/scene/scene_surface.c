@@ -6,9 +6,11 @@
 #include "scene_internal.h"
 #include "scene_remedies.h"
 
-/* kappa of bonds that soften before a surface has started them; with less, lattices trap cracks */
+/* Ratio kappa = (critical stretch/onset stretch)^2 of bonds that soften by themselves before a strength surface is
+ * reached [1]. With a smaller ratio, lattices stop cracks. */
 #define OWN_RATIO 2
-/* Default radius over E G_c/sigma_t^2, at which the surface is at 0.8 at a tip of K_c; measured */
+/* Default radius within which strains are averaged for the strength surface, over E G_c/sigma_t^2 [1]. With it, a
+ * crack tip at the toughness K_c is at 0.8 of the surface; measured. */
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
@@ -19,8 +21,8 @@ status check_strength_size(struct reader *r, const struct yaml_node *n, const st
                  node_text(r, n), 0.1 * m->young);
 }
 
-/* Returns REFUSED unless `value`, read from n, is between the fractions `low` (not itself) and `high` of the tensile
- * strength of material m. */
+/* Returns REFUSED unless low sigma_t < value <= high sigma_t, with the tensile strength sigma_t of material m. n:
+ * node from which `value` has been read [Pa]. */
 static status check_fraction(struct reader *r, const struct yaml_node *n, const struct material *m, real value,
                              real low, real high)
 {
@@ -32,7 +34,8 @@ static status check_fraction(struct reader *r, const struct yaml_node *n, const 
                  low * m->tensile_strength, high * m->tensile_strength);
 }
 
-/* Sets m->surface by the strength that the scene gives with the node n, the key `key`. */
+/* Sets m->surface, the strength surface, from the strength that the key `key` gives. n: node of the key. Returns
+ * REFUSED for a strength that does not suit the tensile strength. */
 static status surface_from(struct reader *r, const struct yaml_node *n, const char *key, struct material *m)
 {
     const real tension = m->tensile_strength;
@@ -53,7 +56,7 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
     return OK;
 }
 
-/* Returns the length E G_c/strength^2 of material m, from its critical stretch where G_c is not given [m]. */
+/* Returns the length E G_c/strength^2 of material m [m]. If G_c is not given, it follows from the critical stretch. */
 static real characteristic_length(const struct scene *s, const struct material *m)
 {
     struct material unit = *m;
@@ -74,8 +77,8 @@ real scene_surface_horizon(const struct scene *s, const struct material *m)
     return s->horizon * s->spacing * square(m->onset_stretch / strain);
 }
 
-/* Returns REFUSED if the bonds of material m begin to soften by themselves before its surface is reached in tension.
- * n: the tensile strength in the scene. */
+/* Returns REFUSED if bonds of material m begin to soften by themselves before its strength surface is reached in
+ * tension. n: node of the tensile strength. */
 static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;

@@ -48,8 +48,8 @@ struct time_columns {
     const char *second;                                               /* name of another column of values; NULL: none */
 };
 
-/* Returns the kind of unit that the value of boundary b has. A column of a file that gives its variation in time may
- * have this unit instead. */
+/* Returns the kind of unit of the value of boundary b. A file column that gives the variation of the value in time
+ * may have a unit of this kind. */
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
@@ -63,8 +63,9 @@ static enum unit unit_of_boundary(const struct boundary *b)
     }
 }
 
-/* Examines the name of column k in the header of the file, and stores k in c if it is the time or the column `wanted`
- * (wanted "": the first other column). Returns REFUSED if its unit does not fit, or if the time is given twice. */
+/* Examines the name of column k in the header of the file. Stores k in c if the column is the time, or the column of
+ * values called `wanted` (if that is "", the first column beside the time). Returns REFUSED if its unit does not
+ * fit, or if the time is given twice. */
 static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
 {
     char what[160];
@@ -122,8 +123,9 @@ static status time_number(const struct time_columns *c, const char *field, const
     return csv_report_fault(&c->in, field, "'%s' %s", field, what);
 }
 
-/* Reads the text `line` as entry f->n of time and value; does not change f->n. Returns REFUSED for a wrong number of
- * values, no number, or a time not later than the previous one. */
+/* Reads the text `line` as entry f->n of the times f->t and the values f->value; does not change f->n. Returns
+ * REFUSED for a wrong number of values, for a text that is no number, and for a time not later than the previous
+ * one. */
 static status time_entry(const struct time_columns *c, char *line, struct time_function *f)
 {
     int k = 0, found = 0;

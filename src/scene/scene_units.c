@@ -62,7 +62,7 @@ static const struct symbol *symbol_named(const char *name, size_t length)
     return NULL;
 }
 
-/* Reads a symbol of `length` characters with or without a prefix, such as mm or %, into *m; false: it is unknown. */
+/* Reads the symbol `name` of `length` characters, such as mm or %, into *m. Returns false if it is unknown. */
 static bool symbol_read(struct measure *m, const char *name, size_t length)
 {
     const struct symbol *symbol = symbol_named(name, length);

@@ -14,8 +14,8 @@
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
-/* Reads the name of a quantity in summary.json, such as crack.start_time, from node `of` into figure[capacity]. Returns
- * REFUSED for texts that cannot be such a name. */
+/* Reads the name of a quantity of summary.json, such as crack.start_time, from node `of` into figure[capacity].
+ * Returns REFUSED for texts that cannot be such a name. */
 static status figure_read(struct reader *r, const struct yaml_node *of, char *figure, size_t capacity)
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= capacity || strpbrk(of->text, " ,/"))
@@ -43,15 +43,16 @@ static status accuracy_read(struct reader *r, const struct yaml_node *root, stru
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
-/* A provisional method. soft_states: bonds that soften are those of a state-based model. */
+/* A method with which a scene with `method: auto` is read at first. soft_states: true if bonds that soften are those
+ * of a state-based model. */
 struct provisional_method {
     const char *method;
     bool soft_states;
 };
 
-/* Reads the scene in text[length] into s with the given method, and with provisional values for the other choices of
- * the pilot runs that contradict no key of the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s
- * freed, if the scene is invalid. */
+/* Reads the scene in text[length] into s with the method `with`, and with provisional values, which contradict no
+ * key of the scene, for the other choices of the pilot runs. spacing: used if the scene has none [m]. Returns
+ * REFUSED, with s freed, if the scene is invalid. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s,
                                const struct provisional_method *with, real spacing)
 {
@@ -79,9 +80,9 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     return read;
 }
 
-/* Reads the scene in text[length] into s with method adaptive, or with pd if adaptive is refused, as it is for joined
- * bodies, and then with bonds of a state-based model that soften, as a Poisson's ratio may require. spacing: used if
- * the scene has none [m]. Returns REFUSED, with s freed, if all are. */
+/* Reads the scene in text[length] into s with method adaptive. If that is refused, as for joined bodies, reads it
+ * with method pd; if that is refused, as for some Poisson's ratios, with method pd and softening bonds of a
+ * state-based model. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if all are refused. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     static const struct provisional_method with[] = {{"adaptive", false}, {"pd", false}, {"pd", true}};
@@ -91,10 +92,10 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
     return read;
 }
 
-/* Reads the scene in text[length] into s with a provisional method. given: true if the scene has a spacing; otherwise
- * it is read with 1 m first and then with a coarse spacing that resolves its lengths. *most: receives the largest
- * spacing that suits the strengths of all materials [m], INFINITY without strengths or if the scene has a spacing.
- * Returns REFUSED if the scene is invalid. */
+/* Reads the scene in text[length] into s with a provisional method. given: true if the scene has a spacing; else it
+ * is read with 1 m, and then again with a coarse spacing that resolves its lengths. *most: receives the largest
+ * spacing that suits the strengths of all materials [m], or INFINITY without strengths or if the scene has a
+ * spacing. Returns REFUSED if the scene is invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
                                 real *most)
 {

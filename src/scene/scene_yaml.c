@@ -98,8 +98,8 @@ static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
     return fault_at_location(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
-/* Returns the line and column, from 0, of a byte offset in the text: libyaml gives only the offset for faults of the
- * encoding. */
+/* Returns line and column, both from 0, of the byte at `offset` in the text. For faults of the encoding libyaml
+ * gives only the offset. */
 static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 {
     yaml_mark_t mark = {0};
@@ -130,7 +130,7 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
 }
 
-/* Returns the message that an event of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character,
+/* Returns a message if an event of libyaml is not allowed in a scene: an alias, anchor or tag, a NUL character, or
  * nesting of more than DEPTH_MOST levels. Returns NULL if it is allowed. depth: levels of nesting. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {
@@ -184,9 +184,9 @@ static status read_items(struct parse *p, struct yaml_node *list, int depth)
     }
 }
 
-/* Reads a key, whose event has been read, and its value, and appends the entry to `map`; line and column of the entry
- * are those of the key. depth: levels of nesting above the mapping. Deletes the event. Returns REFUSED for invalid
- * YAML. */
+/* Reads a key and its value, and appends the entry to `map`; line and column of the entry are those of the key.
+ * key_event: event of the key, already read, which is deleted; depth: levels of nesting above the mapping. Returns
+ * REFUSED for invalid YAML. */
 static status read_entry(struct parse *p, struct yaml_node *map, yaml_event_t *key_event, int depth)
 {
     yaml_event_t event;
@@ -257,8 +257,8 @@ static status skip_event(struct parse *p, yaml_event_type_t *type)
                : OK;
 }
 
-/* Reads the only document of the text p->text into the tree *root; NULL if the text is empty. Returns REFUSED for
- * invalid YAML and for a second document. */
+/* Reads the only document of p->text into the tree *root, NULL if the text is empty. Returns REFUSED for invalid
+ * YAML and for a second document. */
 static status read_document(struct parse *p, struct yaml_node **root)
 {
     yaml_event_t event;

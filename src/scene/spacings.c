@@ -28,8 +28,8 @@ static void length_add(struct lengths *l, real length)
     if (fabs(length) > 0 && l->n < LENGTHS_MOST) l->of[l->n++] = fabs(length);
 }
 
-/* Appends the distance from the lower face of a box to the coordinate X [m] along an axis to the list l, if X is inside
- * the box. */
+/* If the coordinate X along an axis is inside a box, appends its distance from the lower face of the box to the list
+ * l [m]. */
 static void length_add_inside(struct lengths *l, const struct solid *box, int axis, real X)
 {
     if (X > box->from[axis] && X < box->to[axis]) length_add(l, X - box->from[axis]);
@@ -68,15 +68,15 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
 /* Returns the smallest number of equal spacings of at most h [m] into which a length [m] is divided. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
-/* Returns true if a length is a whole number of times the length `unit`, to 1e-6. */
+/* Returns true if `length` is a whole number of times `unit`, to a relative 1e-6. */
 static bool length_divides(real unit, real length)
 {
     const real count = length / unit;
     return fabs(count - round(count)) < 1e-6 * count;
 }
 
-/* Returns true if the spacing h [m] divides all lengths in l and, with `even`, 2 h divides the edges of the first body,
- * so that cells of two spacings end at its faces. */
+/* Returns true if the spacing h divides all lengths in l [m]. With `even`, 2 h must also divide the edges of the
+ * first body, so that grid cells of two spacings end at its faces. */
 static bool spacing_fits(const struct lengths *l, const struct scene *s, real h, bool even)
 {
     for (int k = 0; k < l->n; k++)
@@ -114,8 +114,8 @@ real spacing_that_fits_lattice(const struct scene *s, real h, bool even_edges)
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
-/* Returns the largest spacing that resolves the extent of a body of this shape and the radii of its round solids [m];
- * INFINITY if the shape is infinite. */
+/* Returns the largest spacing that resolves the extent of `shape` and the radii of its round solids [m]; INFINITY if
+ * the shape is infinite. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -129,8 +129,8 @@ static double body_spacing(const struct scene *s, const struct region *shape)
     return least;
 }
 
-/* Returns the distance of X[dim] [m] from the nearest face of the bounding box of the first body [m]. Faces on which X
- * is do not count. */
+/* Returns the distance of X[dim] from the nearest face of the bounding box of the first body [m]. Faces on which X
+ * is are not considered. */
 static double distance_to_face(const struct scene *s, const real *X)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -186,7 +186,7 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing [m] at which the bounding boxes of all bodies together contain a given number of particles. */
+/* Returns the spacing at which the bounding boxes of all bodies together contain `particles` particles [m]. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];
