@@ -15,8 +15,8 @@ enum { NORMAL_LENGTH = 384 };
 #define NORMAL_VELOCITY 1e-3 /* peak velocity of the pulse */
 
 /* Writes the scene of a strip with a pulse and an absorbing face into text[room] and returns the length of the text.
- * dim: number of dimensions; width: of the pulse, length: of the strip [spacings]. Wave speed ABSORBING_SPEED^2 = C11
- * at density 1; in plane strain and in 3D C11 = 6/5 E at Poisson's ratio 1/4, and G = C11/3. */
+ * dim: number of dimensions; width: of the pulse, length: of the strip [spacings]. The density is 1 and C11 =
+ * ABSORBING_SPEED^2; in plane strain and in 3D C11 = 6/5 E at Poisson's ratio 1/4, and G = C11/3. */
 static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width, int length)
 {
     static const char *const spaces[DIM_MAX + 1] = {"", "line\nsection: 1 m^2", "plane strain\nthickness: 1 m",
@@ -41,7 +41,7 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
 
 /* Runs a strip of `length` spacings with a pulse of `width` spacings in `dim` dimensions. Stores in *v the allocated
  * velocities along x at the end [particles], which the caller releases. Updates the largest energy that the face
- * released in a step, and the largest error of the energy balance, in *figure. FAILED if a step fails. */
+ * released in a step, and the largest error of the energy balance, in *figure. Returns FAILED if a step fails. */
 static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
                          struct absorbing_pulse *figure)
 {

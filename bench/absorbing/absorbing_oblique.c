@@ -12,9 +12,9 @@
 #include "step/report.h"
 #include "mesh/mesh_part.h"
 
-/* A strip with an oblique wave packet. shear: S wave, else P wave; across: distance of the mirrors, along: position of
- * the absorbing face [spacings]; k: wavenumber along y, wave: along x [1/m]; from: centre, radius: of the packet,
- * station: position of the observation along x [m]; frequency [1/s]; until: end time [s]. */
+/* A strip with an oblique wave packet. shear: S wave, else P wave; across: distance of the mirrors, along: position
+ * of the absorbing face [spacings]; k: wavenumber along y, wave: wavenumber along x [1/m]; from, radius: centre and
+ * radius of the packet, station: position of the observation along x [m]; frequency [1/s]; until: end time [s]. */
 struct oblique {
     bool shear;
     int across, along;
@@ -53,9 +53,9 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     return o;
 }
 
-/* Runs a strip that is `along` spacings long. Computes the Fourier amplitudes of the displacement at the station, at
- * the frequency of the wave: sum[0] of the component across the face, sum[1] of the component along it [m]. FAILED if a
- * step fails. */
+/* Runs a strip that is `along` spacings long. Computes the Fourier amplitudes of the displacement at the observed
+ * position, at the frequency of the wave: sum[0] of the component normal to the face, sum[1] of the component along
+ * it [m]. m: method of the run. Returns FAILED if a step fails. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
     struct run e;

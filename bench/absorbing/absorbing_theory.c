@@ -5,7 +5,8 @@
 
 #include "absorbing_bench.h"
 
-/* A plane wave a exp(i w (s x + p y - t)): displacement a, slowness s along x. */
+/* A plane wave a exp(i w (s x + p y - t)): amplitude a of the displacement, slowness s along x; the frequency w and
+ * the slowness p along y are those of the incident wave. */
 struct plane_wave {
     double complex s, a[2];
 };

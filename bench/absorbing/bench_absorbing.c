@@ -18,8 +18,8 @@ const struct absorbing_method absorbing_methods[ABSORBING_METHODS] = {
 
 static const int pulse_widths[] = {16, 32, 64};
 
-/* Measures the reflection of pulses of all widths at normal incidence in `dim` dimensions, prints it and adds rows to
- * the table. */
+/* Measures the reflection of pulses of all widths at normal incidence in `dim` dimensions, prints it and adds rows
+ * to the table `rows`. m: method of the runs. */
 static void normal_row(const struct absorbing_method *m, int dim, struct bench_table *rows)
 {
     printf("  %-14s %d D ", m->name, dim);
@@ -39,7 +39,8 @@ static void normal_row(const struct absorbing_method *m, int dim, struct bench_t
 /* ---- oblique incidence ------------------------------------------------------------------------------------------- */
 
 /* Measures the reflection of one plane wave by an absorbing face, prints it beside the theory, and adds a row to the
- * table. shear: S wave, else P wave; degrees: angle of incidence; wavelength [spacings]. */
+ * table `rows`. m: method of the run; shear: S wave, else P wave; degrees: angle of incidence; wavelength
+ * [spacings]. */
 static void oblique_row(const struct absorbing_method *m, bool shear, int degrees, double wavelength,
                         struct bench_table *rows)
 {

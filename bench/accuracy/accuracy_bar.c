@@ -6,7 +6,7 @@
 
 #include "accuracy.h"
 
-/* Cases of the problem: see step_text and pulse_text. */
+/* Cases of the problem: a bar with a step load, and a bar with a smooth pulse. */
 enum { STEP, PULSE };
 
 /* Step: a stress of 1 Pa on one end of a bar of 1 m with the other end fixed. At three quarters of the transit time the
@@ -38,9 +38,9 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
  * in velocity and stress. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
-/* Computes the relative errors of stress (part[0]) and velocity (part[1]) of a bar, and their mean *error. The smooth
- * pulse uses root mean squares. The step uses mean absolute errors, because the mean square does not converge with a
- * fixed order at a front. */
+/* Computes the relative errors of stress, part[0], and velocity, part[1], of a bar in the run e of point p, and
+ * their mean *error. For the smooth pulse these are root mean squares. For the step they are mean absolute errors,
+ * because the mean square does not converge with a fixed order at a front. */
 static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double impedance = 100; /* rho c [Pa s/m] */
@@ -56,7 +56,7 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
     return OK;
 }
 
-/* Returns false for methods with uniform weights of bonds: on a line there is one bond per distance, so that uniform
+/* Returns false for methods with uniform weights of bonds: on a line all bonds have one direction, so that such
  * weights change nothing. */
 static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 

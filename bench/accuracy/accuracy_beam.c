@@ -35,7 +35,7 @@ static const struct term twisted[] = {{0, {0, 1, 3}, 0.0325}, {0, {0, 3, 1}, -0.
                                       {1, {5, 0, 1}, 0.0081}, {2, {1, 1, 0}, -1.0000}, {2, {1, 1, 2}, -0.0056},
                                       {2, {3, 1, 0}, 0.1843}, {2, {5, 1, 0}, -0.0081}};
 
-/* Modes for thickness, Young's modulus and density 1. */
+/* Eigenmodes of a plate and a bar, with their frequencies for thickness, Young's modulus and density 1. */
 static const struct mode {
     const struct term *term;
     int terms;
@@ -90,7 +90,7 @@ static void mode_at(const void *context, const real *X, real *v)
     }
 }
 
-/* Returns the projection of the momentum of all particles on an eigenmode m: the sum of mass times v . v_mode. */
+/* Returns the projection of the momentum of all particles on the eigenmode m: the sum of mass times v . v_mode. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
     const struct particles *p = observed_run_of(e).part;
@@ -104,9 +104,9 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* Runs the scene of point p in pieces of 1/300 of its duration until the motion in the eigenmode is zero for the second
- * time, which happens at three quarters of a period. This time is interpolated linearly between pieces. Stores the
- * angular frequency of the mode in `measured`, NAN if the zero is not reached. FAILED if a step fails. */
+/* Runs the scene of point p in pieces of 1/300 of its duration until the motion in the eigenmode is zero for the
+ * second time, at three quarters of a period. This time is interpolated linearly between pieces. `measured` receives
+ * the angular frequency of the mode, NAN if the second zero is not reached. Returns FAILED if a step fails. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

@@ -19,14 +19,14 @@ static const struct {
     {ACCURACY_COUPLED | ACCURACY_ADAPTIVE, "adaptive: both, coupled or converting", "#009e73", "9"},
 };
 
-/* Charts in a row, and at most; size of a chart, height of the heading of the page and of the space below the charts
- * [pixel]. */
+/* COLUMNS: charts in a row; CHARTS_MAX: largest number of charts; WIDTH, HEIGHT: size of a chart, HEADING, FOOT:
+ * heights of the heading of the page and of the space below the charts [pixel]. */
 enum { COLUMNS = 3, CHARTS_MAX = 16, WIDTH = 480, HEIGHT = 380, HEADING = 88, FOOT = 16 };
 /* Margins of a chart [pixel]. */
 enum { LEFT = 92, RIGHT = 14, ABOVE = 40, BELOW = 58 };
 static const double asked[] = {0.05, 0.01}; /* errors at which methods are compared */
 
-/* The runs of a problem, and those of each class. */
+/* Runs of one problem for its chart, and those of each class of methods. */
 struct chart {
     const struct accuracy_problem *problem;
     int n, of_class[CLASSES];
@@ -69,8 +69,8 @@ static void charts_free(struct charts *p)
     }
 }
 
-/* Returns the class of methods that reaches an error [1] in the least time on the problem of a chart; -1 if none
- * does. */
+/* Returns the class of methods that reaches the error `error` [1] in the least time on the problem of a chart; -1 if
+ * no class does. */
 static int winner_of(const struct chart *c, double error)
 {
     int best = -1;
@@ -82,8 +82,8 @@ static int winner_of(const struct chart *c, double error)
     return best;
 }
 
-/* Sends the runs of chart number `number` as data blocks: all runs, then the Pareto front of each class of methods.
- * Each block ends with a point without position, since gnuplot refuses empty blocks. */
+/* Sends the runs of chart number `number` to gnuplot as data blocks: all runs, then the Pareto front of each class
+ * of methods. Each block ends with a point without position, since gnuplot refuses empty blocks. */
 static void chart_send(FILE *to, const struct chart *c, int number)
 {
     int *front = NEW("bench.front", c->n + 1, int);
@@ -101,8 +101,8 @@ static void chart_send(FILE *to, const struct chart *c, int number)
     memory_free(front);
 }
 
-/* Writes one line of the heading, as label number `number`. above: distance from the upper edge [pixel]; height: of the
- * picture [pixel]; font: as of gnuplot. */
+/* Writes one line of the heading, `text`, as label number `number` of gnuplot. above: its distance from the upper
+ * edge [pixel]; height: of the picture [pixel]; font: name and size as gnuplot has them. */
 static void heading_line_write(FILE *to, int number, const char *text, double above, int height, const char *font)
 {
     fprintf(to, "set label %d ", number);

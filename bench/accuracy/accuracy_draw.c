@@ -13,8 +13,8 @@
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the label of a point (a run of the cost-accuracy table) into text[size]: method and resolution, and horizon
- * and time step unless they are the usual ones. */
+/* Writes the label of point p, a run of the cost-accuracy table, into text[size]: method and resolution, and horizon
+ * and time step if they are not the usual ones. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
 {
     char more[48] = "", *end = more;
@@ -38,8 +38,9 @@ static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* Computes the largest error and the longest time of the method of point p over all cases of its problem. part: as for
- * dot_of. Returns false if a case has not been run or does not apply to the method. */
+/* Computes *worst, the largest error and the longest time of the method of point p over all cases of its problem.
+ * part: number of the part of the error, or -1 for the whole. Returns false if a case has not been run or does not
+ * apply to the method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
@@ -135,7 +136,7 @@ static int group_of(const struct accuracy_point *p)
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Returns true if a run of family g is on the Pareto front of a panel. */
+/* Returns true if a run of family g of methods is on the Pareto front of a panel. */
 static bool has_group(const struct panel *q, int g)
 {
     for (int k = 0; k < q->front_n; k++)
@@ -145,8 +146,8 @@ static bool has_group(const struct panel *q, int g)
 
 /* ---- content of a panel ------------------------------------------------------------------------------------------ */
 
-/* Sends two data blocks of a panel: the runs that are not on its Pareto front, and the unstable runs, at the upper
- * edge. Each block ends with a point without position, since gnuplot refuses empty blocks. */
+/* Sends two data blocks of a panel to gnuplot: the runs that are not on its Pareto front, and the unstable runs,
+ * drawn at the upper edge. Each block ends with a point without position, since gnuplot refuses empty blocks. */
 static void put_others(FILE *to, const struct panel *q)
 {
     for (int unstable = 0; unstable < 2; unstable++) {
@@ -159,8 +160,8 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* Sends the Pareto front of a panel as data blocks: as a line, and by families as points with labels. Points get labels
- * from the most accurate one upwards, as far as these do not overlap. */
+/* Sends the Pareto front of a panel to gnuplot as data blocks: as a line, and by families as points with labels.
+ * Points get labels from the most accurate one on, as far as the labels do not overlap. */
 static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);
@@ -208,8 +209,8 @@ static void accuracy_draw_panel(FILE *to, const struct panel *q)
     putc('\n', to);
 }
 
-/* Plots the key of a page of panels as a panel without axes. panel[panels]: panels whose families are listed; left,
- * above: position in units of the screen. */
+/* Plots the key of a page of panels as a panel without axes. panel[panels]: panels whose families of methods are
+ * listed; left, above: position of the key [size of the picture]. */
 static void plot_key(FILE *to, const struct panel *panel, int panels, double left, double above)
 {
     fprintf(to,
@@ -234,7 +235,8 @@ static void plot_key(FILE *to, const struct panel *panel, int panels, double lef
 
 /* ---- a page of panels -------------------------------------------------------------------------------------------- */
 
-/* Panels in a row, and at most; width of the key, size of a panel [pixel]. */
+/* COLUMNS: panels in a row; PANELS_MAX: largest number of panels; KEY_PIXELS: width of the key, PANEL_WIDTH,
+ * PANEL_HEIGHT: size of a panel [pixel]. */
 enum { COLUMNS = 2, PANELS_MAX = 16, KEY_PIXELS = 330, PANEL_WIDTH = 570, PANEL_HEIGHT = 380 };
 enum { PANEL_LEFT = 108, PANEL_RIGHT = 14, PANEL_ABOVE = 40, PANEL_BELOW = 56 }; /* margins of a panel [pixel] */
 

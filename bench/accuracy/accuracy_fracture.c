@@ -65,8 +65,8 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
 
 /* ---- observed cracks --------------------------------------------------------------------------------------------- */
 
-/* Returns the time at which the mean growth of all pre-cracks has reached `length` [m], interpolated between samples at
- * which it increased [s]; NAN if it never does. */
+/* Returns the time at which the mean growth of all pre-cracks reaches `length` [m], interpolated between samples at
+ * which the growth increased [s]; NAN if it does not. */
 static double time_of(const struct crack_tips *t, double length)
 {
     double time[2] = {NAN, NAN}, growth[2] = {0, 0};
@@ -85,9 +85,9 @@ static double time_of(const struct crack_tips *t, double length)
     return NAN;
 }
 
-/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad]. It is the direction to
- * the damaged particles of both cracks at a distance radius +- width from the ends of the pre-cracks [m], weighted by
- * their damage. Returns NAN if there are none. */
+/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad]: the direction to the
+ * damaged particles of both cracks at distances of radius - width to radius + width from the ends of the pre-cracks
+ * [m], weighted by their damage. Returns NAN if there are none. */
 static double angle_at(const struct run *e, double radius, double width)
 {
     const struct crack_tips *t = &e->fracture->tips;
@@ -125,8 +125,9 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
  * not grow so far. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Computes the relative errors of the cracks in the run e against the reference: part[0] of path and length, part[1] of
- * the start time, part[2] of the speed. *error is their root mean square. */
+/* Computes the relative errors of the cracks in the run e of point p: part[0] of path and length, part[1] of the
+ * start time, part[2] of the speed. The reference is peridynamics at a finer resolution. *error is their root mean
+ * square. */
 static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
@@ -193,7 +194,7 @@ const struct accuracy_problem accuracy_fracture = {
 /* ---- the reference ----------------------------------------------------------------------------------------------- */
 
 /* Runs point p and prints its start time, speed, length and angles as an entry of the table in accuracy_reference.h.
- * FAILED if the run fails. */
+ * Returns FAILED if the run fails. */
 static status print_reference(const struct accuracy_point *p)
 {
     struct accuracy_scene from;

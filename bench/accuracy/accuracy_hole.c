@@ -106,9 +106,9 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
     return OK;
 }
 
-/* Returns true if the plate with a hole is run with method and spacing of p. Left out are relaxation with transfers for
- * which it converges too slowly, relaxation at fine resolutions (minutes per run), and bond-based models with short
- * horizons. */
+/* Returns true if the plate with a hole is run with method and resolution of p. Excluded are relaxation with
+ * transfers for which it converges too slowly, relaxation at fine resolutions (minutes per run), and bond-based
+ * models with short horizons. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;

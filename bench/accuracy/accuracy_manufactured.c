@@ -9,7 +9,8 @@
 #include "step/step.h"
 #include "run/energies.h"
 
-/* P waves travel at 100 m/s. The motion has parts with and without rotation. */
+/* Manufactured motions of a square and a cube. P waves travel at 100 m/s. The motions have parts with and without
+ * rotation. */
 #define MOTION .amplitude = 1e-7, .period = 14e-3, .length = 2, .c12 = 1e4 / 3, .shear = 1e4 / 3, .density = 1
 static const struct manufactured square_motion = {.dim = 2, .share = {1, -0.5}, MOTION};
 static const struct manufactured cube_motion = {.dim = 3, .share = {1, -0.5, 0.75}, MOTION};
@@ -43,9 +44,9 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
-/* Adds the squared difference between the stress of particle i and stiffness times strain to *off, and the square of
- * the latter, the exact stress, to *all. Shear components count twice, as in the sum over a tensor. stiffness[n][n],
- * strain[n]: n = 3 or 6 symmetric components. */
+/* Adds the squared difference between the stress of particle i and the exact one, stiffness times strain, to *off,
+ * and the square of the exact one to *all. Shear components count twice, as in the sum over a tensor.
+ * stiffness[n][n], strain[n]: n = 3 or 6 symmetric components. */
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {

@@ -90,7 +90,7 @@ const char *accuracy_solver(const struct accuracy_point *p)
 }
 
 /* Returns true if the method of point p can be used with relaxation. With the transfer flip relaxation converges too
- * slowly, and the couplings pm and pmg have linear shapes, for which there is no apic. */
+ * slowly. The couplings pm and pmg have linear shape functions, for which the transfer apic does not exist. */
 bool accuracy_relaxes(const struct accuracy_point *p)
 {
     return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&

@@ -61,8 +61,8 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a point to the plan, unless its problem excludes it. quick: it is also run with --quick. REFUSED or FAILED if
- * its scene cannot be read. */
+/* Adds point p, a run of the cost-accuracy table, to the plan, unless its problem excludes it. quick: true if it
+ * also runs with --quick. Returns REFUSED or FAILED if its scene cannot be read. */
 static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
 {
     if (p.problem->applies && !p.problem->applies(&p)) return OK;
@@ -71,9 +71,9 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-/* Adds points to the plan that differ from p in the horizon or the time step. all: adds every variation of the problem,
- * else only its first horizon and, if it has `steps`, its first time step. quick: points of the first time step are
- * also run with --quick. */
+/* Adds points to the plan that differ from p in the horizon or the time step. all: true to add every variation of
+ * the problem, false for its first horizon and, if the problem has time steps to vary, its first time step. quick:
+ * true if points of the first time step also run with --quick. Returns REFUSED or FAILED if a scene cannot be read. */
 static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;
@@ -120,7 +120,7 @@ static bool is_here(const struct accuracy_problem *q)
 }
 
 /* Creates the list of all points (runs) of the cost-accuracy table, from coarse to fine resolution, so that an
- * interrupted table has every case and method. REFUSED or FAILED if a scene cannot be read. Release with
+ * interrupted table has every case and method. Returns REFUSED or FAILED if a scene cannot be read. Release with
  * accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {

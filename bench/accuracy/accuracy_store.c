@@ -42,8 +42,8 @@ static bool line_ends_with(const char *line, const char *tail)
     return line[length] == '\n' && length >= wanted && strncmp(line + length - wanted, tail, wanted) == 0;
 }
 
-/* Reads the result of a point from a line of the file of results into *r. Incomplete lines and lines of other program
- * versions or settings are ignored. key: length of the columns that identify the point. */
+/* Reads the result of a point from a line of the file of results into *r. Ignores incomplete lines, and lines of
+ * other versions of the program or other settings. key: length of the columns that identify the point. */
 static void take_line(struct accuracy_result *r, const char *line, size_t key)
 {
     char tail[64];
@@ -58,8 +58,8 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
     r->stable = next_number(&at) > 0;
 }
 
-/* Reads the result of a point from a line of the stored table: error, time on one thread, particles and steps. key:
- * length of the columns that identify the point. */
+/* Reads the result of a point from a line of the stored table into *r: error, time on one thread, particles and
+ * steps. key: length of the columns that identify the point. */
 static void take_stored_line(struct accuracy_result *r, const char *line, size_t key)
 {
     const char *at = line + key;
@@ -68,7 +68,8 @@ static void take_stored_line(struct accuracy_result *r, const char *line, size_t
     r->particles = next_number(&at), r->steps = next_number(&at);
 }
 
-/* Calls take(result, line, length of its key) for each line of text that has the columns of a point of the plan. */
+/* For each line of `text` that begins with the columns of a point of the plan, calls take(result of the point, line,
+ * length of these columns). */
 static void take_lines(struct accuracy_plan *plan, const char *text,
                        void (*take)(struct accuracy_result *r, const char *line, size_t key))
 {
@@ -95,7 +96,7 @@ bool accuracy_store_exists(void) { return path_is_file(STORE); }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes a number and a comma; the comma alone if the number is not finite. */
+/* Writes a number and a comma, or only the comma if the number is not finite. */
 static void accuracy_store_put_number(FILE *to, double value)
 {
     if (isfinite(value)) fprintf(to, "%.9g", value);
@@ -168,8 +169,8 @@ status accuracy_store_write(const struct accuracy_plan *plan)
     return s;
 }
 
-/* Reads the known results of all points of the plan from the file of results, and writes the file again with only the
- * lines that belong to a point of the plan. FAILED if the file cannot be read or written. */
+/* Reads the known results of all points of the plan from the file of results, and writes the file again with only
+ * the lines that belong to a point of the plan. Returns FAILED if the file cannot be read or written. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
     char *text;

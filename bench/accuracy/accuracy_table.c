@@ -60,7 +60,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
 
 /* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
-/* Returns true if the scene key `key` has columns of its own in the table or does not describe the method. */
+/* Returns true if the scene key `key` has a column of its own in the table or does not describe the method. */
 static bool accuracy_table_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;

@@ -32,9 +32,9 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point of the cost-accuracy table on team + 1 threads and keeps the shortest time of the time loop of all its
- * runs so far. Measures the error if it is not known yet. A run that stops as unstable is a result, too. REFUSED or
- * FAILED if the scene is invalid. */
+/* Runs a point of the cost-accuracy table on team + 1 threads, and stores the shortest time that its time loop has
+ * taken so far. Measures the error if it is not known yet. A run that stops as unstable is a result, too. Returns
+ * REFUSED or FAILED if the scene is invalid. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -57,9 +57,9 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads, as often as its duration
- * allows, and appends the result to the file of results. The error is measured once, since it does not depend on the
- * number of threads. Returns the first status that is not OK; a run that fails is a result, too. */
+/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads, as often as its
+ * duration allows, and appends the result to the file of results. The error is measured once, since it does not
+ * depend on the number of threads. A run that fails is a result, too. Returns the first status that is not OK. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -79,8 +79,8 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Returns the predicted time of a point, to be compared with other points of its problem, approximately in seconds: 100
- * ns per particle and step, more for long horizons, plus set-up, times the number of repetitions. */
+/* Returns the predicted time of a point, approximately in seconds, for comparison with other points of its problem:
+ * 100 ns per particle and step, more for long horizons, plus set-up, times the number of repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -90,8 +90,8 @@ static double work_of(const struct accuracy_point *p)
 }
 
 enum { PROBLEMS_MAX = 16 };
-/* Time of the points of each problem: measured so far [s]; predicted (work_of) of the finished points, and of all
- * that are to be run. */
+/* Times of the points of each problem. spent: measured so far [s]; done: predicted by work_of for the finished
+ * points; asked: predicted for all points that are to be run. */
 struct progress {
     double spent[PROBLEMS_MAX], done[PROBLEMS_MAX], asked[PROBLEMS_MAX];
 };
@@ -156,8 +156,8 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     return OK;
 }
 
-/* Writes table and charts of the cost-accuracy table from the results that are known, without runs; if there are none,
- * draws the charts of the stored table. Returns the first status that is not OK. */
+/* Writes tables and charts from the known results, without runs. If there are none, draws the charts of the stored
+ * table. Returns the first status that is not OK. */
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));

@@ -15,7 +15,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the horizon of a run over E G_c/strength^2 [1]. */
+/* Returns the horizon of a run over the characteristic length E G_c/strength^2 [1]. */
 static double relative_horizon(const struct circle_run *r)
 {
     const double length = CIRCLE_YOUNG * CIRCLE_TOUGHNESS / (CIRCLE_STRENGTH * CIRCLE_STRENGTH);
@@ -30,7 +30,7 @@ const char *circle_verdict(const struct circle_run *r)
     return fabs(r->found - c->expected) <= c->tolerance ? "holds" : "MISSED";
 }
 
-/* Prints a run beside what is asked of it, and adds it to its table. */
+/* Prints the measured value of a run beside the expected one, and adds it to its table. */
 static void circle_report(const struct circle_run *r)
 {
     const struct circle_case *c = r->of;
@@ -53,7 +53,7 @@ static status circle_take(void *row, const char *folder)
     return OK;
 }
 
-/* Prints the circles without a run, with the reasons. */
+/* Prints the problems for which there is no run, with the reasons. */
 static void reasons_print(void)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -74,7 +74,8 @@ struct circles {
     char scene[RUNS_MOST][PATH_LENGTH];
 };
 
-/* Writes the scene of a specimen unless it is a shipped one. Stores its path in path[PATH_LENGTH]. */
+/* Finds path[PATH_LENGTH], the scene file of a specimen. Writes the scene to the folder of c unless it is a shipped
+ * file. Returns FAILED if it cannot be written. */
 static status scene_prepare(const struct circles *c, const struct circle_specimen *s, char *path)
 {
     if (s->path) return snprintf(path, PATH_LENGTH, "%s", s->path), OK;
@@ -82,7 +83,8 @@ static status scene_prepare(const struct circles *c, const struct circle_specime
     return file_write_whole(path, s->text, strlen(s->text));
 }
 
-/* Replaces the body of a scene by a list of particles on a turned lattice. Writes the list. */
+/* Writes the particles of a run on a rotated lattice as a list, and adds overrides to *o that replace the body of
+ * the scene by this list. Returns FAILED if it cannot be written. */
 static status body_turn(const struct circles *c, const struct circle_run *r, struct bench_overrides *o)
 {
     const struct circle_specimen *s = &circle_specimen[r->of->specimen];
@@ -97,7 +99,8 @@ static status body_turn(const struct circles *c, const struct circle_run *r, str
     return OK;
 }
 
-/* Adds a run of a case at a spacing [mm], on a lattice turned by `degrees`. */
+/* Adds a run of the case `of` at a spacing [mm], on a lattice rotated by `degrees`, whose result goes to `table`.
+ * Returns FAILED if a file cannot be written. */
 static status circle_add(struct circles *c, const struct circle_case *of, double spacing, int degrees,
                          struct bench_table *table)
 {
@@ -115,7 +118,8 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
-/* Adds all runs; the coarsest of each lattice if `quick`. */
+/* Adds the runs of all cases; with `quick` only the coarsest one of each lattice. Returns FAILED if a file cannot be
+ * written. */
 static status circles_add(struct circles *c, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -128,7 +132,7 @@ static status circles_add(struct circles *c, bool quick, struct bench_table *tab
     return OK;
 }
 
-/* Prints how many figures miss what is asked of them. */
+/* Prints how many measured values are outside their tolerances. */
 static void missed_print(const struct circles *c)
 {
     int asked = 0, missed = 0;

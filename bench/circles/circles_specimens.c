@@ -23,8 +23,8 @@
 
 /* clang-format off */
 
-/* Pulled plates begin at 0.9 of the strain of their strength and are strained by half of it in 40 us, between grips
- * that do not break. */
+/* Scene of a strip under tension, and of further specimens with the same loading: they begin at 0.9 of the strain of
+ * their strength and are strained by half of it in 40 us, between grips that do not break. */
 static const char strip[] =
     "space: plane stress\nthickness: 1 mm\n" PULLED REACTION
     "variables: {h: 0.1 mm, e: 40 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us), nu: 1/3}\n"
@@ -59,7 +59,8 @@ static const char sheared[] =
     "  - {velocity: [-1.9 mm*rate, free], region: {box: {from: [1.8 mm, -2 mm], to: [2 mm, 2 mm]}}}\n"
     "  - {velocity: [1.9 mm*rate, free], region: {box: {from: [-2 mm, -2 mm], to: [-1.8 mm, 2 mm]}}}\n";
 
-/* The stress is that in the middle of a ball of glass in a cube. */
+/* Scene of a cube under equal triaxial tension. The stress is measured in the middle of a ball of glass inside the
+ * cube. */
 #define EQUAL(value) "[[" value ", 0, 0], [0, " value ", 0], [0, 0, " value "]]"
 static const char cube[] =
     "space: solid\n" PULLED "probes: [{point: {name: centre, at: [0, 0, 0]}}]\n"
@@ -71,7 +72,7 @@ static const char cube[] =
     "    region: [{all: true}, {subtract: {box: {from: [-0.6 mm, -0.6 mm, -0.6 mm], "
     "to: [0.6 mm, 0.6 mm, 0.6 mm]}}}]\n";
 
-/* Half of a strip with an edge notch: to 0.65 of the load P in 15 us, to 1.35 of it in 80 us more. */
+/* Scene of half a strip with an edge notch. The load grows to 0.65 P in 15 us and to 1.35 P in 80 us more. */
 #define RAMP "time: {table: [[0, 0], [15 us, 0.65], [95 us, 1.35]]}"
 static const char notch[] =
     "space: plane stress\nthickness: 1 mm\nduration: 95 us\nmethod: pd\ndamping: 1.5e6\n"
@@ -87,8 +88,8 @@ static const char notch[] =
 #define LOWER_LOAD \
     "{body_force: [0, -P/(0.5 mm)], region: {box: {from: [0, -6 mm], to: [5 mm, -5.5 mm]}}, " RAMP "}"
 
-/* Half of a strip 5 mm high with a long crack, which grows 0.025 mm in each load step. Its grip is strained like the
- * strip, which clamps its face exactly. */
+/* Scene of pure shear: half of a strip 5 mm high with a long crack, which grows by 0.025 mm in each load step. The
+ * grip is strained like the strip, so that it clamps the face of the strip exactly. */
 static const char pure_shear[] =
     "space: plane stress\nthickness: 1 mm\n" STATIC
     "steps: {number: 32, control: energy, energy: 0.125 uJ}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
@@ -99,7 +100,8 @@ static const char pure_shear[] =
     "    region: {box: {from: [0, 2.5 mm], to: [30 mm, 4 mm]}}\n    time: {ramp: {until: 1 s}}\n"
     "  - {mirror: {axis: y, at: 0}}\n";
 
-/* Half of a double cantilever beam: 55 x 20 x 2.5 mm, a crack of 25 mm from the line of the loads. */
+/* Scene of a double cantilever beam, of which one half is computed: 55 x 20 x 2.5 mm, with a crack of 25 mm measured
+ * from the line of the loads. */
 static const char cantilever[] =
     "space: plane strain\nthickness: 2.5 mm\n" STATIC
     "steps: {number: 24, control: energy}\nparticles: {spacing: h}\nvariables: {h: 0.1 mm}\n"
@@ -128,8 +130,8 @@ static double column_peak(const char *folder, const char *column)
     return peak;
 }
 
-/* Returns the share of P at which the load of a notched strip is when a column first exceeds `limit` [1]; NAN if it
- * never does. */
+/* Returns the load of a notched strip, over P, when the column `column` of the history first exceeds `limit` [1];
+ * NAN if it does not. */
 static double load_share(const char *folder, const char *column, double limit)
 {
     struct history h;
@@ -142,19 +144,19 @@ static double load_share(const char *folder, const char *column, double limit)
     return share;
 }
 
-/* Returns the mean stress across the middle of a body when it is largest [MPa]. */
+/* Returns the largest mean stress across the middle of a body during the run [MPa]. */
 static double stress_peak(const char *folder, const struct circle_run *r)
 {
     return column_peak(folder, "reaction.force_y") / circle_specimen[r->of->specimen].area / 1e6;
 }
 
-/* Returns the stress in the middle of a body when it is largest [MPa]. */
+/* Returns the largest stress in the middle of a body during the run [MPa]. */
 static double centre_peak(const char *folder, const struct circle_run *r)
 {
     return (void)r, column_peak(folder, "centre.stress_yy") / 1e6;
 }
 
-/* Returns the load of a notched strip at which the crack has run 0.5 mm [MPa]. */
+/* Returns the load of a notched strip at which the crack has grown by 0.5 mm [MPa]. */
 static double notch_load(const char *folder, const struct circle_run *r)
 {
     struct history h;
@@ -164,8 +166,8 @@ static double notch_load(const char *folder, const struct circle_run *r)
     return r->of->expected * load_share(folder, "tip.x", tip + 0.5e-3);
 }
 
-/* Returns the load at which the energy of 0.5 mm of crack has been dissipated [MPa], as bodies with a notch that hardly
- * weakens them break in any place. */
+/* Returns the load at which the energy of a crack of 0.5 mm has been dissipated [MPa]. It serves for notches so
+ * short that the body may break anywhere. */
 static double short_notch_load(const char *folder, const struct circle_run *r)
 {
     const double halves = r->degrees ? 2 : 1;
@@ -178,7 +180,7 @@ static double steps_load(const char *folder, const struct circle_run *r)
     return (void)r, CIRCLE_STRENGTH / 1e6 * column_peak(folder, "load_time");
 }
 
-/* Returns the opening at which the crack runs, mean over the second half of the load steps [um]. */
+/* Returns the opening at which the crack grows: the mean over the second half of the load steps [um]. */
 static double shear_opening(const char *folder, const struct circle_run *r)
 {
     struct history h;

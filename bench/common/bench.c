@@ -11,7 +11,8 @@ struct bench {
     const char *what;
 };
 
-/* Benches in the order in which they run: kernels first, while the process is small. NAME=PART: also run with NAME. */
+/* Benches in the order in which `all` runs them: kernels first, while the process is small. An entry NAME=PART is a
+ * part of the bench NAME and also runs with it. */
 /* clang-format off */
 static const struct bench benches[] = {
     {"kernels", bench_kernels, false, "time of every kernel beside the limits of the machine"},
@@ -40,13 +41,14 @@ static const struct bench benches[] = {
 /* clang-format on */
 enum { BENCHES = COUNT_OF(benches) };
 
-/* Names used in earlier versions. */
+/* Names that benches had in earlier versions. */
 static const struct {
     const char *old, *name;
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
-/* Prefixes of arguments that select a part of a bench. `accuracy=NAME`: a single problem, or another argument of
- * bench_accuracy_of; `stability=lasting`, or a part of the name of a case: only the long map of that bench. */
+/* Beginnings of arguments that select a part of a bench. After `accuracy=`: the name of a problem, or another
+ * argument of bench_accuracy_of. After `stability=`: `lasting`, or a part of the name of a case, of which only the
+ * long map is then made. */
 static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
 
 static status bench_mark(const char *word, bool *asked)
@@ -68,8 +70,8 @@ static status bench_mark(const char *word, bool *asked)
                       word);
 }
 
-/* Runs one bench. quick: smaller cases; readme: its output and tables are also written to bench/results. FAILED or
- * REFUSED if the bench is, or if files cannot be written. */
+/* Runs bench b. quick: true for smaller cases; readme: true to write its output and tables also to bench/results.
+ * Returns FAILED or REFUSED if the bench does, or if files cannot be written. */
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
     struct bench_results r;

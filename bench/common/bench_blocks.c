@@ -20,8 +20,8 @@ const struct bench_block bench_blocks[BENCH_BLOCKS] = {
     {"adaptive reference", 3, "adaptive", "reference"},
 };
 
-/* Writes the crack of a block through half of it and, for the adaptive method, a peridynamic region around it, a tenth
- * of the volume. Writes nothing for the method mpm. edge: of the block [m]. */
+/* Writes the scene keys for the crack through half of a block and, with the adaptive method, for a peridynamic
+ * region around it, a tenth of the volume. Writes nothing with method mpm. edge: of the block [m]. */
 static void block_parts(FILE *to, const struct bench_block *b, double edge)
 {
     const double low = 0.45 * edge, high = 0.55 * edge, middle = 0.5 * edge;
@@ -46,9 +46,9 @@ static int64_t edge_of_block(const struct bench_block *b, double particles)
 }
 
 /* Writes the scene of a block for timing. particles: approximate number; steps, frames: numbers of time steps and of
- * frames. Every particle moves, because particles at rest may be skipped; displacements stay small, with 1 m/s at the
- * farthest corner. Cells of the reference frame have two spacings everywhere: with levels of coarse cells a run ends
- * only at steps at which all levels have one time, and parts of it could not be timed. */
+ * frames. Every particle moves, because particles at rest may be skipped; displacements stay small, with 1 m/s at
+ * the farthest corner. All cells of the reference frame have two spacings: with coarser cells a run could only be
+ * stopped at steps at which the levels of cells have one time, and parts of it could not be timed. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;

@@ -9,8 +9,8 @@
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Starts the run of a job as a separate process, *child, on the given number of threads. FAILED if no process can be
- * started. */
+/* Starts the run of a job as a separate process on `threads` threads. child: receives the process. Returns FAILED if
+ * no process can be started. */
 static status job_start(struct bench_job *job, struct bench_child *child, int threads)
 {
     return bench_child_start(child, job->path, bench_overrides_ready(&job->overrides), job->overrides.n, threads);
@@ -49,8 +49,8 @@ double bench_summary_figure(const char *folder, const char *key)
 
 /* ---- goals ------------------------------------------------------------------------------------------------------- */
 
-/* Adds a goal to the table *t. unit: of the printed values; measured: measured value; asked: largest value that meets
- * the goal; name: format of printf for the name. */
+/* Adds a goal to the table *t. unit: of the values that are printed; measured: measured value; asked: largest value
+ * with which the goal is reached; name: name of the goal, a format of printf with its arguments. */
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
 {
     va_list more;
@@ -89,8 +89,8 @@ static status goals_write(const char *name, const struct bench_goals *t)
     return s;
 }
 
-/* Sends gnuplot commands that draw a bar with measured over required value for each goal. context: struct
- * bench_goals. */
+/* Sends gnuplot commands that draw a bar for each goal: measured value over the largest value that meets the goal.
+ * context: a struct bench_goals. */
 static void goals_draw(FILE *to, const void *context)
 {
     const struct bench_goals *t = context;

@@ -108,7 +108,7 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
 }
 
 /* Checks that neither results nor results/bench is a symbolic link, through which files would be written elsewhere.
- * REFUSED if one is. */
+ * Returns REFUSED if one is. */
 static status bench_folder_guard(void)
 {
     static const char *const folder[] = {"results", BENCH_FOLDER};
@@ -127,8 +127,8 @@ status bench_folder_make(void)
     return OK;
 }
 
-/* Composes in text[room] the first bytes of the file NAME.json with NAME = name, by which the files of a bench are
- * recognised. */
+/* Composes text[room], the first bytes of the file NAME.json of a bench, by which such files are recognised. name:
+ * NAME. */
 static void json_begin(char *text, size_t room, const char *name)
 {
     snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
@@ -154,8 +154,8 @@ status bench_guard(const char *name)
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }
 
-/* Writes the file of results `path`: the JSON of all tables table[tables] if `json`, the name of the bench, is not
- * NULL, else the CSV of one table. FAILED if it cannot be written. */
+/* Writes the file of results `path`. If `json`, the name of the bench, is not NULL: all tables table[tables] as
+ * JSON; else table[0] as CSV. Returns FAILED if it cannot be written. */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
     char *text = NULL;
@@ -197,8 +197,8 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Draws results/bench/NAME.png and NAME.svg, with NAME = name, with the commands that draw(to, context) sends to
- * gnuplot. width, height: size [pixel]. FAILED if gnuplot fails. */
+/* Draws the pictures results/bench/NAME.png and NAME.svg. name: NAME; width, height: size [pixel]. draw(to, context)
+ * must send the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
 {

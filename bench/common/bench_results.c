@@ -15,7 +15,7 @@
 
 #define RESULTS "bench/results"
 
-/* Longest table that is kept [lines]. */
+/* Largest number of lines of a table that is stored in bench/results. */
 enum { LINES_MAX = 250 };
 
 /* ---- head -------------------------------------------------------------------------------------------------------- */
@@ -30,8 +30,8 @@ static void commit_name(char *name, size_t size)
     name[strcspn(name, "\n")] = '\0';
 }
 
-/* Composes the lines that precede the results of the bench `name` in head[size]: command, date, commit, processor,
- * compiler, kernels. quick: the bench runs with --quick. */
+/* Composes head[size], the lines that precede the results of the bench `name`: command, date, commit, processor,
+ * compiler and kernels. quick: true if the bench runs with --quick. */
 static void results_head(char *head, size_t size, const char *name, bool quick)
 {
     const struct machine m = machine_properties();
@@ -64,7 +64,7 @@ static char *text_of(FILE *from)
 }
 
 /* Writes the file bench/results/FILE, which consists of `head` and `text`, under a temporary name and renames it.
- * FAILED if it cannot be written. */
+ * Returns FAILED if it cannot be written. */
 static status results_put(const char *file, const char *head, const char *text)
 {
     char path[256], *whole = NULL;
@@ -80,7 +80,7 @@ static status results_put(const char *file, const char *head, const char *text)
 }
 
 /* Writes the output that a bench has printed to bench/results/NAME.txt. An equals sign in the name becomes an
- * underscore. FAILED if it cannot be written. */
+ * underscore. Returns FAILED if it cannot be written. */
 static status printed_put(const struct bench_results *r, const char *name, const char *printed)
 {
     char file[64], *equals;
@@ -92,7 +92,7 @@ static status printed_put(const struct bench_results *r, const char *name, const
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* The head of tables that are kept, or "" while none is kept. */
+/* The lines that precede tables stored in bench/results; "" while tables are not stored. */
 static char table_head[1024];
 
 status bench_results_table(const char *file, const char *text)
@@ -106,7 +106,7 @@ status bench_results_table(const char *file, const char *text)
 /* ---- standard output --------------------------------------------------------------------------------------------- */
 
 /* Begins to collect what the bench `name` prints and the tables that it writes. quick: the bench runs with --quick.
- * REFUSED outside a source tree, FAILED if no temporary file can be created. */
+ * Returns REFUSED outside a source tree, FAILED if no temporary file can be created. */
 status bench_results_begin(struct bench_results *r, const char *name, bool quick)
 {
     if (!path_exists("bench"))

@@ -5,15 +5,15 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Returns the factor f(x) of a compact-tension specimen, K = P f/(B W^(1/2)), from ASTM E399-20, A4.5. x = a/W: crack
- * length over width. */
+/* Returns the factor f(x) of a compact-tension specimen of thickness B under the load P, K = P f/(B W^(1/2)) (ASTM
+ * E399-20, A4.5). x = a/W: crack length over width. */
 static double compact_tension(double x)
 {
     return (2 + x) * (0.886 + 4.64 * x - 13.32 * x * x + 14.72 * x * x * x - 5.6 * x * x * x * x) / pow(1 - x, 1.5);
 }
 
-/* Returns the factor f(x) of a three-point bend specimen with span S = 4 W, K = P S f/(B W^(3/2)), from ASTM E399-20,
- * A3.5. x = a/W: crack length over width. */
+/* Returns the factor f(x) of a three-point bend specimen of thickness B and span S = 4 W under the load P, K = P S
+ * f/(B W^(3/2)) (ASTM E399-20, A3.5). x = a/W: crack length over width. */
 static double three_point_bend(double x)
 {
     return 3 * sqrt(x) * (1.99 - x * (1 - x) * (2.15 - 3.93 * x + 2.7 * x * x)) / (2 * (1 + 2 * x) * pow(1 - x, 1.5));
@@ -35,9 +35,9 @@ static double edge_bending(double x)
     return sqrt(tan(t) / t) * (0.923 + 0.199 * pow(1 - sin(t), 4)) / cos(t);
 }
 
-/* Returns the factor F(x) of an edge crack between grips that do not rotate, K = force/(B W) (pi a)^(1/2) F. x = a/W:
- * crack length over width; slenderness: H/W. The grips exert a moment that cancels the rotation caused by the crack;
- * both rotations follow from the energy of the crack (Castigliano). */
+/* Returns the factor F(x) of an edge crack between grips that do not rotate, K = force/(B W) (pi a)^(1/2) F. x =
+ * a/W: crack length over width; slenderness: H/W, height over width. The grips exert a moment that cancels the
+ * rotation caused by the crack; both rotations follow from the energy of the crack (Castigliano). */
 static double edge_in_grips(double x, double slenderness)
 {
     enum { PARTS = 400 };
@@ -66,9 +66,9 @@ double specimen_load(const struct specimen *s, double a)
     return s->thickness * K * sqrt(pow(s->width, 3) / 12) / (a + 0.673 * s->width);
 }
 
-/* Angle of the chord after increments of 2 mm in the direction of the largest hoop stress [degree], with
- * stress-intensity factors from quadratic finite elements of 0.1 mm at the tip; for a central notch these deviate by
- * 0.4 % from ASTM E399. */
+/* Angle between the pre-crack and the line from its end to the crack tip, after increments of 2 mm in the direction
+ * of the largest hoop stress [degree]. The stress-intensity factors are from quadratic finite elements of 0.1 mm at
+ * the tip; for a central notch these deviate by 0.4 % from ASTM E399. */
 static const double chord_step = 2e-3, chord[] = {14.66, 15.0, 15.13, 15.12, 15.0, 14.77, 14.44, 14.01, 13.49, 12.88};
 
 double bend_chord(double length)

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* Returns the spatial part of component a of the manufactured motion at X [m]: sin(k x_a) times cos(k x_b) of all other
- * axes b, k = 2 pi/L. If slope >= 0, returns its derivative along the axis `slope`, divided by k. */
+/* Returns the spatial part of component a of the manufactured motion at X [m]: sin(k x_a) times cos(k x_b) of all
+ * other axes b, with k = 2 pi/L. If slope >= 0, returns its derivative along the axis `slope`, divided by k. */
 static real mode(const struct manufactured *m, const real *X, int a, int slope)
 {
     const real k = 2 * M_PI / m->length;
@@ -20,7 +20,7 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
 }
 
 /* Computes the amplitudes of component a of the body force that the manufactured motion requires [N/m^3]: *steady of
- * its constant part, *beat of its part proportional to sin^2(pi t/T). */
+ * its constant part, *beat of its part proportional to sin^2(pi t/T), with the period T. */
 static void manufactured_forces(const struct manufactured *m, int a, real *steady, real *beat)
 {
     const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);
@@ -52,8 +52,8 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
 }
 
 /* Writes one plane wave of the body force as an entry of `boundary` in a scene. The spatial part of the force, a
- * product of a sine and cosines, is the mean of 2^(dim - 1) such waves. sign[dim]: direction of the wave, 1 or -1 per
- * axis; beats: the part proportional to sin^2(pi t/T), else the constant part. */
+ * product of a sine and cosines, is the mean of 2^(dim - 1) such waves. sign[dim]: direction of the wave, 1 or -1
+ * per axis; beats: true for the part proportional to sin^2(pi t/T), false for the constant part. */
 static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bool beats)
 {
     const int waves = 1 << (m->dim - 1);

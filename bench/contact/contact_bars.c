@@ -48,9 +48,9 @@ static status bars_run(struct run *e, struct contact_course *seen)
     return report_end(e);
 }
 
-/* Runs two equal bars with opposite velocities that collide. given[] of the case: length [spacings], length, speed
- * [wave speeds]. figure[0..2]: relative velocity afterwards, duration of contact and largest force, each over the exact
- * value; figure[3]: largest energy error. FAILED if a step fails. */
+/* Runs two equal bars with opposite velocities that collide. given[] of the case: length, length [spacings], speed
+ * [wave speeds]. figure[0..2]: relative velocity afterwards, duration of contact and largest force, each over the
+ * exact value; figure[3]: largest energy error [1]. Returns FAILED if a step fails. */
 status contact_bars(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -69,9 +69,9 @@ status contact_bars(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths [spacings], speed [wave speeds].
- * figure[0], figure[1]: velocities of the two bars afterwards over the initial velocity, exactly 0 and 1/2; figure[2]:
- * largest energy error. FAILED if a step fails. */
+/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths [spacings], speed [wave
+ * speeds]. figure[0], figure[1]: velocities of the two bars afterwards over the initial velocity, exactly 0 and 1/2;
+ * figure[2]: largest energy error. Returns FAILED if a step fails. */
 status contact_striker(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -90,8 +90,8 @@ status contact_striker(const struct contact_case *c, double *figure)
 }
 
 /* Runs a plane bar that bounces given[1] times between two fixed walls, with gaps of 5 spacings in all. The bar has
- * given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. figure[0], figure[1]: largest errors of energy
- * and of momentum [1]. FAILED if a step fails. */
+ * given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. figure[0], figure[1]: largest errors of
+ * energy and of momentum [1]. Returns FAILED if a step fails. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -6,9 +6,9 @@
 #define BOTH(...)                                                                                                      \
     {.law = "surface", __VA_ARGS__}, { .law = "pair", __VA_ARGS__ }
 
-/* Cases of two equal bars of n particles at v wave speeds, one for each contact law. least: required restitution;
- * longest: duration over 2 L/c; short_: known to miss them. The restitution grows with the number of particles: bars of
- * 200 particles with softer contact do not reach 0.99. */
+/* Cases of two equal bars of n particles that collide at v wave speeds, one case for each contact law. least:
+ * required restitution; longest: largest duration over 2 L/c; short_: true if the case is known to miss these. The
+ * restitution grows with the number of particles: bars of 200 particles with softer contact do not reach 0.99. */
 #define BARS(n, v, least, longest, short_)                                                                             \
     BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v},            \
          .falls_short = short_,                                                                                        \
@@ -81,9 +81,9 @@
     SLOPE(0.2, 0, rigid, on), SLOPE(0.4, 0, rigid, on), SLOPE(0.7, 0, rigid, on), SLOPE(0.2, 0.3, rigid, on),          \
         SLOPE(0.4, 0.3, rigid, on), SLOPE(0.7, 0.3, rigid, on), SLOPE(0.7, 10, rigid, on)
 
-/* Case of two discs of radius R spacings and v wave speeds that collide without friction, with an impact parameter of b
- * radii. turn: rotation of the lattice against the line of centres [rad]; 0: velocities are along the lattice. short_:
- * known to miss the required ranges. */
+/* Case of two discs of radius R spacings that collide at v wave speeds without friction, with an impact parameter of
+ * b radii. turn: rotation of the lattice against the line of centres [rad]; with 0 the velocities are along the
+ * lattice. short_: true if the case is known to miss the required ranges. */
 #define DISCS(law_, R, v, b, turn, short_)                                                                             \
     {                                                                                                                  \
         .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs,           \

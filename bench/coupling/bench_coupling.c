@@ -55,7 +55,7 @@ static status bar_add(struct bar_table *t, struct bar_run r)
 }
 
 /* Runs the bar with all couplings and several widths of the pulse, with the interface on a grid node, and adds the
- * results to the table. quick: fewer widths. FAILED or REFUSED if a run is. */
+ * results to the table. quick: true for fewer widths. Returns FAILED or REFUSED if a run does. */
 static status measure_pulses(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant < VARIANTS; variant++)
@@ -67,7 +67,7 @@ static status measure_pulses(struct bar_table *t, bool quick)
 enum { PLACES = 4 };
 
 /* Runs the bar with partial stress and handshake for several positions of the interface in its grid cell of two
- * spacings, and adds the results to the table. quick: fewer widths of the pulse. FAILED if a run fails. */
+ * spacings, and adds the results to the table. quick: fewer widths of the pulse. Returns FAILED if a run fails. */
 static status measure_places(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
@@ -81,9 +81,9 @@ static status measure_places(struct bar_table *t, bool quick)
     return OK;
 }
 
-/* Runs the bar with partial stress and handshake with one particle per cell, and with the transfer APIC, and adds the
- * results to the table. The coupling without damping is left out with APIC, since only FLIP damps the interface. quick:
- * fewer combinations. FAILED if a run fails. */
+/* Runs the bar with partial stress and handshake with one particle per cell, and with the transfer APIC, and adds
+ * the results to the table. The coupling without damping is left out with APIC, since only FLIP damps the interface.
+ * quick: fewer combinations. Returns FAILED if a run fails. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct {
@@ -112,8 +112,8 @@ static double share_of(const struct pulse_result *r, int share)
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;
 }
 
-/* Prints a line for each coupling with its results for all widths of the pulse side by side. Runs of one coupling must
- * be consecutive in the table. */
+/* Prints a line for each coupling with its results for all widths of the pulse. Runs of one coupling must be
+ * consecutive in the table. */
 static void print_pulses(const struct bar_table *t)
 {
     static const char *const format[SHARES] = {" %7.2f", " %7.1f", " %+7.2f"};
@@ -165,7 +165,7 @@ static void print_variants(const struct bar_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Appends reflected and transmitted amplitude and change of energy to a row of a table. */
+/* Appends reflected amplitude, transmitted amplitude and change of energy to a row of the table `rows`. */
 static void fill_result(struct bench_table *rows, const struct pulse_result *r)
 {
     bench_number(rows, r->reflected);
@@ -207,8 +207,8 @@ static status coupling_write_tables(const struct coupling_figures *all)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Runs all parts of the bench, prints their results and writes tables and pictures. REFUSED if the scene files are
- * missing, FAILED if a run or a file fails. quick: fewer runs. */
+/* Runs all parts of the bench, prints their results and writes tables and pictures. Returns REFUSED if the scene
+ * files are missing, FAILED if a run or a file fails. quick: fewer runs. */
 static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))

@@ -27,7 +27,7 @@ static const char *const variant_title[VARIANTS] = {
     [VARIANT_PGG] = "pgg",
 };
 
-/* Begins one of four panels of the picture, at column and row 0 or 1, with its key on the right. */
+/* Begins one of four panels of the picture, with its key on the right. column, row: its position, each 0 or 1. */
 static void coupling_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.055 + 0.5 * column, above = 0.945 - 0.5 * row;
@@ -120,8 +120,8 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Sends a line of data for bar number `member` of the `members` bars of a group: its position, its height `largest`,
- * and the height `on_node` of a line across it. */
+/* Sends the data of bar number `member` of the `members` bars in a group: its position, its height `largest`, and
+ * the height `on_node` at which a line crosses it. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);

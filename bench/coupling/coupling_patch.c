@@ -5,8 +5,8 @@
 
 #include "coupling.h"
 
-/* Scenes. All nodes and peridynamic particles far from the edges are measured. Bonds stretch with finite deformation,
- * so that the strain used limits the resolution to 1e-6. */
+/* Scenes of the patch test. All nodes, and all peridynamic particles far from the edges, are measured. Bonds stretch
+ * with finite deformation, so that the strain used limits the resolution to 1e-6. */
 static const char line_text[] = "space: line\n"
                                 "duration: 1 us\n"
                                 "material: {young: 1e4, density: 1}\n"

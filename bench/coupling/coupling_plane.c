@@ -36,8 +36,8 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* Creates the run e of the strip s with the settings of a row of results. A negative row->variant means material points
- * only, without interface. FAILED or REFUSED if the scene cannot be read. */
+/* Creates the run e of the strip s with the settings of a row of results. A negative row->variant means material
+ * points only, without interface. Returns FAILED or REFUSED if the scene cannot be read. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
@@ -68,8 +68,8 @@ struct plain {
 };
 
 /* Runs the strip s without interface and stores its final velocities and energy change in b. All runs number the
- * particles alike, so that they can be compared one by one. row: settings of the run. FAILED if a step fails. Release b
- * with plain_free. */
+ * particles alike, so that they can be compared one by one. row: settings of the run. Returns FAILED if a step
+ * fails. Release b with plain_free. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct run e;
@@ -99,9 +99,9 @@ static double beyond(const struct strip *s, const struct particles *p, int64_t i
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x BLOCK
- * particles away from the interface [m/s]. A mean over two cells can travel as a wave, whereas the grid does not
- * resolve single particles. */
+/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x
+ * BLOCK particles away from the interface [m/s]. Means are compared, since the grid does not resolve single
+ * particles: only a mean over two cells can travel as a wave. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
@@ -120,8 +120,8 @@ static double largest_block(const struct strip *s, const struct particles *p, co
 }
 
 /* Computes reflected and transmitted velocity and energy change of the run e, from its difference from the run b
- * without interface, and stores them in r. Near the interface only particles behind the pulse count, because inside the
- * pulse the two sides differ by their dispersion. */
+ * without interface, and stores them in *r. Near the interface only particles behind the pulse are used, because
+ * inside the pulse both sides differ by their dispersion. */
 static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {
@@ -152,9 +152,9 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     return ran;
 }
 
-/* Runs the strip with all couplings and weights of bonds, after one run without interface, and adds the results to the
- * table. interface: index of the interface's direction; width: of the pulse [spacings]; transfer: flip or apic. FAILED
- * if a run fails. */
+/* Runs the strip with all couplings and weights of bonds, after one run without interface, and adds the results to
+ * the table. interface: index of the interface's direction; width: of the pulse [spacings]; transfer: flip or apic.
+ * Returns FAILED if a run fails. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {
     static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};

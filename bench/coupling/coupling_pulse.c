@@ -6,7 +6,8 @@
 #include "plot/gnuplot.h"
 #include "base/memory.h"
 
-/* Times and couplings that are drawn; factor on the differences; width of the pulse [mm]. */
+/* TIMES, COLUMNS: numbers of times and couplings that are drawn; MAGNIFIED: factor on the differences; WIDTH: of the
+ * pulse [mm]. */
 enum { TIMES = 3, COLUMNS = 2, MAGNIFIED = 20, WIDTH = 64 };
 static const int column_variant[COLUMNS] = {VARIANT_HANDSHAKE, VARIANT_DAMPED};
 static const double time_ms[TIMES] = {1.28, 2.56, 3.84}; /* pulse 128 mm before, at and 128 mm beyond the interface */
@@ -34,8 +35,8 @@ static status pulse_bar_make(struct run *e, struct scene *s, int variant)
     return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_ready(&o), o.n);
 }
 
-/* Stores positions, velocities and velocity differences from the bar without interface in *shot, in mm. p, plain:
- * particles of the two bars, which are numbered alike. */
+/* Stores positions [mm], velocities and velocity differences from the bar without interface [mm/s] in *shot. p,
+ * plain: particles of the bars with and without interface, which are numbered alike. */
 static void coupling_pulse_take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
 {
     shot->x = NEW("bench.snapshot", p->n, double);
