@@ -25,7 +25,8 @@ enum {
 enum loop_part { PART_BONDS, PART_POINTS, PART_CONVERSION, PART_SAMPLES, PARTS };
 static const char *const part_name[PARTS] = {"bonds", "points", "conversion", "samples"};
 
-/* Times of the runs of one variant; results on cracks are equal in every repetition. */
+/* Times of the runs of one variant, and what is equal in all repetitions: ends of the cracks, and the share of
+ * peridynamic particles over time. */
 struct run_times {
     double seconds[REPETITIONS];
     double part[PARTS][REPETITIONS]; /* part of these, for each section of a step [s] */
@@ -61,11 +62,11 @@ static status make(struct run *e, struct scene *s, const struct result *x, int v
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of peridynamic particles in a run [1]. */
+/* Returns the number of peridynamic particles in a run over that of all particles [1]. */
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
 /* Runs a scene in SAMPLES pieces and stores in r the time and the share of peridynamic particles after each of them.
- * FAILED if a step fails. */
+ * Returns FAILED if a step fails. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -114,9 +115,9 @@ static status run_shares(struct result *x, int variant)
 
 /* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
-/* Compares the end of the longest crack of full peridynamics with the corresponding crack of an adaptive run. variant:
- * index of the adaptive run; dim: dimension of the scene. Stores in x the differences of start time, position and
- * angle; the latter two are NAN without a crack. */
+/* Compares the end of the longest crack of full peridynamics with the crack of an adaptive run that ends nearest to
+ * it. variant: index of the adaptive run; dim: dimension of the scene. Stores the differences of start time, tip
+ * position and angle in *x; the latter two are NAN without a crack. */
 static void compare_tips(struct result *x, int variant, int dim)
 {
     const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;
@@ -131,8 +132,8 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Returns the median of the loop times without the time of one part, such as samples or conversion, over the
- * repetitions of a run [s]. */
+/* Returns the median over the repetitions of a run of the loop time without the part `part`, such as samples or
+ * conversion [s]. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
@@ -189,8 +190,9 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* Writes into text[room] the part of the loop that takes most time in an adaptive run, with its time over t_PD, and
- * returns text. Returns "" if the run saves as much time as required. variant: index of the adaptive run. */
+/* Finds the part of the loop that takes most time in an adaptive run, writes its name and its time over that of full
+ * peridynamics to text[room], and returns text. Returns "" if the run saves as much time as required. variant: index
+ * of the adaptive run. */
 static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
@@ -302,7 +304,7 @@ static status efficiency_write_tables(const struct efficiency *all)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Least t_r drawn: losses far below -1 would compress the rest of the picture. */
+/* Smallest t_r = 1 - t_adaptive/t_PD that is drawn. Values far below -1 would compress the rest of the picture. */
 #define T_R_LEAST -1.0
 
 static void draw_bars(FILE *to, const struct efficiency *all)
@@ -394,8 +396,8 @@ static void efficiency_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all scenes that exist, prints a line for each adaptive variant, and writes tables and picture. REFUSED if no
- * scene exists, FAILED if a run or a file fails. quick: only short scenes, once each. */
+/* Measures all scenes that exist, prints a line for each adaptive variant, and writes tables and picture. Returns
+ * REFUSED if no scene exists, FAILED if a run or a file fails. quick: only short scenes, once each. */
 static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
     const int repetitions = quick ? 1 : REPETITIONS;

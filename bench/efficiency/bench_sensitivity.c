@@ -12,13 +12,13 @@
 #include "fracture/tips.h"
 #include "scene/scene_read.h"
 
-/* Numbers of time steps, without and with --quick; number of methods. */
+/* STEPS, STEPS_QUICK: numbers of time steps without and with --quick; METHODS: number of methods. */
 enum { STEPS = 9, STEPS_QUICK = 3, METHODS = 2 };
 #define STEP_RANGE 0.1 /* the time steps lie within this share of the scene's own */
 static const int variant_of[METHODS] = {VARIANT_PD, VARIANT_FRAME};
 
-/* State of the observed crack at the end of a run: time step dt and start time [s], angle [degree], position of the tip
- * [m]. */
+/* Crack that is compared at the end of a run with the time step dt [s]: start time [s], angle [degree] and position
+ * of the tip [m]. */
 struct end {
     double dt, start, angle;
     real place[DIM_MAX];
@@ -51,8 +51,8 @@ static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run 
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs a scene with one method and the time step dt [s], and stores the ends of its cracks in *ends. FAILED if a step
- * fails. method: index of the method. */
+/* Runs a scene with one method and the time step dt [s], and stores the ends of its cracks in *ends. Returns FAILED
+ * if a step fails. method: index of the method. */
 static status sensitivity_run_once(struct scatter *x, int method, double dt, struct crack_ends *ends)
 {
     struct scene s;
@@ -65,8 +65,8 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     return ran;
 }
 
-/* Runs the scene of x with both methods and all time steps around dt [s]. Stores start, position and angle of one crack
- * per run: the crack that ends nearest to the longest crack of the first run. FAILED if a step fails. */
+/* Runs the scene of x with both methods and all time steps around dt [s]. Stores start, position and angle of one
+ * crack per run: the crack that ends nearest to the longest crack of the first run. Returns FAILED if a step fails. */
 static status sensitivity_run_all(struct scatter *x, double dt)
 {
     struct crack_ends *ends = NEW("bench.ends", 2, struct crack_ends);
@@ -194,7 +194,7 @@ static void sensitivity_draw(FILE *to, const void *context)
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 /* Runs a scene with all time steps and both methods, and computes the scatter of its crack ends. quick: fewer time
- * steps. FAILED if a run fails. */
+ * steps. Returns FAILED if a run fails. */
 static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;

@@ -14,7 +14,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if an experiment or another code requires a range for the result r. */
+/* Returns true if an experiment or another code gives a range in which the result r must be. */
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
 static bool experiment_is_held(const struct experiment_row *r) { return r->value >= r->low && r->value <= r->high; }
@@ -75,8 +75,8 @@ void experiment_curve_add(struct experiment_curve *c, double x, double y, double
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results and the curves of the bench as the tables experiments.csv and experiments_curves.csv. FAILED if a
- * file cannot be written. */
+/* Writes the results and the curves of the bench as the tables experiments.csv and experiments_curves.csv. Returns
+ * FAILED if a file cannot be written. */
 static status experiments_write(const struct experiments *x)
 {
     struct bench_table t[2];

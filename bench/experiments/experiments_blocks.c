@@ -9,16 +9,16 @@
 
 /* ---- the beam of John & Shah 1990 -------------------------------------------------------------------------------- */
 
-/* The notch of John & Shah is at gamma times half the span from the middle. For gamma above 0.77 the beam broke in its
- * middle. */
+/* Data of the beam of John & Shah (1990). Its notch is gamma times half the span from the middle; for gamma above
+ * 0.77 the beam broke in its middle. */
 #define JOHN_SHAH "John & Shah 1990"
 #define HALF_SPAN 101.6 /* [mm] */
 #define NOTCH_END 19.0  /* [mm] */
 enum { BEAM_BISECTIONS = 6, BEAM_STEPS = 3 };
 
 /* Runs the notched beam of John & Shah (1990) and sets *middle to true if a crack grows from its lower side near the
- * middle. gamma: distance of the notch from the middle over half the span; safety: fraction of the critical time step;
- * spacing [mm]. FAILED if the run fails. */
+ * middle. gamma: distance of the notch from the middle over half the span; safety: fraction of the critical time
+ * step; spacing [mm]. Returns FAILED if the run fails. */
 static status beam_middle(double gamma, double safety, double spacing, bool *middle)
 {
     struct run e;
@@ -41,8 +41,8 @@ static status beam_middle(double gamma, double safety, double spacing, bool *mid
 }
 
 /* Determines by bisection the position gamma of the notch above which the beam of John & Shah (1990) breaks in its
- * middle; NAN if it is not between 0.6 and 0.98. safety: fraction of the critical time step; spacing [mm]. FAILED if a
- * run fails. */
+ * middle; NAN if it is not between 0.6 and 0.98. safety: fraction of the critical time step; spacing [mm]. Returns
+ * FAILED if a run fails. */
 static status beam_change(double safety, double spacing, double *gamma)
 {
     double low = 0.6, high = 0.98;
@@ -103,8 +103,8 @@ status experiments_beam(struct experiments *x)
 #define DISC_CLOSED "2 P/(pi D t)"
 
 /* Returns the horizontal stress in the middle of a compressed disc over 2 P/(pi D t), with load P, diameter D and
- * thickness t, averaged from 0.7 of the time of the first break to that time. folder: of the run. NAN if the results
- * cannot be read. */
+ * thickness t: the mean from 0.7 of the time of the first break to that time. folder: of the run; spacing: not used.
+ * Returns NAN if the results cannot be read. */
 static double disc_stress(const char *folder, double spacing)
 {
     struct history h;
@@ -123,8 +123,9 @@ static double disc_stress(const char *folder, double spacing)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Returns the largest load on a compressed disc over (pi D t/2) E s_c, the load at the strength E s_c of bonds, with
- * s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m]. NAN if the results cannot be read. */
+/* Returns the largest load on a compressed disc over (pi D t/2) E s_c, the load at which the strength E s_c of bonds
+ * is reached, with diameter D, thickness t and s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m].
+ * Returns NAN if the results cannot be read. */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

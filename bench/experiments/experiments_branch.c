@@ -14,8 +14,8 @@
 #define ANGLE_FROM 2e-3   /* distance beyond the branching from which the angle is measured [m] */
 #define ANGLE_TO 10e-3
 
-/* A column of particles across the crack: number n of its damaged particles, number of branches, coordinates y of the
- * lowest, the highest and the last counted damaged particle [m]. */
+/* A column of particles across the crack. n: number of its damaged particles; branches: number of branches; low,
+ * high, last: coordinates y of the lowest, the highest and the last counted damaged particle [m]. */
 struct branch_column {
     int n, branches;
     double low, high, last;
@@ -31,8 +31,8 @@ static int by_y(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Returns the columns of a frame, one spacing wide, from x = 0, as an allocated array of length *columns. The caller
- * releases it with memory_free. spacing [m]. */
+/* Returns the columns of a frame, slices one spacing wide from x = 0 on, as an allocated array of length *columns.
+ * The caller releases it with memory_free. spacing [m]. */
 static struct branch_column *columns_of(const struct output_frame *f, double spacing, int *columns)
 {
     struct branch_point *point = NEW("bench.branch", f->n, struct branch_point);
@@ -59,7 +59,7 @@ static struct branch_column *columns_of(const struct output_frame *f, double spa
 }
 
 /* Returns true if the crack has branched from column k on: over the length BRANCH_LASTS, at least the share
- * BRANCH_SHARE of the columns has two or more branches. c[columns]; spacing [m]. */
+ * BRANCH_SHARE of the columns (slices one spacing wide) has two or more branches. c[columns]; spacing [m]. */
 static bool branches_from(const struct branch_column *c, int columns, int k, double spacing)
 {
     const int stretch = (int)(BRANCH_LASTS / spacing);
@@ -69,8 +69,9 @@ static bool branches_from(const struct branch_column *c, int columns, int k, dou
     return held >= BRANCH_SHARE * stretch;
 }
 
-/* Returns the slope by which the distance between the outermost branches grows along x [1], by least squares over the
- * columns first..end-1. Returns NAN for fewer than six columns with two branches. spacing [m]. */
+/* Returns the slope by which the distance between the outermost branches grows along x [1], by least squares over
+ * the columns first .. end - 1 (slices one spacing wide). Returns NAN for fewer than six columns with two branches.
+ * spacing [m]. */
 static double opening_slope(const struct branch_column *c, int first, int end, double spacing)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -100,7 +101,7 @@ struct branching branching_find(const struct output_frame *f, double spacing)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the last frame of the run in `folder`. FAILED if there is none or it cannot be read. Release with
+/* Reads the last frame of the run in `folder`. Returns FAILED if there is none or it cannot be read. Release with
  * frame_free. */
 status experiment_last_frame(struct output_frame *f, const char *folder)
 {

@@ -45,7 +45,7 @@ static struct crack_medium strip_medium(void)
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Rows of the history while the crack is straight and far from both ends. */
+/* A history, and its rows first .. end - 1 in which the crack is straight and far from both ends of the strip. */
 struct strip_window {
     struct history h;
     int64_t first, end;
@@ -81,7 +81,7 @@ static double strip_slope(const struct strip_window *w, const char *x_name, cons
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* Returns the mean speed of the crack over the Rayleigh speed c_R while it is straight; NAN without such a time.
+/* Returns the mean speed of the crack over the Rayleigh speed c_R while the crack is straight; NAN if it never is.
  * folder: of the run; spacing [m]. */
 static double strip_speed(const char *folder, double spacing)
 {
@@ -92,7 +92,7 @@ static double strip_speed(const char *folder, double spacing)
     return v / strip_medium().rayleigh;
 }
 
-/* Returns the energy of broken bonds per new crack area over G_c while the crack is straight; NAN without such a time.
+/* Returns the energy of broken bonds per new crack area over G_c while the crack is straight; NAN if it never is.
  * folder: of the run; spacing [m]. */
 static double strip_taken(const char *folder, double spacing)
 {
@@ -103,8 +103,8 @@ static double strip_taken(const char *folder, double spacing)
     return taken;
 }
 
-/* Returns the mean stress-intensity factor at the running tip over K_c = sqrt(G_c E) while the crack is straight; NAN
- * without such a time. folder: of the run; spacing [m]. */
+/* Returns the mean stress-intensity factor at the running tip over K_c = sqrt(G_c E) while the crack is straight;
+ * NAN if it never is. folder: of the run; spacing [m]. */
 static double strip_factor(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -117,8 +117,8 @@ static double strip_factor(const char *folder, double spacing)
     return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);
 }
 
-/* Returns the energy flux into the running tip over G_c, A_I(v) K_I^2/(E G_c), while the crack is straight; NAN without
- * such a time. folder: of the run; spacing [m]. */
+/* Returns the energy flux into the running tip over G_c, A_I(v) K_I^2/(E G_c) with the universal function A_I of the
+ * speed v, while the crack is straight; NAN if it never is. folder: of the run; spacing [m]. */
 static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();

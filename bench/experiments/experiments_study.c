@@ -45,9 +45,9 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     return f->scale * value;
 }
 
-/* Computes the mean and scatter of a figure at each spacing level of a study: of the finest level into `row`, of the
- * next two into row->coarse. value[k]: figure of run k. Runs with the value NAN are left out, such as the angle of
- * branching of a crack that does not branch. */
+/* Computes mean and scatter of a figure at each spacing level of a study: of the finest level into *row, of the next
+ * two into row->coarse. value[k]: the figure in run k; NAN to leave out the run, as for the angle of branching of a
+ * crack that does not branch. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
     double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
@@ -121,8 +121,8 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
 
 /* ---- a study ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the convergence study of a case and adds its results and crack paths to x. Does nothing for cases without scene
- * file, or that are left out with --quick. REFUSED or FAILED if the study is. */
+/* Makes the convergence study of case c and adds its results and crack paths to x. Does nothing for cases without
+ * scene file, or that --quick leaves out. Returns REFUSED or FAILED if the study does. */
 status experiment_study(struct experiments *x, const struct experiment_case *c)
 {
     struct convergence_study s;

@@ -25,7 +25,7 @@
 #define HOSSAIN "Hossain et al. 2014"
 enum { SURF_STEPS = 10 }; /* steps between two evaluations of the tip */
 
-/* The prescribed field. */
+/* The prescribed field: that of a mode I crack whose tip moves at constant speed. */
 struct surf {
     struct crack_medium medium;
     double speed, factor, tip; /* speed [m/s], K [Pa m^0.5], position of the tip at t = 0 [m] */
@@ -95,8 +95,8 @@ static double surf_tip(const struct particles *p, double spacing)
     return tip;
 }
 
-/* Only broken bonds are counted. The energy that enters at the edge differs, because the strain energy of the field in
- * the plate changes while the field moves, and waves leave the tip. */
+/* The fracture energy is counted from broken bonds alone. The energy that enters at the edge differs, because the
+ * strain energy of the field in the plate changes while the field moves, and waves leave the tip. */
 
 /* Sums for a least-squares line through points (x, y): their number, and the sums of x, y, x^2 and x y. */
 struct surf_line {
@@ -155,7 +155,7 @@ status surf_run(double spacing, double share, double speed, double safety, struc
     return ran;
 }
 
-/* Runs at one speed of the field over c_R: spacings [mm], each with several time steps. */
+/* A speed of the field over c_R [1], and the spacings at which it is run [mm], each with several time steps. */
 struct surf_case {
     double speed, spacing[3];
     bool quick;

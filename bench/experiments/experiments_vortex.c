@@ -34,8 +34,8 @@ static const struct vortex_case vortex_cases[VORTEX_METHODS] = {
 static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
 enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
 
-/* Replaces the uniform body force of the scene by the body force of the vortex at the current time. Sets the force of
- * each particle [N], which the load multiplies by its time function. */
+/* Replaces the uniform body force of the scene by the body force of the vortex at the current time: sets the shares
+ * of the load, forces of each particle [N] that the load multiplies by its time function. */
 static void vortex_load(struct run *e, const struct vortex *v)
 {
     struct load *load = &e->loads.load[0];

@@ -7,7 +7,7 @@
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the factor on the rotation at time t [s]: sin^2(pi t/(2 T)), from 0 to 1 over the period T. */
+/* Returns the factor on the rotation at time t [s]: sin^2(pi t/(2 T)), which grows from 0 to 1 over the time T. */
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
 /* Returns the rotation angle alpha of the vortex at X[2] [m] and time t [rad], and stores its derivative along the
@@ -38,8 +38,8 @@ void vortex_gradient(const struct vortex *v, const double *X, double t, double F
 
 /* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
-/* Fills v with the bonds of a square lattice with uniform weights and the given reach [spacings]. Their weights are
- * scaled to the bulk modulus of the plane, c11 + c12. */
+/* Fills v with the bonds of a square lattice with uniform weights. reach: length of the longest bond [spacings]. The
+ * weights are scaled to the bulk modulus of the plane, c11 + c12. */
 void vortex_bonds(struct vortex *v, double reach)
 {
     double sum = 0;

@@ -32,8 +32,8 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
 /* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, and runs one step. dim: its
- * dimension; method, model, mpm: values of these scene keys; more: further keys of the scene; yields: the material has
- * a yield stress. FAILED if the step fails. Release with bench_engine_free. */
+ * dimension; method, model, mpm: values of these scene keys; more: further keys of the scene; yields: true if the
+ * material has a yield stress. Returns FAILED if the step fails. Release with bench_engine_free. */
 static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
@@ -110,8 +110,8 @@ static struct run *bonds_of(const struct job *j, struct ground *g)
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
-/* Calls the kernel that moves the material points of run e. yields: their material yields; otherwise the kernel is
- * called with an elastic material. */
+/* Calls the kernel of job j that moves the material points of run e. yields: true to call it with the yielding
+ * material of the run, false with an elastic one. */
 static void g2p_call(const struct job *j, struct run *e, bool yields)
 {
     struct elastic material = e->tables.elastic[0];
@@ -121,7 +121,8 @@ static void g2p_call(const struct job *j, struct run *e, bool yields)
     g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
 }
 
-/* Sets the stresses of all points beyond their yield stress, so that the next kernel call maps them back to it. */
+/* Sets the stresses of all material points beyond their yield stress, so that the next call of a kernel returns them
+ * to it. */
 static void points_stress(struct run *e)
 {
     const real yield = e->tables.elastic[0].law->yield;
@@ -130,8 +131,8 @@ static void points_stress(struct run *e)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
-/* Updates the list of particle pairs in contact. changed: 1 as if particles have changed, which requires a search for
- * pairs, else 0. */
+/* Updates the list of particle pairs in contact. changed: 1 to require a search for pairs, as if particles had
+ * changed; else 0. */
 static void faces_update(struct run *e, int changed)
 {
     contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
@@ -199,8 +200,8 @@ static void job_call(const struct job *j, struct ground *g)
     }
 }
 
-/* Times the kernel of a job in two calls and keeps the shortest time so far in j->seconds. The first call fills the
- * caches. */
+/* Times the kernel of job j in two calls, the first of which fills the caches, and stores the shortest time so far
+ * in j->seconds. g: bodies on which kernels are timed. */
 static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
@@ -235,8 +236,8 @@ static void time_all(struct kernel_bench *b, bool quick)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean number of bytes that kernels read per column of a row block of bonds (bond_column.h). Columns of
- * blocks with a shared stencil count 0, since they remain in cache. */
+/* Returns the mean number of bytes that kernels read per column of a row block (the bonds of eight particles).
+ * Columns of row blocks with a shared stencil count 0, since they remain in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
@@ -259,7 +260,7 @@ static double contact_bytes(const struct run *e)
 }
 
 /* Returns the number of bytes that the kernel of job j must move per particle. Each array that the kernel reads or
- * writes counts once; nodes are shared among the points of their cell. */
+ * writes counts once; nodes are shared among the points of their cell. g: bodies on which kernels are timed. */
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
@@ -326,7 +327,7 @@ static void find_limits(struct kernel_bench *b)
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 /* Times all kernels and targets, computes their limits, and prints and writes the results. quick: few repetitions.
- * FAILED if a run or a file fails. */
+ * Returns FAILED if a run or a file fails. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_memory(&b->targets));

@@ -14,12 +14,13 @@
 #include "output/output_files.h"
 #include "step/report.h"
 
-/* Numbers of sizes of a block and of dimensions; steps before the timed ones, pieces of timed steps; steps between
- * frames, frames of a run. */
+/* SIZES: sizes of a block; DIMS: dimensions; STEPS_WARM: steps before the timed ones; PIECES: pieces of timed steps;
+ * FRAME_EVERY: steps between frames; FRAMES: frames of a run. */
 enum { SIZES = 4, DIMS = 2, STEPS_WARM = 2, PIECES = 4, FRAME_EVERY = 100, FRAMES = 6 };
 static const double size_of[SIZES] = {1e4, 1e5, 1e6, 1e7};
 
-/* Goals: spread over the sizes [1], set-up [steps], output [1]. */
+/* Largest values that meet the goals: ratio of times per step over the sizes [1], set-up time [steps], cost of
+ * output over that of steps [1]. */
 #define SPREAD_ASKED 1.15
 #define SETUP_ASKED 50.0
 #define OUTPUT_ASKED 0.03
@@ -50,8 +51,8 @@ static double memory_from_here(void)
     return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
 }
 
-/* Returns true if 0.7 of the memory of the machine suffice for a block of `particles` particles with the most expensive
- * method, while a frame is being written. */
+/* Returns true if 0.7 of the memory of the machine suffice for a block of `particles` particles, with the most
+ * expensive method and while a frame is being written. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
@@ -60,8 +61,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a block of about `particles` particles that writes a frame every FRAME_EVERY steps. Stores in *r the time for
- * which a frame stops the loop [s] and the size of a frame per particle [byte]. FAILED if the run fails. */
+/* Runs a block of about `particles` particles that writes a frame every FRAME_EVERY steps. Stores in *r how long a
+ * frame stops the time loop [s] and its size per particle [byte]. Returns FAILED if the run fails. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -90,7 +91,7 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
 /* Measures set-up time, time per step and memory of a block of about `particles` particles, and stores them in *r.
- * Steps are timed in PIECES pieces, of which the fastest counts. visits: number of particles times steps of a piece.
+ * Steps are timed in PIECES pieces, of which the fastest counts. visits: particles times steps of a piece. Returns
  * FAILED if a step fails. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
@@ -220,8 +221,8 @@ static void scale_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures block number `which` at all of the first `sizes` sizes that the memory of the machine allows, and prints the
- * results. quick: small sizes. FAILED if a run fails. */
+/* Measures block number `which` at all of the first `sizes` sizes that the memory of the machine allows, and prints
+ * the results. quick: small sizes. Returns FAILED if a run fails. */
 static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
     const struct bench_block *block = &bench_blocks[which];

@@ -9,11 +9,13 @@
 
 #define SCENE "inputs/kalthoff_winkler.yaml"
 
-/* Steps of a run: warm-up, then pieces on one thread and on two alternately; it ends before the crack starts. */
+/* STEPS_WARM: steps before the timed ones; STEPS_TIMED: steps of a timed piece; ROUNDS: timed pieces on one thread
+ * and on two, alternately. A run ends before the crack starts. */
 enum { STEPS_WARM = 4, STEPS_TIMED = 40, ROUNDS = 3 };
 
-/* A run of the scene at 0.5 mm in which every step moves all particles: with an active set the limits of the machine
- * would not apply. sampled: with the samples of the scene, else one sample in STEPS_TIMED. */
+/* A run of the scene at 0.5 mm in which every step moves all particles; if it skipped particles at rest, the limits
+ * of the machine would not apply. sampled: true for as many samples as the scene has, false for one in STEPS_TIMED
+ * steps. */
 struct target_run {
     const char *name;
     bool sampled;
@@ -174,8 +176,8 @@ status bench_targets_speed(struct targets *f, bool quick)
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Runs the scene of w for a short time as a separate process and stores its peak memory per particle in *peak [byte].
- * FAILED if the run fails. */
+/* Runs the scene of w for a short time as a separate process and stores its peak memory per particle in *peak
+ * [byte]. Returns FAILED if the run fails. */
 static status peak_per_particle(const struct target_run *w, double *peak)
 {
     static const char *const key[] = {"memory_peak_bytes", "particles"};
@@ -208,7 +210,7 @@ status bench_targets_memory(struct targets *f)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the ratio of measured value and limit meets the target of a quantity. */
+/* Returns true if the measured value over the limit of the machine meets the target of a quantity. */
 static bool met(const struct target_figure *a)
 {
     const double ratio = a->measured / a->limit;

@@ -9,8 +9,9 @@
 #include "base/memory.h"
 #include "step/report.h"
 
-/* Largest number of teams of threads that are measured; dimension of the blocks that are drawn; steps before the
- * timed ones, pieces of timed steps; scalings (scaling_name). */
+/* TEAMS_MAX: largest number of teams of threads that are measured; DIM_SHOWN: dimension of the blocks that are
+ * drawn; STEPS_WARM: steps before the timed ones; PIECES: pieces of timed steps; SCALINGS: number of scalings
+ * (scaling_name). */
 enum { TEAMS_MAX = 24, DIM_SHOWN = 2, STEPS_WARM = 3, PIECES = 4, SCALINGS = 2 };
 static const char *const scaling_name[SCALINGS] = {"strong", "weak"};
 
@@ -36,8 +37,8 @@ static double cost(const struct threads_bench *b, int which, int scaling, int t)
     return b->step[which][scaling][t] / b->particles[which][scaling][t];
 }
 
-/* Returns the parallel efficiency of team number t, the time on one thread over the product of time and number of
- * threads. which: index of the block; scaling: strong or weak. */
+/* Returns the parallel efficiency of team number t: the time on one thread over the product of time and number of
+ * threads. which: index of the block; scaling: index in scaling_name. */
 static double efficiency(const struct threads_bench *b, int which, int scaling, int t)
 {
     return cost(b, which, scaling, 0) / (b->team[t] * cost(b, which, scaling, t));

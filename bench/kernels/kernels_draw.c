@@ -13,8 +13,8 @@ static const char *const job_name[JOB_KINDS] = {
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the measured limits of the machine: arithmetic of bonds, memory bandwidth, and plain transfers of material
- * points. */
+/* Prints the measured limits of the machine: arithmetic of bonds, memory bandwidth, and transfers of material points
+ * without arithmetic. */
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");
@@ -123,7 +123,7 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
             left, right, below, above);
 }
 
-/* Draws bars of the measured quantities over their targets; 1 or less is met. */
+/* Draws bars of the measured quantities over their targets; a bar of 1 or less meets its target. */
 static void draw_speed_targets(FILE *to, const struct targets *f)
 {
     if (!f->figures) return;

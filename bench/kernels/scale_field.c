@@ -55,8 +55,9 @@ struct field_bench {
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene of the whole plate or, if `part` is true, of the part between absorbing faces. A wave that enters
- * the part through an absorbing face is caused by a load of twice its stress. FAILED if the file cannot be written. */
+/* Writes the scene of the whole plate or, if `part` is true, of a part of it between absorbing faces. A wave that
+ * enters the part through an absorbing face is caused by a load of twice its stress. Returns FAILED if the file
+ * cannot be written. */
 static status field_scene_write(const struct field_bench *b, bool part)
 {
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
@@ -79,8 +80,8 @@ static status field_scene_write(const struct field_bench *b, bool part)
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
 /* Reads size, memory, times and the curve K_I(t) from the results of a run into *r. folder: of the run; later: time
- * by which its wave is shifted [s]; processor: processor time that the run received [s]. FAILED if a file cannot be
- * read. */
+ * by which its wave is shifted [s]; processor: processor time that the run received [s]. Returns FAILED if a file
+ * cannot be read. */
 static status field_read(struct field_row *r, const char *folder, double later, double processor)
 {
     struct history h = {0};
@@ -152,7 +153,8 @@ static double field_off(const struct field_row *r, const struct field_row *direc
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of cells in the front of the pulse, half of its length, for the largest cells of run k. */
+/* Returns the number of cells in the front of the pulse, which is half of its length, for the largest cells of run
+ * k. */
 static double cells_in_front(const struct field_bench *b, int k)
 {
     return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
@@ -182,8 +184,9 @@ static enum timer largest_timer(const struct field_row *r)
     return (enum timer)most;
 }
 
-/* Prints the fastest of the runs that are close enough to direct run number `direct`, and whether it reaches the
- * required ratio of times. part: considers runs of the part between absorbing faces, else those of the whole plate. */
+/* Prints the fastest of the runs that deviate little enough from direct run number `direct`, and whether it reaches
+ * the required ratio of times. part: true for runs of the part between absorbing faces, false for those of the whole
+ * plate. */
 static void field_print_aim(const struct field_bench *b, int direct, bool part)
 {
     int best = -1;
@@ -262,8 +265,8 @@ static void field_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes all runs, prints a row for each with its differences from the direct runs, and writes table and picture. FAILED
- * if a run or a file fails. */
+/* Makes all runs, prints a row for each with its differences from the direct runs, and writes table and picture.
+ * Returns FAILED if a run or a file fails. */
 static status field_measure(struct field_bench *b)
 {
     printf("  spacing %g mm, half plate of %.0f by %.0f spacings; pulse of %.0f spacings, its front %.0f; %d samples; "

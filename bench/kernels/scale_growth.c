@@ -18,8 +18,8 @@
 #include "output/summary_read.h"
 #include "plot/gnuplot.h"
 
-/* Spacings of a series, at most; sections of a step that are printed; series; quantities with required exponents;
- * repetitions of a run. */
+/* SPACINGS: largest number of spacings of a series; TIMERS_SHOWN: sections of a step that are printed; SERIES:
+ * number of series; AIMS: quantities with required exponents; REPEATED: repetitions of a run. */
 enum { SPACINGS = 5, TIMERS_SHOWN = TIMER_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
 #define SHORT 3.0          /* loops shorter than this are repeated [s] */
 #define QUICK_DURATION 6.0 /* end of quick runs [us] */
@@ -136,8 +136,8 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Measures a run of the series s at a spacing [mm] and stores the fastest in *least; runs shorter than SHORT are
- * repeated. quick: one run of the first microseconds. FAILED if a run fails. */
+/* Measures a run of the series s at a spacing [mm] and stores the fastest repetition in *least. Runs shorter than
+ * SHORT are repeated. quick: true for one run of the first microseconds. Returns FAILED if a run fails. */
 static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
     const int repeated = quick ? 1 : REPEATED;
@@ -151,8 +151,8 @@ static status growth_time(struct growth_row *least, const struct growth_series *
 
 /* ---- exponents --------------------------------------------------------------------------------------------------- */
 
-/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares over the rows first..n-1.
- * y: returns the quantity number `which` of a row. */
+/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares over the rows first .. n
+ * - 1. y(row, which): returns quantity number `which` of a row. */
 static double exponent_of(const struct growth_row *row, int first, int n, double (*y)(const struct growth_row *, int),
                           int which)
 {
@@ -179,8 +179,9 @@ static int rows_of(const struct growth_row *row)
     return n;
 }
 
-/* Computes the exponents of cost of a series of runs, and the section of a step that exceeds its goal most. The goal
- * for the finest run is the time of the section in the coarsest run, extrapolated with the required exponent. */
+/* Computes the exponents of the cost of a series of runs, row[], and the section of a step that exceeds its goal
+ * most. The goal for the finest run is the time of the section in the coarsest run, extrapolated with the required
+ * exponent. */
 static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
 {
     const int n = rows_of(row);
@@ -304,8 +305,8 @@ static void growth_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture. quick:
- * few and short runs; finest: includes the finest spacings. FAILED if a run or a file fails. */
+/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture.
+ * quick: few and short runs; finest: includes the finest spacings. Returns FAILED if a run or a file fails. */
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
     bool any = false;

@@ -22,7 +22,7 @@
 #include "step/report.h"
 #include "peers.h"
 
-/* Steps of a run; repetitions of a timed run; capacity of a scene [byte]. */
+/* STEPS: time steps of a run; ROUNDS: repetitions of a timed run; TEXT_ROOM: capacity of a scene [byte]. */
 enum { STEPS = 200, ROUNDS = 3, TEXT_ROOM = 2048 };
 #define FOLDER PEERS_FOLDER
 #define SPACING 5e-4
@@ -114,7 +114,8 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
 
-/* Writes the scene of case c into text[TEXT_ROOM]. edge: particles along an edge. FAILED without memory. */
+/* Writes the scene of case c into text[TEXT_ROOM]. edge: particles along an edge. Returns FAILED if memory is
+ * exhausted. */
 static status peer_scene_text(char *text, const struct peer_case *c, int edge)
 {
     FILE *to = fmemopen(text, TEXT_ROOM, "w");
@@ -133,9 +134,9 @@ static status peer_engine(struct run *e, struct scene *s, const struct peer_case
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number. Stores in
- * type[particles] a LAMMPS type of its own for each particle of such a bond, increments *types for each, and writes the
- * exclusions of these pairs to the file `exclude`. */
+/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number.
+ * type[particles]: receives a LAMMPS type of its own for each particle of such a bond; types: incremented for each;
+ * exclude: file to which the exclusions of these pairs are written. */
 static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &e->part;
@@ -234,8 +235,8 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
 
 /* ---- both runs --------------------------------------------------------------------------------------------------- */
 
-/* Reads positions and damage of n particles that LAMMPS has written, in the order of ids, into the arrays of s. FAILED
- * if particles are missing. */
+/* Reads positions and damage of n particles that LAMMPS has written, in the order of ids, into the arrays of s.
+ * Returns FAILED if particles are missing. */
 static status peer_solution(struct solution *s, int64_t n)
 {
     char line[512];
@@ -323,9 +324,9 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
     fflush(stdout);
 }
 
-/* Measures the time of bond_style bpm/peri if the installed LAMMPS has it; else derives it from the time of pair_style
- * peri by the ratios of its authors. Prints a line for each timed case. result[CASES]: results of the cases; quick:
- * small cases. FAILED if a run fails. */
+/* Measures the time of bond_style bpm/peri if the installed LAMMPS has it; else derives it from the time of
+ * pair_style peri by the ratios of its authors. Prints a line for each timed case. result[CASES]: results of the
+ * cases; quick: small cases. Returns FAILED if a run fails. */
 static status bond_style_compare(struct peer_result *result, bool quick)
 {
     char text[TEXT_ROOM];

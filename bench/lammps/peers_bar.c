@@ -6,25 +6,26 @@
 #include "bench/common/bench.h"
 #include "base/team.h"
 
-/* Repetitions of a run; bars: one that yields, an elastic one. */
+/* ROUNDS: repetitions of a run; BARS: number of bars, one that yields and an elastic one. */
 enum { ROUNDS = 3, BARS = 2 };
 
-/* Time of MPM3D-F90 [ns per point and step]: this bar, linear shapes, MUSL, von Mises, one core of a machine with two
- * cores and AVX-512, gfortran 12, alternating with Cleave on that machine. */
+/* Times of MPM3D-F90 [ns per point and step]: fastest and slowest run of this bar with linear shape functions, MUSL,
+ * von Mises, on one core of a machine with two cores and AVX-512, gfortran 12, alternating with Cleave on that
+ * machine. */
 #define MPM3D_FASTEST 253.0
 #define MPM3D_SLOWEST 296.0
 #define MPM3D_DATE "November 2026"
 
-/* Times of one bar. */
+/* Name, size and time of one bar. */
 struct bar_result {
     const char *name;
     double particles, steps, seconds; /* processor time of the fastest run [s] */
 };
 
-/* Runs a cylinder of copper that hits a plane of symmetry for 80 us (quick: with coarse particles for 8 us). Keeps in
- * *r the shortest processor time so far, which other programs disturb least. yields: at 190 m/s, von Mises with linear
- * hardening. Otherwise the bar is elastic and has 19 m/s, since 190 m/s would stretch it by 8 %, beyond what the
- * current frame allows. Returns FAILED if the run does. */
+/* Runs a cylinder of copper that hits a plane of symmetry for 80 us (quick: with coarse particles for 8 us). Stores
+ * the shortest processor time so far in *r, since other programs disturb it least. yields: true for 190 m/s and von
+ * Mises with linear hardening; false for an elastic bar and 19 m/s, since 190 m/s would stretch it by 8 %, beyond
+ * what the current frame allows. Returns FAILED if the run does. */
 static status bar_run(struct bar_result *r, bool yields, bool quick)
 {
     struct scene s;

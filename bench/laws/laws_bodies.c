@@ -16,8 +16,8 @@ struct bar_rest {
     double top, radius, strain, temperature, pressure, balance;
 };
 
-/* Gives each material point of a run a dilatation of its own in place of the mean of its cell, as codes without a
- * treatment of locking have. */
+/* Gives each material point of a run its own dilatation in place of the mean of its cell, as in codes without a
+ * treatment of locking. */
 static void points_have_own_dilatations(struct run *e)
 {
     for (int m = 0; m < e->scene->materials; m++) e->tables.elastic[m].mean_dilatation = false;
@@ -40,8 +40,8 @@ static void bar_measure(struct bar_rest *r, const struct particles *p, double sp
     r->top = sum / count, r->pressure = sqrt(squares / (double)p->n);
 }
 
-/* Runs the scene `path` of a bar that hits a wall, with the overrides o, and stores its state at the end in *r. c: case
- * whose `given` says which shapes, and whether the points have own dilatations. FAILED if a step fails. */
+/* Runs the scene `path` of a bar that hits a wall, with the overrides o, and stores its state at the end in *r. c:
+ * case; c->given: shape functions, and whether points have their own dilatation. Returns FAILED if a step fails. */
 static status bar_strike(struct bar_rest *r, const char *path, const struct laws_case *c, struct bench_overrides *o)
 {
     struct run e;
@@ -176,7 +176,7 @@ struct shell_state {
     double outer;            /* mean displacement of the outer layer [m] */
 };
 
-/* Returns the c > 1 at which the integral of k ((c/r)^D - 1) r^(D - 1) from 1 to c is `sum`, by bisection up to 2. */
+/* Returns the c in 1 .. 2 at which the integral of k ((c/r)^D - 1) r^(D - 1) from 1 to c equals `sum`, by bisection. */
 static double plastic_front(double sum, double k, int D)
 {
     double low = 1, high = 2;
@@ -190,9 +190,9 @@ static double plastic_front(double sum, double k, int D)
     return low;
 }
 
-/* Computes the state *r of a hollow sphere (D 3) or cylinder (D 2) of radii a and 2 a [m]. guess: about the radius of
- * the front over a, the stress is taken from the outer half of what is elastic [1]; spacing [m]; depth: of the
- * cylinder [m]. */
+/* Computes the state *r of a hollow sphere (D 3) or cylinder (D 2) of radii a and 2 a [m]. guess: estimated radius
+ * of the plastic front over a [1]; the stress is evaluated in the outer half of the elastic part. spacing [m];
+ * depth: of the cylinder [m]. */
 static void shell_measure(struct shell_state *r, const struct particles *p, double a, double guess, double spacing,
                           double depth)
 {
@@ -218,8 +218,8 @@ static void shell_measure(struct shell_state *r, const struct particles *p, doub
 }
 
 /* Runs a hollow sphere (an octant) or a hollow cylinder (a quarter, in plane strain) of radii 10 and 20 mm under the
- * inner pressure `pressure` [Pa], and stores its state in *r. spacing: of the particles [m]; guess: as in
- * shell_measure. FAILED if a load step fails. */
+ * inner pressure `pressure` [Pa], and stores its state in *r. spacing: of the particles [m]; guess: estimated radius
+ * of the plastic front over the inner radius [1]. Returns FAILED if a load step fails. */
 static status shell_run(bool sphere, double spacing, double pressure, double guess, struct shell_state *r)
 {
     struct run e;

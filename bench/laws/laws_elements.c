@@ -23,8 +23,8 @@ struct law laws_steel(enum flow flow)
     return laws_material(law, 200e9, 0.3, 200 * MPA, 7800);
 }
 
-/* Returns a law of steel without isotropic hardening and with a back stress. modulus [Pa], recall [1]: C and gamma of
- * the back stress. */
+/* Returns a law of steel with kinematic hardening only. modulus, recall: constants C [Pa] and gamma [1] of the back
+ * stress. */
 static struct law steel_kinematic(real modulus, real recall)
 {
     struct law m = laws_steel(FLOW_LINEAR);
@@ -231,9 +231,8 @@ status laws_plane_strain(const struct laws_case *c, double *found)
     return OK;
 }
 
-/* Stretches a point without change of volume, in steps of 1e-4 whose durations are such that the plastic strain grows
- * by 1000/s, to the plastic strain `to`. Stores its equivalent stress [Pa] and temperature [K] at this strain, by
- * interpolation. m: law. */
+/* Stretches a point without change of volume to the plastic strain `to`, in steps of 1e-4 with a rate of the plastic
+ * strain of 1000/s. Stores its equivalent stress [Pa] and temperature [K] at this strain, by interpolation. m: law. */
 static void point_heat(const struct law *m, real to, real *stress, real *temperature)
 {
     const real step = 1e-4, strain[SYM_MAX] = {step, -0.5 * step, -0.5 * step};
@@ -270,7 +269,7 @@ status laws_johnson_cook(const struct laws_case *c, double *found)
 
 /* ---- rate -------------------------------------------------------------------------------------------------------- */
 
-/* Returns copper of Johnson and Cook without heating. hardening: its B [Pa]. */
+/* Returns the law of copper of Johnson and Cook without heating. hardening: its constant B [Pa]. */
 static struct law copper_cold(real hardening)
 {
     const struct law m = {.flow = FLOW_JOHNSON_COOK,
@@ -311,7 +310,7 @@ status laws_held(const struct laws_case *c, double *found)
 /* ---- flow that turns --------------------------------------------------------------------------------------------- */
 
 /* Loads a point of ideally plastic steel to its yield stress in tension, then shears it at constant rate, in `steps`
- * equal steps of one mode, by twice the deviatoric strain of yield. Returns the stress that is left of the tension,
+ * equal steps of the mode `mode`, by twice the deviatoric strain at yield. Returns the tensile stress that remains,
  * over the yield stress [1]. */
 static real tension_left(int steps, enum law_mode mode)
 {

@@ -187,7 +187,8 @@ static void panel(FILE *to, int column, const char *title)
             left, left + 0.28, title, left + 0.29);
 }
 
-/* Plots column `y` of the data of the edge crack over the spacing, one line per model. t is not used. */
+/* Plots column `y` of the data of the edge crack over the spacing, one line per model. y: a column of gnuplot; t:
+ * not used. */
 static void plot_models(FILE *to, const struct edge_table *t, const char *y)
 {
     for (int m = 0; m < MODELS; m++)
@@ -245,8 +246,8 @@ static status sif_edge_write_tables(const struct edge_table *t)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for the edge crack: largest deviations of K_I for the runs with at least 100 particles along an
- * edge. */
+/* Adds the goals for the edge crack to *asked: largest deviations of K_I of the runs with at least 100 particles
+ * along an edge. */
 static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {
     for (int k = 0; k < t->n; k++) {

@@ -7,8 +7,9 @@
 
 /* ---- reactions --------------------------------------------------------------------------------------------------- */
 
-/* Roughness of the reaction of a plate with a growing crack: root-mean-square deviation from a moving parabola over 5
- * us, evaluated from 22 to 78 us. half: half of that span; judged: the ends [s]. */
+/* half: half of the span over which a moving parabola is fitted to the reaction of a plate with a growing crack;
+ * judged: ends of the time in which the root-mean-square deviation from this parabola, the roughness, is evaluated
+ * [s]. */
 static const double half = 2.5e-6, judged[2] = {22e-6, 78e-6};
 
 struct reaction_row {
@@ -22,8 +23,8 @@ struct reaction_table {
     struct reaction_row row[RELEASES];
 };
 
-/* Returns the value at point `at` of the parabola that is fitted to the equidistant points of the reaction
- * at-reach..at+reach (Savitzky & Golay 1964). */
+/* Returns the value at point `at` of the parabola that is fitted to the equidistant points at - reach .. at + reach
+ * of the reaction (Savitzky & Golay 1964). */
 static double smooth_at(const struct reaction_row *r, int at, int reach)
 {
     double s[5] = {0}, b[3] = {0};
@@ -135,7 +136,8 @@ static const struct path_row path_row[PATHS] = {
     {.name = "0.5 mm", .key = "particles.spacing", .value = "0.5 mm"},
 };
 
-/* Returns the root mean square of K_II/K_I in the history of a run while the crack grows, after its first 2 mm. */
+/* Returns the root mean square of K_II/K_I in the history of a run while the crack grows, without its first 2 mm of
+ * growth. */
 static double modes_ratio(const struct history *h)
 {
     const int length = history_find_column(h, "growth.length"), speed = history_find_column(h, "growth.speed");

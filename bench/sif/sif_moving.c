@@ -19,7 +19,7 @@ static const double stress = 2e6, path_length = 20e-3; /* stress on the crack pl
 static const double window[2] = {5e-6, 9e-6};          /* times between which ripple is evaluated [s] */
 static const double is_current = 5.5e-6;               /* time from which a moving crack is compared [s] */
 
-/* Figures of the paper, as bits. */
+/* Figures of the paper of Imachi et al. (2019) to which a case belongs, as bits. */
 enum { LENGTH = 1, EXPONENT = 2, STEP = 4, HORIZON = 8, SPACING = 16, IRREGULAR = 32, OTHER = 64, EACH = 63 };
 static const struct {
     int bit;
@@ -92,8 +92,8 @@ struct moving_table {
 
 /* ---- the closed form --------------------------------------------------------------------------------------------- */
 
-/* Computes the material constants and the speed factors k(v), K(v) = k(v) K(0), of Freund's closed form: exact, and as
- * printed in the paper. FAILED or REFUSED if the scene cannot be read. */
+/* Computes the material constants and the speed factors k(v), K(v) = k(v) K(0), of Freund's closed form: exact, and
+ * as printed in the paper. Returns FAILED or REFUSED if the scene cannot be read. */
 static status closed_form(struct moving_table *t)
 {
     struct scene s = {0};
@@ -135,8 +135,8 @@ static double ripple_of(const double *x, const double *y, int n)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Reads K_I over time from the history of a run into *r: of the probe, and of the sum over the disc. FAILED if it
- * cannot be read. folder: of the run. */
+/* Reads K_I over time from the history of a run into *r: by the probe, which excludes the process zone, and by the
+ * sum over the whole disc. folder: of the run. Returns FAILED if it cannot be read. */
 static status read_curves(struct moving_row *r, const char *folder)
 {
     struct history h = {0};
@@ -191,7 +191,7 @@ static struct bench_job job_of(struct moving_row *r, const struct moving_case *c
 }
 
 /* Makes all runs, as many at a time as there are threads, each on one thread, so that times are those of one thread.
- * quick: only the first QUICK cases. FAILED if a run fails. */
+ * quick: only the first QUICK cases. Returns FAILED if a run fails. */
 static status sif_moving_run_all(struct moving_table *t, bool quick)
 {
     struct bench_job job[CASES];
@@ -247,8 +247,8 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* Sends K_I over sigma (pi a)^(1/2) with a = 12 mm, as in the paper, for all runs of some figures, and the exact
- * curves. sigma: stress on the crack plane; groups: figures of the paper, as bits. */
+/* Sends K_I over sigma (pi a)^(1/2) with a = 12 mm, as in the paper, for all runs of the figures `groups`, and the
+ * exact curves, to gnuplot. sigma: stress on the crack plane; groups: figures of the paper, as bits. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
     const double size = stress * sqrt(3.14159265358979 * 12e-3);
@@ -270,16 +270,16 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
 
 static bool release_methods(int groups) { return groups == LENGTH || groups == EXPONENT; }
 
-/* Returns true if case c is drawn in a panel for the figures `groups` of the paper. If release methods are compared,
- * both panels (column 1 and 2) show all cases; else panel 2 has the cases with immediate release and panel 1 the
- * others. */
+/* Returns true if case c is drawn in panel `column` of a picture for the figures `groups` of the paper. If the
+ * picture compares methods of releasing bonds, both panels (column 1 and 2) show all cases; else panel 2 shows the
+ * cases with immediate release and panel 1 the others. */
 static bool is_shown(const struct moving_case *c, int groups, int column)
 {
     return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
 }
 
-/* Draws one of two panels. column 1, above: factor of the probe; column 2, below: factor of the sum over the whole
- * disc, as in the paper. groups: figures of the paper; what: title. */
+/* Draws one of two panels. column 1, above: factor by the probe; column 2, below: factor by the sum over the whole
+ * disc, as in the paper. groups: figures of the paper, as bits; what: title. */
 static void sif_moving_draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
@@ -335,8 +335,8 @@ static status draw_groups(const struct moving_table *t)
 /* Returns the largest relative deviation of K_I from the exact value in a run [1]. */
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
-/* Adds the goals for stationary and moving cracks. Those for moving cracks apply to spacings of 0.25 mm and less. A
- * release of bonds over a whole horizon has a goal of its own, as it delays the start of the crack. */
+/* Adds the goals for stationary and moving cracks to *asked. Those for moving cracks apply to spacings of 0.25 mm
+ * and less. A release of bonds over a whole horizon has a goal of its own, as it delays the start of the crack. */
 static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;

@@ -40,9 +40,9 @@ static void path_start(const struct history *h, double place[2])
     place[1] = history_value_at(h, 1, history_find_column(h, "path_y"));
 }
 
-/* Reads the first kink of an inclined crack from the results of a run and compares its angle with the direction of the
- * largest hoop stress. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long,
- * within 1 %. row: struct path_row; folder: of the run. FAILED if the history cannot be read. */
+/* Reads the first kink of an inclined crack from the results of a run, and compares its angle with the direction of
+ * the largest hoop stress. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is
+ * long, to 1 %. row: a struct path_row; folder: of the run. Returns FAILED if the history cannot be read. */
 static status kink_take(void *row, const char *folder)
 {
     struct path_row *r = row;
@@ -66,8 +66,8 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row called `name` with the figures of r to the table, and sets *worst to the deviation of r if it is larger or
- * NAN. */
+/* Adds a row called `name` with the results r to the table. Raises *worst to the deviation of r, or sets it to NAN
+ * if that is NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
     bench_text(t, name);
@@ -100,9 +100,9 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
 
 /* ---- eccentric notch of a beam ----------------------------------------------------------------------------------- */
 
-/* Reads the path of a crack in a beam from the results of a run. Keeps the largest difference between the angle of its
- * chord, which begins at the initial tip, and the finite-element results, up to the largest length of these results.
- * row: struct path_row; folder: of the run. FAILED if the history cannot be read. */
+/* Reads the path of a crack in a beam from the results of a run. Stores the largest difference between the angle of
+ * the line from the initial to the present tip and the finite-element results, up to the largest length of these.
+ * row: a struct path_row; folder: of the run. Returns FAILED if the history cannot be read. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;

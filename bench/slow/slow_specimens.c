@@ -58,7 +58,8 @@ static const struct slow_case {
                   1e-3,
                   10,
                   12}};
-/* Number of cases; indices of the one in 3D and of those run with --quick; largest number of points of a curve. */
+/* SLOW_CASES: number of cases; IN_SPACE: the one in 3D; BEND, CANTILEVER: those run with --quick; POINTS_MOST:
+ * largest number of points of a curve. */
 enum { SLOW_CASES = COUNT_OF(slow_case), IN_SPACE = SLOW_CASES - 1, BEND = 2, CANTILEVER = 3, POINTS_MOST = 100 };
 static const char *const slow_model[] = {"bond", "ospd", "mospd"};
 enum { SLOW_MODELS = COUNT_OF(slow_model) };
@@ -90,8 +91,8 @@ static double longest_crack(const struct slow_case *c)
     return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
 }
 
-/* Returns a measured load over the load of a double cantilever with the same opening, by beam theory. load [N], opening
- * [m]: of the run. Reference load and opening follow from each other through the crack length. */
+/* Returns the load `load` [N] over that of a double cantilever with the opening `opening` [m] by beam theory.
+ * Reference load and opening are related through the crack length. */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
     const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
@@ -174,7 +175,7 @@ static status slow_add(struct slow_table *t, int of, int model, double fine)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results of all specimens as the table slow_specimens.csv. FAILED if it cannot be written. */
+/* Writes the results of all specimens as the table slow_specimens.csv. Returns FAILED if it cannot be written. */
 static status slow_rows_write(const struct slow_table *t)
 {
     struct bench_table rows;
@@ -230,7 +231,7 @@ static void slow_curves_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for the run of a specimen: each of its errors is within 3 %. */
+/* Adds the goals for the run of a specimen to *asked: each of its errors must be within 3 %. */
 static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {
     const char *name = r->of->name, *model = slow_model[r->model];

@@ -10,7 +10,8 @@
 
 enum { STEPS_OF_LINEAR = 1500 }; /* growth of points on nodes starts from round-off and is slow */
 
-/* Argument of stability_measure: the map to be filled; number of steps of a growth run and of a full run. */
+/* Argument of stability_measure. map: the map to be filled; steps, long_steps: time steps of a run that measures
+ * growth and of a full run. */
 struct measuring {
     struct stability_map *map;
     int steps, long_steps;
@@ -23,8 +24,8 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-/* Prints the limits of a case. The line goes to standard output if they differ from the prediction, and otherwise to
- * standard error, where it only shows progress. */
+/* Prints the limits of a case. The line goes to standard output if they differ from the prediction; else to standard
+ * error, where it shows progress. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
@@ -73,7 +74,7 @@ static status stability_measure(void *context, const struct stability_case *c)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with all cases of the map, their limits and the outcome of their runs. */
+/* Fills the table t with all cases of the map, their limits and the outcome of their runs. */
 static void stability_put_table(struct bench_table *t, const struct stability_map *map)
 {
     static const char *const run[] = {"", "stays", "grows"};

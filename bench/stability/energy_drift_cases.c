@@ -10,8 +10,8 @@ const char *const drift_group_name[LASTING_GROUP] = {
     [LASTING_POINTS] = "material points, current frame", [LASTING_SUPPORTS] = "supports",
     [LASTING_PUBLISHED] = "couplings by others"};
 
-/* Passes cases to take(context, case). quick: passes only every QUICK_EACH-th case of a group; given: number of cases
- * of the group so far. */
+/* Receiver of cases: each case is passed to take(context, case). quick: true to pass only every QUICK_EACH-th case
+ * of a group; given: number of cases of the group so far. */
 struct taker {
     bool quick;
     int given;
@@ -59,8 +59,8 @@ static const enum stability_region region[] = {HALF, SQUARE, DISC, CORNER, NOTCH
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Passes on the cases of bodies with one method: bonds with all laws, models and horizons, and cells of the reference
- * frame with several Poisson's ratios. Returns the first status that is not OK. */
+/* Passes the cases of bodies with one method to the receiver t: bonds with all laws, models and horizons, and cells
+ * of the reference frame with several Poisson's ratios. Returns the first status that is not OK. */
 static status bodies(struct taker *t)
 {
     const struct stability_case plate = {.dim = 2, .edge = 14, .method = "pd"},
@@ -85,9 +85,9 @@ static status bodies(struct taker *t)
     return OK;
 }
 
-/* Passes on the coupled cases in the reference frame: every law with every shape of the peridynamic region, every
- * second of them with the handshake coupling, too, and variants of weights, constants and strains. Returns the first
- * status that is not OK. */
+/* Passes the coupled cases in the reference frame to the receiver t: every law with every shape of the peridynamic
+ * region, every second of them also with the handshake coupling, and variants of weights, constants and strains.
+ * Returns the first status that is not OK. */
 static status energy_drift_cases_reference(struct taker *t)
 {
     for (int l = 0; l < LAWS; l++)

@@ -42,8 +42,8 @@ static double decades(double rate)
     return copysign(log10(fmin(MOST_RATE, fmax(fabs(rate), LEAST_RATE)) / LEAST_RATE), rate);
 }
 
-/* Sends the cases of group g as data blocks, one each for cases that hold, fail and have stopped. at: position of the
- * first case on the axis. Returns the position of the next group. */
+/* Sends the cases of group g to gnuplot as data blocks, one each for cases that hold, fail and have stopped. at:
+ * position of the first case on the axis. Returns the position of the next group. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};

@@ -62,7 +62,8 @@
     "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -5000], [5000, 0]]}]\noutput: {frames: 0, "      \
     "samples: 1}\n"
 
-/* Text of a scene: the strip of STRIP_PULLED with only material points, with nodes on its border. */
+/* Text of a scene: a strip of material points only, with nodes on its border, loaded by a body force across its
+ * axis, a sine along the axis, for 60 us. */
 #define STRIP_OF_POINTS(transfer)                                                                                      \
     "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: mpm\n"                                              \
     "mpm: {frame: current, transfer: " transfer ", shape: gimp}\n"                                                     \

@@ -175,8 +175,8 @@ static real kinetic_between(const struct earlier *b, const struct run *e, real *
 
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
-/* Creates the run of the case l with `steps` automatic time steps and SAMPLES evenly spaced samples. REFUSED or FAILED
- * if the scene is invalid. Release with bench_engine_free. */
+/* Creates the run of the case l with `steps` automatic time steps and SAMPLES evenly spaced samples. Returns REFUSED
+ * or FAILED if the scene is invalid. Release with bench_engine_free. */
 static status energy_drift_body_make(struct run *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
@@ -192,7 +192,7 @@ static status energy_drift_body_make(struct run *e, struct scene *s, const struc
     return bench_engine_make(e, s, "body", text, bench_overrides_ready(&o), o.n);
 }
 
-/* Energies at the samples of a run [J] over the step number. energy: conserved by stable steps; plain: computed with
+/* Energies at the samples of a run over the step number [J]. energy: the sum that stable steps conserve; plain: with
  * the velocities after the step; work: work of loads. */
 struct course {
     int n;
@@ -242,7 +242,7 @@ static void judge(const struct course *c, struct lasting *to)
 }
 
 /* Returns true if a run must conserve angular momentum: the body has no boundary conditions, is not one-dimensional,
- * and has no cells with a small-strain law, which does not describe rotations. */
+ * and has no grid cells with a small-strain law, which does not describe rotations. */
 static bool energy_drift_run_is_free(const struct run *e)
 {
     return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);

@@ -9,7 +9,7 @@
 
 /* Runs a plate from which a corner particle is torn off. to[0]: 1 if the particle does not fly away, else 0; to[1]:
  * momentum error; to[2]: energy error. With a time step of 0.2 of the critical one, breaking bonds leave an energy
- * error of some percent. FAILED if a step fails. */
+ * error of some percent. Returns FAILED if a step fails. */
 static status single(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -65,7 +65,7 @@ static int inverted(const struct particles *p)
 }
 
 /* Runs two halves of a plate that collide at +-r->given times the wave speed of a bar. to[0]: number of neighbours
- * whose order has reversed; to[1]: energy error. FAILED if a step fails. */
+ * whose order has reversed; to[1]: energy error. Returns FAILED if a step fails. */
 static status inversion(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -133,7 +133,7 @@ static double overlap(const struct run *e)
 }
 
 /* Runs two halves of a cut plate that collide at +-0.04 of the wave speed. to[0]: largest overlap of the crack faces
- * [spacings]; to[1]: share of their momentum that the halves keep. FAILED if a step fails. */
+ * [spacings]; to[1]: share of their momentum that the halves keep. Returns FAILED if a step fails. */
 static status closing(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -16,8 +16,8 @@
 
 /* Runs a plane wave past the corner of an interface between bonds and material points. r->given: end of the initial
  * bonds along y [mm]; at 40 the interface is flat. to[0]: largest transverse velocity over the velocity of the wave,
- * INFINITY if an adaptive run converts no particle; to[1]: energy error; to[2]: momentum error. FAILED if a step
- * fails. */
+ * INFINITY if an adaptive run converts no particle; to[1]: energy error; to[2]: momentum error. Returns FAILED if a
+ * step fails. */
 static status corner(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -35,8 +35,8 @@ static void limits_invariance_put_box(FILE *to, const struct twin *t, double x0,
 enum { PLATE_X = 38, PLATE_Y = 26 };
 static bool in_hole(double x, double y) { return hypot(x - 9, y - 5) <= 3.3; }
 
-/* Writes the particles of the transformed plate as a list, without those in the hole. For t->listed = 2 their order is
- * permuted in a manner unrelated to positions. */
+/* Writes the particles of the transformed plate t as a list, without those in the hole. If t->listed is 2, their
+ * order is permuted in a manner unrelated to positions. */
 static void put_list(FILE *to, const struct twin *t)
 {
     const double mm = 1e-3 * t->scale;
@@ -134,8 +134,9 @@ static int64_t twin_of(const struct particles *p, int64_t i, const struct partic
     return -1;
 }
 
-/* Returns the largest difference of velocities and of displacements between the runs a and b, each over its largest
- * value. t: transformation of b. Returns INFINITY if bonds broke, particles are missing or nothing moves. */
+/* Returns the largest difference of velocities and of displacements between the runs a and b, each relative to its
+ * largest value [1]. t: transformation of b. Returns INFINITY if bonds broke, particles are missing or nothing
+ * moves. */
 static double difference(const struct run *a, const struct run *b, const struct twin *t)
 {
     double speed = 0, shift = 0, most_speed = 0, most_shift = 0;
@@ -180,8 +181,8 @@ static const struct twin plate[] = {{.scale = 1},
 /* Indices of the transformations `plate`. */
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
-/* Stores in *to the difference between the results of the plate and of a transformed plate. r->given: index of the
- * transformation. REFUSED or FAILED if a run is. */
+/* Computes *to, the difference between the results of the plate and of a transformed plate. r->given: index of the
+ * transformation. Returns REFUSED or FAILED if a run does. */
 static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
@@ -205,8 +206,8 @@ static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adapt
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
-/* Stores in *to the difference between the results for a list of particles and for its permutation. Particles are
- * sorted by position, so that the difference must be exactly 0. REFUSED or FAILED if a run is. */
+/* Computes *to, the difference between the results for a list of particles and for its permutation. Particles are
+ * sorted by position, so that it must be exactly 0. Returns REFUSED or FAILED if a run does. */
 static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);

@@ -4,7 +4,7 @@
 #include "limits_scenes.h"
 #include "base/memory.h"
 
-/* The matrix M^-1/2 K M^-1/2 of a free body, n x n. */
+/* The matrix M^(-1/2) K M^(-1/2) of a free body, n x n, with stiffness K and masses M. */
 struct matrix {
     int64_t n;
     real *at;
@@ -31,8 +31,8 @@ static struct matrix matrix_of(struct run *e)
     return m;
 }
 
-/* Returns the number of eigenvalues of a matrix A below x: the number of negative pivots of A - x I (Sylvester
- * 1852). */
+/* Returns the number of eigenvalues of the matrix A = *m below x: the number of negative pivots of A - x I
+ * (Sylvester 1852). */
 static int64_t limits_modes_below(const struct matrix *m, real x)
 {
     const int64_t n = m->n;
@@ -50,8 +50,8 @@ static int64_t limits_modes_below(const struct matrix *m, real x)
     return count;
 }
 
-/* Returns the eigenvalue of the matrix that has exactly `lower` smaller ones, by bisection between 0 and `high`, with
- * relative error 1e-4. */
+/* Returns the eigenvalue of the matrix m that has exactly `lower` smaller ones, by bisection between 0 and `high`,
+ * with a relative error of 1e-4. */
 static real eigenvalue(const struct matrix *m, int64_t lower, real high)
 {
     real low = 0;
@@ -93,8 +93,8 @@ static status square_make(struct run *e, struct scene *s, const struct limits_ro
 
 /* ---- zero-energy modes ------------------------------------------------------------------------------------------- */
 
-/* Stores in *to the number of zero-energy modes of a free square beyond its three rigid motions. FAILED if the run
- * cannot be created. */
+/* Computes *to, the number of zero-energy modes of a free square beyond its three rigid motions. r: method of the
+ * run. Returns FAILED if the run cannot be created. */
 static status modes(const struct limits_row *r, double *to)
 {
     struct run e;

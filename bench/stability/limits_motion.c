@@ -26,8 +26,8 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* Runs a rotating body to the end of its scene. to[0]: largest shear stress [MPa], of material points only if there are
- * any; to[1], to[2]: relative changes of angular momentum and of kinetic energy. FAILED if a step fails. */
+/* Runs a rotating body to the end of its scene. to[0]: largest shear stress [MPa], of material points only if there
+ * are any; to[1], to[2]: relative changes of angular momentum and of kinetic energy. Returns FAILED if a step fails. */
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
@@ -47,8 +47,9 @@ static status limits_motion_turn(struct run *e, double *to)
         {"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, { "change of kinetic energy", threshold }    \
     }
 
-/* Runs a square that rotates rigidly, with its corners at r->given m/s: for a tenth of a revolution at 10 m/s and a
- * whole one at 100 m/s. to[3]: errors as in limits_motion_turn. FAILED if a step fails. */
+/* Runs a square that rotates rigidly, with its corners at r->given m/s: a tenth of a revolution at 10 m/s, a whole
+ * one at 100 m/s. to[0]: largest shear stress [MPa]; to[1], to[2]: relative changes of angular momentum and of
+ * kinetic energy. Returns FAILED if a step fails. */
 static status spin(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -90,8 +91,9 @@ static const struct limits_row spins[] = {
 };
 const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
 
-/* Runs a rotating disc of radius 10 mm for one revolution, with its rim at 100 m/s and peridynamic particles within 4
- * mm of its centre. to[3]: errors as in limits_motion_turn. FAILED if a step fails. */
+/* Runs a rotating disc of radius 10 mm for one revolution, with its rim at 100 m/s and peridynamic particles within
+ * 4 mm of its centre. to[0]: largest shear stress of material points [MPa]; to[1], to[2]: relative changes of
+ * angular momentum and of kinetic energy. Returns FAILED if a step fails. */
 static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -148,12 +150,12 @@ static double projection(struct run *e)
     return sum;
 }
 
-/* Number of velocity zeros of the mode in the run: the ninth is after four and a quarter periods; velocities lag by
- * half a step. */
+/* Number of zeros of the mode's velocity in the run. The ninth one is after four and a quarter periods; velocities
+ * lag by half a step. */
 enum { STANDS = 9 };
 
-/* Runs until the velocity of Lame's mode has changed its sign STANDS times, and stores the number of steps until then
- * in *steps, interpolated; NAN if it does not. FAILED if a step fails. */
+/* Runs until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of steps
+ * until then, interpolated, or NAN if this does not happen. Returns FAILED if a step fails. */
 static status periods(struct run *e, double *steps)
 {
     double before = projection(e);
@@ -170,8 +172,8 @@ static status periods(struct run *e, double *steps)
     return OK;
 }
 
-/* Runs a free square in Lame's mode and stores the relative error of its frequency in *to. r->given: Poisson's ratio.
- * FAILED if a step fails. */
+/* Runs a free square in Lame's mode and stores the relative error of its frequency in *to. r->given: Poisson's
+ * ratio. Returns FAILED if a step fails. */
 static status shear(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -244,7 +246,7 @@ static double energy_of(struct run *e)
 }
 
 /* Runs a million steps of a free vibrating plate. Stores in *to the relative change of its energy between the means
- * over the first and the last fiftieth of the steps. FAILED if a step fails. */
+ * over the first and the last fiftieth of the steps. Returns FAILED if a step fails. */
 static status million_steps(struct run *e, double *to)
 {
     double mean[2] = {0};
@@ -292,8 +294,8 @@ static void first_mode(const void *context, const real *X, real *v)
 }
 
 /* Runs a bar that vibrates freely for ten periods. Stores in *to the relative loss of its largest kinetic energy
- * between the first and the last period. The accuracy is 1e-3, since peaks are between steps. FAILED if a step
- * fails. */
+ * between the first and the last period. The accuracy is 1e-3, since peaks are between steps. Returns FAILED if a
+ * step fails. */
 static status vibration(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -22,8 +22,8 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Passes on the peridynamic cases with all horizons, by dimension and model, to t->take. Returns the first status that
- * is not OK. */
+/* Passes the peridynamic cases with all horizons, by dimension and model, to the receiver t. Returns the first
+ * status that is not OK. */
 static status horizons(const struct taker *t)
 {
     static const double horizon[] = {3.015, 1, 2.015, 1.5, 4.015, 5.015, 6.015};
@@ -59,8 +59,8 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* Passes on the cases with published stability limits: large lattices of complete families, without surface correction.
- * Returns the first status that is not OK. */
+/* Passes the cases with published stability limits to the receiver t: large lattices of complete families, without
+ * surface correction. Returns the first status that is not OK. */
 static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
@@ -83,8 +83,8 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Sets the published range of the stability limit of a case, if there is one: in one dimension for whole numbers of
- * points per cell. */
+/* Sets the published range of the stability limit of a case, if there is one. In one dimension ranges are published
+ * for whole numbers of points per cell. */
 static void quote(struct stability_case *c)
 {
     static const struct {
@@ -146,8 +146,8 @@ static status stability_cases_points(const struct taker *t)
 
 /* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
-/* Passes on the cases of bodies that are half peridynamic, in the current frame: all couplings, transfers and cell
- * sizes. Returns the first status that is not OK. */
+/* Passes the cases of bodies that are half peridynamic, in the current frame, to the receiver t: all couplings,
+ * transfers and cell sizes. Returns the first status that is not OK. */
 static status coupled(const struct taker *t)
 {
     static const char *const couplings[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
@@ -200,8 +200,9 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Passes on the cases of the reference frame: borders of the peridynamic region inside cells, and scattered peridynamic
- * particles and material points, as conversion can leave them. Returns the first status that is not OK. */
+/* Passes the cases of the reference frame to the receiver t: borders of the peridynamic region inside cells, and
+ * scattered peridynamic particles and material points, as conversion can leave them. Returns the first status that
+ * is not OK. */
 static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {

@@ -6,7 +6,7 @@
 #include "plot/gnuplot.h"
 #include "stability.h"
 
-/* Begins one of four panels of the picture, at column and row 0 or 1, with its key on the right. */
+/* Begins one of four panels of the picture, with its key on the right. column, row: its position, each 0 or 1. */
 static void stability_draw_set_panel(FILE *to, int column, int row, const char *title)
 {
     const double left = 0.052 + 0.5 * column, above = 0.95 - 0.5 * row;

@@ -16,7 +16,8 @@
 #define QUIET 1e-8 /* velocity over c: linear, and round-off is 1e-8 of it */
 #define LOUD 1e-4  /* velocity over c in a full run, in which nothing breaks or converts */
 #define DRIFT 3e-4 /* translation over c, which moves points through cells in a full run */
-/* growth of velocities that counts as unstable: more than modes that grow with the number of steps reach */
+/* Growth factor of velocities from which on a time step counts as unstable [1]. Modes that grow with the number of
+ * steps remain below it. */
 #define GROWN 1e3
 #define WITHIN 0.004 /* relative accuracy of the limit */
 
@@ -39,16 +40,16 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     }
 }
 
-/* Returns the kinetic energy of a run that exceeds the energy of a uniform translation with the velocity `drift` along
- * each axis [J]. */
+/* Returns the kinetic energy of a run minus that of a uniform translation with the velocity `drift` along each axis
+ * [J]. */
 static double motion(const struct run *e, double drift)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
            0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 it is so
- * long that only its first step is a sample. FAILED or REFUSED if the scene cannot be read. Release with
+/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 the run is
+ * so long that only its first step is a sample. Returns FAILED or REFUSED if the scene cannot be read. Release with
  * bench_engine_free. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
@@ -83,9 +84,9 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 
 /* ---- limits ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the critical time step *limit of a case [s] by bisection between a step for which the motion stays bounded and
- * one for which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. REFUSED if there is
- * no limit near the prediction, FAILED if a trial cannot be run. */
+/* Finds the critical time step *limit of a case [s] by bisection between a step for which the motion stays bounded
+ * and one for which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. Returns
+ * REFUSED if there is no limit near the prediction, FAILED if a trial cannot be run. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
     const struct stability_shake quietly = {QUIET, 0, steps};
@@ -142,8 +143,8 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
     return OK;
 }
 
-/* Distance from a node at which the body ends: with APIC the limit is least slightly beyond or before a node; closer to
- * the node, the node beyond the edge follows its neighbours (grid_move.c). */
+/* Distance of the end of the body from a node. With APIC the limit is smallest if the body ends slightly beyond or
+ * before a node; still closer to the node, the node beyond the edge follows its neighbours (grid_move.c). */
 #define BEYOND 0.01 /* [cells] */
 
 status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)

@@ -14,7 +14,7 @@ static bool stability_scene_is(const char *word, const char *other) { return wor
 
 /* ---- pieces of text ---------------------------------------------------------------------------------------------- */
 
-/* A mapping written in one line; nothing is written if it has no entries. */
+/* A YAML mapping that is written in one line; nothing is written if it has no entries. */
 struct mapping {
     FILE *to;
     const char *name;
@@ -101,8 +101,8 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
     }
 }
 
-/* Writes five balls of one or more particles at irregular positions of the block of a case, each between the texts
- * `before` and `after`. edge: of the block [m]. */
+/* Writes five balls of one or more particles at irregular positions of the block of a case. before, after: texts
+ * around each ball; edge: of the block [m]. */
 static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
 {
     static const double place[][DIM_MAX] = {

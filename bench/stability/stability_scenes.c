@@ -15,7 +15,7 @@ enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
 /* Measures all quantities of a scene with one method, prints them, and adds a row for each to the table. Quantities
- * beyond their threshold are listed with a remedy. FAILED if the scene cannot be run. */
+ * beyond their threshold are listed with a remedy. Returns FAILED if the scene cannot be run. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];

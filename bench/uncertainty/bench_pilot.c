@@ -22,8 +22,8 @@ struct pilot_tally {
 
 /* ---- one scene --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene k with `method: auto` to the file `path`. It requests the figure of the scene to within the relative
- * error `within`. FAILED if the file cannot be written. */
+/* Writes the scene k with `method: auto` to the file `path`. It requests the known quantity of the scene to the
+ * relative error `within` [1]. Returns FAILED if the file cannot be written. */
 static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
 {
     char text[TEXT_ROOM];
@@ -35,8 +35,9 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
     return file_write_whole(path, text, (size_t)length);
 }
 
-/* Runs a scene with the method and spacing that pilot runs have chosen, as a study with a single case in `folder`, and
- * reads the figure called `figure` from its summary into *value. REFUSED or FAILED if the run is. */
+/* Runs a scene with the method and spacing that pilot runs have chosen, p, as a study with a single case in
+ * `folder`. Reads the quantity called `figure` from its summary into *value. Returns REFUSED or FAILED if the run
+ * does. */
 static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
@@ -94,8 +95,8 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Tests whether `method: auto` reaches the requested accuracy in all scenes with known figures. quick: one accuracy
- * only. FAILED if a file cannot be written. */
+/* Tests whether `method: auto` reaches the requested accuracy in all scenes with known results. quick: true for one
+ * accuracy only. Returns FAILED if a file cannot be written. */
 status bench_pilot(bool quick)
 {
     static const double asked[] = {0.05, 0.02, 0.01};

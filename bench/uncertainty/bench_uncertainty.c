@@ -14,7 +14,8 @@
 #include "study/convergence_study.h"
 #include "uncertainty.h"
 
-/* Largest number of rows; runs at each spacing, without and with --quick; capacity of a scene [byte]. */
+/* ROWS_MOST: largest number of rows; RUNS, RUNS_QUICK: runs at each spacing without and with --quick; TEXT_ROOM:
+ * capacity of a scene [byte]. */
 enum { ROWS_MOST = 512, RUNS = 5, RUNS_QUICK = 3, TEXT_ROOM = 2048 };
 #define BUDGET 600.0 /* allowed duration of a study, never reached in practice [s] */
 
@@ -36,7 +37,7 @@ enum { SHARES = COUNT_OF(share) };
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
 /* Writes the scene k with the keys of a variant and the given spacing to the file `path`. A number after @ in the
- * variant is the horizon [spacings]. FAILED if the file cannot be written. */
+ * variant is the horizon [spacings]. Returns FAILED if the file cannot be written. */
 static status scene_text_write(const char *path, const struct known_scene *k, const char *variant, const char *spacing)
 {
     char text[TEXT_ROOM];
@@ -94,7 +95,7 @@ static double covered(const struct known_rows *rows, double nominal)
     return (double)held / rows->n;
 }
 
-/* Returns the median over all figures of the half-width of the 95 % interval over the true error. */
+/* Returns the median over all figures of half the width of the 95 % interval, relative to the true error [1]. */
 static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
@@ -175,7 +176,7 @@ static void uncertainty_draw(FILE *to, const void *context)
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
 /* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their figures and
- * adds them to *rows. quick: one spacing only. FAILED or REFUSED if a study is. */
+ * adds them to *rows. quick: one spacing only. Returns FAILED or REFUSED if a study is. */
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {
     for (int v = 0; v < KNOWN_VARIANTS_MOST && k->variant[v][0]; v++)
