@@ -28,7 +28,7 @@ static real middle_of(const struct bounds *box, int d)
     return isfinite(middle) ? middle : 0;
 }
 
-/* Returns the axis along which the middles of n boxes differ most. list[n]: the boxes, as indices to `box`. */
+/* Returns the axis along which the middles of n boxes differ most. list[n]: numbers of the boxes in `box`. */
 static int widest_spread(const struct boxed *list, int n, const struct bounds *box, int dim)
 {
     int widest = 0;

@@ -111,8 +111,8 @@ static void find_open(struct hull *s)
     memory_free(side);
 }
 
-/* Returns the lowest corner known to be connected with `corner` (union-find with path halving). up[corners]: a lower
- * connected corner of each corner, or the corner itself; shortened on the way. */
+/* Returns the lowest corner that is known to be connected with `corner` (union-find). up[corners]: for each corner a
+ * lower connected one, or itself; paths to the lowest corner are shortened. */
 static int32_t shell_root(int32_t *up, int32_t corner)
 {
     while (up[corner] != corner) corner = up[corner] = up[up[corner]];

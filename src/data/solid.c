@@ -147,7 +147,8 @@ static struct axis_place axis_place_of(const struct solid *s, const real *X)
     return p;
 }
 
-/* Converts a normal in the half-plane of axis and radius, in_plane[2], to the vector normal[3]. */
+/* Computes normal[3] from in_plane[2], the components of a normal along the axis of the solid and away from that
+ * axis. */
 static void axis_normal(const struct axis_place *p, const real in_plane[2], real *normal)
 {
     for (int d = 0; d < DIM_MAX; d++) normal[d] = in_plane[0] * p->axis[d] + in_plane[1] * p->out[d];

@@ -45,13 +45,13 @@ struct surface {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* A lattice site of a body, or the corner of cubes below it, as a number, with the particle or the corner there. */
+/* A site of a body's lattice, or the corner of cubes below it: its number, and the particle or corner there. */
 struct site {
     int64_t key;
     int32_t value;
 };
 
-/* The sites of all bodies with faces. */
+/* The sites of the lattices of all bodies with faces, and where mirrors are. */
 struct sites {
     const struct particles *p;
     const struct boundary *all; /* boundaries of the scene, including mirrors */
@@ -128,7 +128,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns twice the distance of mirror m from the first particle of a body [spacings]; odd if midway between sites. */
+/* Returns twice the distance of mirror m from the first particle of `body` [spacings]; odd if midway between sites. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
@@ -216,7 +216,7 @@ static void parts_make(struct surface *a, const struct site *all, int64_t n)
     }
 }
 
-/* The particles that determine a corner, their positions relative to it [spacings], and their weights. */
+/* The particles that determine a corner of the surface, their positions relative to it [spacings] and weights. */
 struct around {
     int n;
     int32_t particle[STENCIL_MOST];
@@ -463,7 +463,7 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
-/* Computes in s->face_area the area vector of each corner of face q at present positions [m^2]; zero if it is torn. */
+/* Computes s->face_area of face q: area vector of each corner at present positions [m^2]; zero if it is torn. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
@@ -502,7 +502,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load [m^2], summed over its corners. */
+/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners near it. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;

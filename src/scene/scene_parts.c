@@ -214,7 +214,8 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
-/* Returns REFUSED if body b has keys that only rigid bodies have, or is rigid and has others. n: its node. */
+/* Returns REFUSED if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of others. n: its
+ * node. */
 static status check_rigid_body(struct reader *r, const struct yaml_node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
