@@ -27,8 +27,7 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */
 #define COARSER_MOST 4.0           /* factor on the spacing up to which a body breaks in about the same positions */
 #define PARTS_BYTES 56             /* ... in addition with bonds: fragments of a broken body, damage */
-#define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: 2.1 MB of code and data, 2 MB of conversion buffers, */
-                                   /* the file of all frames 1.1 MB                                     */
+#define OUTPUT_BYTES 2.1e6         /* of the HDF5 library, code and data; measured 1.7 to 2.8e6 */
 #define START_SECONDS 0.02         /* of a process: its start and the summary */
 #define FILE_SECONDS 4e-3          /* per frame, checkpoint or profile of any size; both values are measured: */
 #define FILE_SECONDS_PARTICLE 8e-8 /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */

@@ -49,7 +49,7 @@ real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (int64_t g = 0; g < b->row_blocks; g++) most = row_block_stretch_ratio(b, p, limit, g, weakest, most);
-    return most;
+    return most + 0; /* of the zeros of two threads either may be taken: never the negative one */
 }
 
 /* Compares two numbers for array_sort in descending order. */

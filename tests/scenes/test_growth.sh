@@ -106,7 +106,7 @@ wait
 shaking()
 {
     awk -F, '
-        NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /force_y/) column = i }
+        NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^reaction.force_y/) column = i }
         NR > 1 { t[NR - 1] = $1; force[NR - 1] = $column; n = NR - 1 }
         END {
             for (j = -12; j <= 12; j++) { s0++; s2 += j * j; s4 += j ^ 4 }

@@ -385,7 +385,7 @@ is "a film that fails: exit status" $? 1
 holds "and says why: $(cat err)" grep -q "^fail.mp4: ffmpeg made no film: broken: of the test$" err
 for signal in INT TERM HUP; do
     rm -f waits
-    env --default-signal=INT "$cleave" plot results/strip --field speed --frames 2 $small -o wait.mp4 >out 2>err &
+    env --default-signal=INT,HUP "$cleave" plot results/strip --field speed --frames 2 $small -o wait.mp4 >out 2>err &
     film=$!
     tries=0
     while [ ! -e waits ] && [ $tries -lt 200 ]; do sleep 0.02; tries=$((tries + 1)); done
