@@ -140,8 +140,9 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Continues the line of the run time: prints from which trial steps it was extrapolated (all steps with larger
- * particles, or the first steps alone), and the run time if all particles were peridynamic. */
+/* Continues the printed line of the run time. Prints from which trial steps the run time was extrapolated (all steps
+ * with larger particles, or the first steps alone), and what the run time would be if all particles were peridynamic.
+ * c: estimated cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -154,8 +155,9 @@ static void say_basis(const struct scene *scene, const struct cost *c)
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
-/* Factors from the estimated time of a step of a static equilibrium to its bounds. Only forces are estimated; plates of
- * 10,000 and 80,000 particles with a crack took up to 4.3 times as long with both solvers on a busy machine. */
+/* Bounds of the estimated time of a step of a static equilibrium: estimate/REST_BELOW and estimate * REST_ABOVE. Only
+ * the time of the forces is estimated. Plates of 10,000 and 80,000 particles with a crack took up to 4.3 times as long
+ * with both solvers on a busy machine. */
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
@@ -191,8 +193,8 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Prints the smallest and largest random factor on the strength over the particles of a material, as a clause.
- * material: its index. */
+/* Prints a part of a sentence: the smallest and largest random factor on the strength over the particles of a material
+ * [1]. material: index of the material. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;
@@ -251,7 +253,8 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     }
 }
 
-/* Prints that other programs keep the machine busy, if they do. load: before the trial steps, which count as well. */
+/* Prints that other programs keep the machine busy, if they do. load: load average of the machine before the trial
+ * steps, since the steps themselves raise it; threads: number of threads of the run. */
 static void say_busy(double load, int threads)
 {
     char text[256];
@@ -276,8 +279,8 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Prints a list of lines, the first one after the heading and the others indented below it. Prints nothing if the list
- * is empty. */
+/* Prints the texts of a list, one per line: the first after `heading`, the others indented below it. Prints nothing if
+ * the list is empty. */
 static void say_list(const struct warnings *lines, const char *heading)
 {
     for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);

@@ -78,8 +78,9 @@ static const struct {
 };
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
 
-/* Returns the errors of the table for a part that is `layers` layers thick [OFFS, %]. surface: correction of bonds near
- * faces. */
+/* Returns the largest relative errors of the stiffness of a peridynamic part that is `layers` particles thick: three
+ * errors [%], indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending and tension) and OFF_TWISTED (3D in torsion).
+ * surface: rule by which bonds near faces are corrected. */
 static const int *stiffness_errors(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -99,7 +100,8 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
         fprintf(out, "about %d %% in bending and tension, %d %% in twisting", off[OFF_SOLID], off[OFF_TWISTED]);
 }
 
-/* Appends to a remark the largest error of the stiffness of a peridynamic part that is `layers` particles thick. */
+/* Appends to the remark `out` the largest error of the stiffness of a peridynamic part that is `layers` particles
+ * thick. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -123,8 +125,9 @@ static real two_digits_down(real value)
     return floor(value / digit + 1e-6) * digit;
 }
 
-/* Writes a remark for each body with a part thinner than FEATURE horizons, where most particles have incomplete
- * families. Skips scenes with the method mpm, and 1D. */
+/* Writes to `out` a remark for each body with a part that is thinner than FEATURE horizons. Most particles of such a
+ * part are near a surface and lack neighbours within the horizon. Writes nothing for scenes with the method mpm, and in
+ * 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -142,8 +145,9 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Writes a remark for each solid that is subtracted from a body and is thinner than a spacing: it parts bonds but holds
- * no row of particles. Images of voxels have no such size. */
+/* Writes to `out` a remark for each solid that is subtracted from a body and is thinner than one spacing. Such a hole
+ * cuts bonds but removes no row of particles. Solids from voxel images are skipped because their thickness is not
+ * known. */
 static void advise_narrow_holes(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -163,8 +167,9 @@ static void advise_narrow_holes(const struct run *e, FILE *out)
     }
 }
 
-/* Returns true if X [dim, m] is at a face of the shape that is curved or slanted to the axes: the normal of the face at
- * the points AROUND spacings from X along an axis is parallel to no axis. */
+/* Returns true if the point X[dim] [m] is within BESIDE_FACE spacings of a face of the shape that is curved or slanted
+ * to the axes. The normals of the shape are evaluated at the points AROUND spacings from X along each axis. The face is
+ * curved or slanted if a normal near the face is parallel to no axis. */
 static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0};
@@ -209,8 +214,9 @@ static bool rises_in(const struct boundary *b, real rise)
     return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
 }
 
-/* Writes one remark for all loads that have the rise time of boundary b, if waves travel less than WAVE spacings in
- * this time. Writes nothing if an earlier boundary has the same rise time. */
+/* Writes to `out` one remark for all loads that have the rise time of boundary number b, if waves travel less than WAVE
+ * spacings in this time. tables: material constants. Writes nothing if a boundary before b has the same rise time,
+ * since the remark then exists. */
 static void advise_rise(const struct scene *s, const struct material_tables *tables, int b, FILE *out)
 {
     const real rise = rise_time(&s->boundary[b].time), length = tables->wave_speed * rise / s->spacing;
@@ -274,8 +280,8 @@ static void advise_formulas(const struct run *e, FILE *out)
 }
 
 /* Extends the range *least..*most [m] so that it contains the displacements along axis d that the support l prescribes
- * at time t [s], evaluated at up to PULL_PLACES of its particles. Does nothing for other loads, for rotating supports,
- * and if the displacement is not known. */
+ * at time t [s]. They are evaluated at up to PULL_PLACES of the particles of l. Leaves the range unchanged if l is
+ * another load or a rotating support, or if the displacement is not known. */
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
@@ -287,8 +293,8 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
     }
 }
 
-/* Returns the largest length of the body along axis d that its supports prescribe, over its length at the start [1]; 1
- * if they do not stretch it. duration: of the run [s]. */
+/* Returns the largest length of the body along axis d that its supports prescribe during the run, divided by its
+ * initial length [1]. Returns 1 if no support stretches the body. duration: of the run [s]. */
 static real pulled_stretch(const struct loads *l, const struct particles *p, real duration, int d)
 {
     real low, high, stretch = 1;
@@ -301,16 +307,16 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
     return stretch;
 }
 
-/* Stretches of metal bars in the current frame. Measured (inputs/choosing.md, Yielding): with linear shapes they bear
- * 12 to 45 % too little from 1.02 on, with gimp 6 to 10 % from 1.4 on; points come apart beside driven ones from 1.3
- * on.
- */
+/* Stretches (present over initial length) of metal bars whose material points are in the current frame, above which
+ * results are wrong. Measured (inputs/choosing.md, Yielding): with linear shape functions the force is 12 to 45 % too
+ * small above WEAK_LINEAR, with gimp 6 to 10 % above WEAK_GIMP. Points beside those that a support drives separate
+ * above PARTS_AT_GRIP. */
 #define WEAK_LINEAR 1.02
 #define WEAK_GIMP 1.4
 #define PARTS_AT_GRIP 1.3
 
-/* Writes a remark if supports pull metal to `stretch` times its length [1], so far that the shapes of scene s make it
- * too weak, or part it. */
+/* Writes to `out` a remark if supports pull metal bodies to `stretch` times their initial length and, with the shape
+ * functions of scene s, the force is then too small or the points separate. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const bool linear = s->shape == SHAPE_LINEAR, gimp = s->shape == SHAPE_GIMP;
@@ -328,9 +334,9 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
             stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
-/* Writes a remark if supports stretch the body so far that it separates without fracture: elastic bodies where
- * neighbouring material points share no grid nodes, metals earlier. Applies to points in the current frame. l: supports
- * of the particles p. */
+/* Writes to `out` a remark if supports stretch the body so far that it separates without fracture. An elastic body
+ * separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only points in the
+ * current frame. l: loads and supports of the particles p. */
 static void advise_separation(const struct scene *s, const struct loads *l, const struct particles *p, FILE *out)
 {
     bool yields = false;
@@ -350,7 +356,8 @@ static void advise_separation(const struct scene *s, const struct loads *l, cons
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* Adds a hint if a state-based model is used with the Poisson's ratio of the cheaper bond-based model. */
+/* Adds a hint to *to if the scene uses a state-based model with a Poisson's ratio for which the cheaper bond-based
+ * model gives the right elasticity as well. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = bond_based_poisson_ratio(s->space);

@@ -18,7 +18,7 @@
 #include "scene/scene_read.h"
 #include "step/checks.h"
 
-/* Measurements of the time per step: largest number, least number. */
+/* Largest number of measurements of the time per step (PERIODS_MOST), and least number of them (WINDOWS_LEAST). */
 enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define SECONDS_ENOUGH 0.15        /* time of the measurements after which there are enough [s] */
 #define SECONDS_MOST 1.0           /* time after which the measurements end in any case [s] */
@@ -41,8 +41,9 @@ static struct quartiles quartiles_of(double *spent, int n)
     return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
 }
 
-/* Runs steps of e and measures the processor time of one step [s], as quartiles over windows from one sample of the
- * history to the next. The first step, which has cold caches, does not count. Returns FAILED if a step fails. */
+/* Runs steps of e and measures the processor time of one step [s]. Each measurement covers the steps from one sample of
+ * the history to the next. Stores the quartiles of the measurements in *step. The first step, which has cold caches,
+ * does not count. Returns FAILED if a step fails. */
 static status time_steps(struct run *e, struct quartiles *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
@@ -176,8 +177,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 /* Returns the number of neighbours of a particle inside the body, from the volume of a full family. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate of the time for writing output [s]: frames, of which one is at the start, two checkpoints,
- * profiles and particle series. */
+/* Returns an estimate of the time for writing the output of a run [s]: all frames including the one at the start, two
+ * checkpoints, profiles and particle series. */
 static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;

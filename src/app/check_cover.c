@@ -18,8 +18,9 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
 }
 
-/* Returns true if X [m] is inside the piece or within `distance` [m] of it. Returns false for the piece of a body's
- * basic material, which is the remainder of the body outside its parts of other materials. */
+/* Returns true if the point X[dim] [m] is inside the piece p of a body or within `distance` [m] of it. Returns false if
+ * p is the piece of the body's basic material: this piece is the remainder of the body outside its parts of other
+ * materials. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -120,8 +121,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the share of a cell with centre X that is inside the shape [1]. Approximates the surface in the cell by a
- * plane, from the distance and normal of the surface at X. */
+/* Returns the share of a cell that is inside the shape [1]. X[dim]: centre of the cell [m]. The surface in the cell is
+ * approximated by a plane, from the distance and the normal of the surface at X. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
@@ -131,9 +132,9 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Returns the share of a cell that is inside the piece [1], from PLACES points of a Weyl sequence (constants of
- * Roberts) with a different start in each cell. plane: only one face crosses the cell, and share_behind is used
- * instead. */
+/* Returns the share of a cell that is inside the piece p [1]. plane: only one face crosses the cell, so that the face
+ * is approximated by a plane; otherwise PLACES points in the cell are tested. The points form a Weyl sequence
+ * (constants of Roberts) with a different start in each cell. */
 static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},

@@ -12,14 +12,16 @@
 enum { AWAY = 4 };        /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
 #define COLUMNS_MOST 16.0 /* largest number of columns in the bounding box over the particles of the face */
 
-/* End heights of columns of particles along the axis of a face, on a grid across the axis [spacings]. */
+/* Heights of the outermost particles of a face. Particles are sorted into columns along the axis of the face; the
+ * columns form a grid over the other axes. All lengths are in spacings. axes: number of these other axes, axis[axes];
+ * n[axes]: numbers of columns along them; low[axes]: lower corner of the grid. */
 struct ends {
     int axes, axis[DIM_MAX - 1], n[DIM_MAX - 1];
     real low[DIM_MAX - 1];
     real *height; /* [n] height along the axis, outwards [spacings]; NAN: none */
 };
 
-/* Areas of the part of a face that is not normal to its axis. */
+/* Area of a face, and area of that part of the face whose normal is inclined to the axis of the face. */
 struct elsewhere {
     real area, other, angle; /* of the face; of this part [m^2]; angle times area [degree m^2] */
     real aligned, last;      /* coordinates of the aligned part along the axis: deepest and outermost end [m] */
@@ -64,8 +66,9 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Returns the slope of the column heights at index `place` along axis c->axis[k] [1], over AWAY columns. Of the slopes
- * on both sides it is the smaller one, so that a single step does not count as a slope. */
+/* Returns the slope of the column heights along axis c->axis[k] at the column with the index `place` [1], over AWAY
+ * columns. Of the slopes on both sides of the column it is the smaller one, so that a single step does not count as a
+ * slope. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -115,8 +118,9 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Returns a coordinate along the axis of face b, outward positive [m], such that a region beginning there excludes
- * nearly all of the inclined part of the face; INFINITY if none is found. all: sums over the whole face. */
+/* Returns a coordinate along the axis of the face f of boundary b, outward positive [m]. A region that begins at this
+ * coordinate excludes nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. c:
+ * column heights of the face; all: areas of the whole face. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
                           const struct ends *c, const struct elsewhere *all)
 {

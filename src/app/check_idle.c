@@ -80,7 +80,8 @@ static bool scene_gives_all(const struct scene *s)
     return all;
 }
 
-/* Returns true if an earlier row of idle_keys than `row` names the key and is true for the scene. */
+/* Returns true if a row of the table idle_keys before row number `row` names the key and its condition is true for the
+ * scene, so that the key has been reported already. */
 static bool key_is_named_before(const struct scene *s, size_t row, const char *key)
 {
     bool named = false;
@@ -88,8 +89,8 @@ static bool key_is_named_before(const struct scene *s, size_t row, const char *k
     return named;
 }
 
-/* Appends to text[capacity], which has `used` characters, the given keys of row `row` of idle_keys and why they have no
- * effect, if there are any. Returns the number of characters. */
+/* Appends to text[capacity] the keys in row number `row` of idle_keys that the scene gives, and why they have no
+ * effect. Appends nothing if the scene gives none of them. used: present length of the text. Returns the new length. */
 static size_t idle_row_append(const struct scene *s, size_t row, char *text, size_t capacity, size_t used)
 {
     const size_t before = used;
@@ -106,7 +107,8 @@ static size_t idle_row_append(const struct scene *s, size_t row, char *text, siz
     return used;
 }
 
-/* Adds a hint that names the materials whose bonds cannot break although the scene says when, as it has no bonds. */
+/* Adds a hint to *to for each material that has a fracture criterion in a scene with the method mpm, which has no bonds
+ * that could break. */
 static void hint_unbreakable(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)

@@ -9,7 +9,8 @@
 #define SHARE_LEAST 0.5  /* least share of particles in thin parts; a smaller one are edges and steps of faces */
 enum { RUNS_MOST = 64 }; /* largest number of layers that are counted */
 
-/* Sites of a body's particles in their bounding box. */
+/* Grid of the lattice sites in the bounding box of a body's particles, with a mark for each site that a particle fills.
+ * n[dim]: number of sites along each axis; stride[dim]: step of the site index along each axis. */
 struct layer_map {
     int dim;
     int64_t n[DIM_MAX], stride[DIM_MAX];
@@ -129,14 +130,15 @@ double count_thin_layers(const struct run *e, int body, double max_layers)
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
 
-/* Returns the relative error in bending of nearly incompressible peridynamic bodies, in plane strain and 3D [%]. The
- * values were measured with 10 layers, in static bending with the models ospd and mospd, and decrease as 1/layers.
- * poisson: Poisson's ratio. */
+/* Returns the relative error of the stiffness in bending of nearly incompressible peridynamic bodies [%], in plane
+ * strain and 3D. layers: particle layers across the body; poisson: Poisson's ratio. The error was measured with 10
+ * layers, in static bending with the models ospd and mospd, and decreases as 1/layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
-/* Returns the relative error in bending of linear cells of two spacings [%]. A beam of N layers is 1 + b/N^2 times too
- * stiff, with b = 0.65/(1 - 2 nu): an empirical fit to cantilevers of 8 and 16 layers with Poisson's ratios nu from 0.3
- * to 0.4995, within a fifth of b. */
+/* Returns the relative error of the stiffness in bending of material points on linear cells of two spacings [%]. A beam
+ * of N layers is 1 + b/N^2 times too stiff, with b = 0.65/(1 - 2 nu). The formula is an empirical fit to cantilevers of
+ * 8 and 16 layers with Poisson's ratios nu from 0.3 to 0.4995, which deviate by up to a fifth of b. poisson: nu;
+ * layers: N. */
 static double soft_cells(double poisson, double layers)
 {
     const double more = 0.65 / (1 - 2 * poisson) / (layers * layers);

@@ -9,8 +9,8 @@
 /* Approximate number of particles that are examined; largest number of layers that is counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of the body is within PROBE spacings of X [m]. Also returns true if more particles are
- * near X than can be tested. */
+/* Returns true if a particle of the body is within PROBE spacings of the point X[dim] [m], so that X counts as inside
+ * the body. Also returns true if more particles are near X than can be tested. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -21,8 +21,9 @@ static bool body_at(const struct run *e, int body, const real *X)
     return n > ROOM;
 }
 
-/* Returns the thickness of a body at particle i as a number of particles: the smallest count along an axis through the
- * particle, at most LAYERS_MOST. An axis along which the body ends at a plane of symmetry counts as LAYERS_MOST. */
+/* Returns the thickness of the body of particle i, as a number of particles. The particles are counted along each axis
+ * through particle i, up to LAYERS_MOST, and the smallest count is returned. An axis along which the body ends at a
+ * plane of symmetry counts as LAYERS_MOST. */
 static int layers_at(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;

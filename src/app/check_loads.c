@@ -164,11 +164,11 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area of the faces on which the pressure load number `which` acts, and their mean distance from the
- * surface of the body's shape. Steps of a slanting or curved surface have a larger area and are on both sides of it.
- * The mean distance is the volume between faces and surface over the area of the surface, by which a bore is wider
- * than its shape. It is exact because the flux of the shape's normals through closed steps equals the flux through
- * the surface. */
+/* Prints the area of the faces on which the pressure load number `which` acts, and the mean distance of these faces
+ * from the surface of the body's shape. Steps of a slanting or curved surface have a larger area than the surface and
+ * are on both sides of it. The mean distance is the volume between faces and surface over the area of the surface; a
+ * bore of particles is wider than its shape by this distance. The distance is exact, because the flux of the shape's
+ * normals through closed steps equals their flux through the surface. */
 static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];
@@ -190,8 +190,9 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes the exact area [m^2] of the face normal to axis b->face of a body that is a box, within the region of
- * boundary b. Returns false if the body is no box along the axes, or the region is none. */
+/* Computes the exact area of the face normal to axis b->face [m^2] of a body that is a box along the axes, within the
+ * region of boundary b, and stores it in *area. Returns false if the body is no such box, or if no part of the face is
+ * in the region. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -221,7 +222,7 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-/* Prints the force and the moment of a load and the time for which they are computed, as clauses. */
+/* Prints the total force and moment of a load, and the time for which they are computed, as part of a sentence. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;
@@ -320,7 +321,8 @@ static void say_load(const struct run *e, int which)
 #define UNBALANCED 0.01 /* net force from which on loads do not balance, over the sum of their forces */
 enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
 
-/* Returns true if one body moves freely in time under loads alone: nothing holds or drives it, and it meets none. */
+/* Returns true if the scene has a single body that moves in time under loads alone: no support holds or drives it, and
+ * it can touch no other body. */
 static bool is_free_body(const struct scene *s, const struct particles *p, const struct loads *loads)
 {
     bool is_free = scene_is_dynamic(s) && s->rigids == 0 && p->n > 0 && p->n == p->n_body;
@@ -329,8 +331,8 @@ static bool is_free_body(const struct scene *s, const struct particles *p, const
     return is_free;
 }
 
-/* Computes the net force of all loads but weights at time t [s] into force[DIM_MAX] [N]. Returns the sum of the sizes
- * of the forces of the loads [N]. */
+/* Computes the net force of all loads at time t [s], except of loads proportional to mass such as gravity, and stores
+ * it in force[DIM_MAX] [N]. Returns the sum of the magnitudes of the forces of the single loads [N]. */
 static real net_force(const struct loads *loads, const struct particles *p, real t, real *force)
 {
     real all = 0;

@@ -76,9 +76,9 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
 
-/* Sets k->rows[cells]: 1 + the number of particles, at most NARROW, in the run along k->axis to which the cell belongs;
- * 0 for cells in no run. Runs of cells without particles that the piece partly covers get 1, unless they adjoin a run
- * of particles. */
+/* Sets k->rows[cells]. A run of n cells with particles along k->axis sets its cells to 1 + n, where n is at most
+ * NARROW. A run of cells without particles that the piece partly covers sets its cells to 1, unless it adjoins a run
+ * with particles. All other cells are set to 0. */
 static void rows_count(struct necks *k)
 {
     const struct cover *c = k->cover;
@@ -247,8 +247,8 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the index of the cell at the centre u->at of a neck, or -1 if this cell is outside the grid or in no run (see
- * run_goes_on). */
+/* Returns the index of the grid cell that contains the centre u->at of a neck. Returns -1 if this cell is outside the
+ * grid or belongs to none of the runs of cells that k->rows counts. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -260,8 +260,9 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Moves X [m] along `axis` in the direction `way` (-1 or 1) in steps of 1/FINE spacing until the piece ends, at most
- * two spacings. Returns true if the width at the last point inside is less than 0.95 `width` [m]. */
+/* Moves the point X[dim] [m] along `axis` in the direction `way` (-1 or 1) in steps of 1/FINE spacing, until the piece
+ * ends or X has moved two spacings. Returns true if the width of the piece at the last point inside is less than 0.95
+ * times `width` [m]. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};
@@ -272,9 +273,10 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Returns true if a neck in 3D is nowhere narrower along the axis `third`, the one neither along its width nor along
- * its length, up to the end of the piece or to where the neck widens. cell: a cell of the neck; width: width of the
- * neck there [m]. Returns false for round rods, which are narrower at their sides; check_sections.c examines these. */
+/* Returns true if a neck in 3D has its smallest width along the axis on which it was found. Its width is compared at
+ * points along the axis `third`, which is neither along the width nor along the length of the neck, up to the end of
+ * the piece or to where the neck widens. cell: a cell of the neck; width: width of the neck there [m]. Returns false
+ * for round rods, which are narrower at their sides; check_sections.c examines these. */
 static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -312,9 +314,9 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Measures a neck and adds it to the list if the width of its particle rows differs too much from the measured width.
- * cell: a cell of the first column of the neck; columns: number of consecutive columns with this number of rows. p:
- * memory for the chords, with the axis p->across and p->mirrored set. */
+/* Measures a neck, and adds it to the list if the width that its particle rows represent differs too much from its
+ * width. cell: a cell of the first column of the neck; columns: number of consecutive columns of cells with the same
+ * number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;

@@ -1,5 +1,5 @@
-/* What `cleave check` says of pre-cracks: remarks on their length, hints at ends that lie on bonds, and the smallest
- * one against the horizon where bonds soften. */
+/* Remarks of `cleave check` on pre-cracks: on short ones, on ends that lie exactly on bonds, and on the length of the
+ * shortest pre-crack over the horizon if bonds soften. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,8 @@
 #include "fracture/fracture_part.h"
 #include "fracture/tips.h"
 
-/* Length of a pre-crack below which its load depends on the horizon [horizons]; by the separate program */
+/* Length of a pre-crack below which its critical load depends on the horizon [horizons]. Determined by the separate
+ * program */
 #define HORIZONS_LEAST 3
 
 /* Returns true if `end` [dim, m], an end of a pre-crack, is a crack tip inside the material and not at a face of the
@@ -71,9 +72,9 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
     return scene->body[part->body[i]].joined;
 }
 
-/* Returns the number of bonds whose cut depends on the exact length of crack c at its corner `end` (0 or 1): bonds that
- * c cuts if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs of particles of
- * one body within the horizon. found[capacity]: work array for the particles near the end. */
+/* Returns the number of bonds whose cut depends on the exact length of crack c at its corner `end` (0 or 1). Crack c
+ * cuts these bonds if it is longer by 1e-7 of its length, but not if it is shorter by as much. Bonds are pairs of
+ * particles of one body within the horizon. found[capacity]: work array for the indices of particles near the end. */
 static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int capacity)
 {
     const struct particles *p = &e->part;

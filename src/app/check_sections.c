@@ -65,7 +65,7 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* Returns that of the sections a and b which has the larger area, as its index. -1 denotes no section. */
+/* Returns the index of the larger one of the sections a and b, by area. An index of -1 denotes no section. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
@@ -203,9 +203,9 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the areas of shape and particles over SLICES sections from section `first` on, or over fewer if the part is
- * shorter. If the sections differ, it uses SLICES_SLANTING of them, because errors from the steps of slanting faces
- * average out. Adds the part to the list if the areas differ too much. */
+/* Compares the areas of shape and particles, summed over SLICES consecutive sections from section `first` on, or over
+ * fewer if the part of the body is shorter. If the areas differ, sums over SLICES_SLANTING sections instead, because
+ * errors from the steps of slanting faces average out. Adds the part to the list if the areas still differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];

@@ -16,8 +16,8 @@
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
 #define LEAST_SHARE 0.1    /* least run time over the largest: early separation, fewer iterations */
 #define SPACINGS 2.0       /* length of a crack increment [spacings] */
-/* Estimated number of equilibria for a crack increment driven by stress-intensity factors; number of pairs of bonds
- * that an equilibrium breaks in 2D. */
+/* LED_EQUILIBRIA: estimated number of equilibria for one crack increment whose direction follows from stress-intensity
+ * factors. PAIRS_AT_ONCE: number of pairs of bonds that one equilibrium breaks in 2D. */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies rotate, and of grips [spacings] */
 
@@ -36,8 +36,8 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance over which bodies extend from a crack tip [m]: ahead of the tip (side 1) or back along the crack
- * (side -1). Bodies from particle lists are ignored. */
+/* Returns the distance over which bodies extend from a crack tip [m]. side: 1 for the distance ahead of the tip, -1 for
+ * the distance back along the crack. Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_bounding_box_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
@@ -101,8 +101,8 @@ void print_load_steps(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a remark if loads act before the first load step, and one if loads decrease although the control of the load
- * steps requires that they grow. */
+/* Writes to `out` a remark if loads act before the first load step. Writes another one if loads decrease, although the
+ * load steps are controlled in a manner that requires growing loads. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -144,7 +144,8 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the number of particle columns of a load along an axis; 0 if they extend over the whole width of the body. */
+/* Returns the width of a load along `axis` as a number of particle columns. Returns 0 if the load extends over the
+ * whole width of the body. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -188,9 +189,9 @@ void print_load_step_advice(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns an estimate of the number of equilibria that one crack increment takes. In 2D PAIRS_AT_ONCE pairs of bonds
- * break per equilibrium, in 3D the largest number that the scene allows. Cracks driven by stress-intensity factors take
- * LED_EQUILIBRIA. */
+/* Returns an estimate of the number of equilibria that one crack increment takes. In 2D, PAIRS_AT_ONCE pairs of bonds
+ * break per equilibrium; in 3D, the largest number that the scene allows. A crack whose direction follows from
+ * stress-intensity factors takes LED_EQUILIBRIA. */
 static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;

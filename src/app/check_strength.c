@@ -5,15 +5,18 @@
 #include "check_parts.h"
 #include "scene/scene_softening.h"
 
-/* Energy that driven cracks dissipate beyond G_c, as bonds beside them soften, too [%], by kappa: measured by a
- * separate program of the same law, in the plane and, for bonds of the cubic lattice in plane strain, in 3D. */
+/* Energy that a crack driven by loads dissipates beyond the fracture energy G_c, because bonds beside the crack soften
+ * as well [% of G_c]. It is tabulated by kappa = (critical stretch/onset stretch of softening)^2, in the first row for
+ * 2D and in the second for bonds of the cubic lattice in 3D under plane strain, as measured by a separate program of
+ * the same law. n: number of measured kappas. */
 enum { EXCESSES = 5 };
 static const struct {
     int n;
     real kappa[EXCESSES], excess[EXCESSES];
 } measured[2] = {{5, {2.1, 4.2, 8.3, 17, 33}, {2, 3, 5, 4, 7}}, {4, {1.2, 2.4, 4.7, 9.7}, {2, 4, 5.5, 12}}};
 
-/* Prints the horizon of a scene, in E G_c/strength^2 of material m, too, if G_c is given. */
+/* Prints the horizon of scene s [m], and if the fracture energy G_c of material m is given, also the ratio of the
+ * horizon to the length E G_c/strength^2, with Young's modulus E and the tensile strength. */
 static void say_horizon(const struct scene *s, const struct material *m)
 {
     printf("               horizon %.4g m", s->horizon * s->spacing);
@@ -22,8 +25,9 @@ static void say_horizon(const struct scene *s, const struct material *m)
                s->horizon * s->spacing * square(m->tensile_strength) / (m->young * m->energy_release_rate));
 }
 
-/* Prints what cracks dissipate beyond G_c at a ratio kappa: between measured ratios linear in its logarithm, and above
- * the largest one only that it is no less. */
+/* Prints by how many per cent the energy that a crack dissipates exceeds the fracture energy G_c. kappa: (critical
+ * stretch/onset stretch of softening)^2. Between measured values of kappa the excess is interpolated linearly in
+ * log(kappa). Above the largest one it is printed as a lower bound. */
 static void say_excess(const struct scene *s, real kappa)
 {
     const int of = s->dim == 3, last = measured[of].n - 1;
@@ -39,8 +43,9 @@ static void say_excess(const struct scene *s, real kappa)
     printf("; at this one they spend about %.0f %% more than G_c", excess[k] + share * (excess[k + 1] - excess[k]));
 }
 
-/* Prints the present horizon, those below which the softening law of material m has its strength and cracks run free of
- * the lattice, and what cracks dissipate at the present ratio kappa. */
+/* Prints the horizon of scene s, the horizon below which the softening law of material m reaches its strength, and the
+ * horizon below which the lattice does not impede cracks. Except in 1D also prints the energy that cracks dissipate
+ * beyond G_c. kappa: (critical stretch/onset stretch of softening)^2. */
 static void say_horizons(const struct scene *s, const struct material *m, real kappa)
 {
     say_horizon(s, m);
@@ -50,8 +55,9 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
     printf("\n");
 }
 
-/* Prints the strengths of a material by its strength surface, the radius over which it is evaluated, and the horizon
- * below which it starts the bonds before they soften by themselves; above that, the states that fall short. */
+/* Prints the strengths of material m according to its strength surface, and the radius over which strains are averaged
+ * to evaluate the surface. Also prints the horizon that the surface requires: with a larger horizon, bonds begin to
+ * soften before the stress reaches the surface. Prints the stresses in tension and shear for which this happens. */
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of(m->softening);
@@ -74,7 +80,8 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf("\n");
 }
 
-/* Prints the tensile strength of material m at the ends of its table of strain rates, if it has one. */
+/* Prints the tensile strength of material m at the lowest and the highest strain rate of its table of strength over
+ * strain rate. Prints nothing if m has no such table. */
 static void print_rate(const struct material *m)
 {
     const struct strength_rate *rate = &m->rate;

@@ -49,8 +49,9 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* Returns true if narrow voids, which part particles without removing one, are beside a particle where they are beside
- * its mirror image. v: NULL: none. */
+/* Returns true if the narrow voids v are symmetric: each particle is beside a void if and only if its mirror image
+ * twin[i] is. Narrow voids separate particles without removing one. v: NULL if the scene has none, which returns true;
+ * n: number of particles. */
 static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
 {
     for (int64_t i = 0; i < n && v; i++)
@@ -58,8 +59,8 @@ static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
     return true;
 }
 
-/* Returns a number that depends on the kind of a load and on its function of time. Different loads have different
- * numbers, and sums of them hardly ever agree by chance. */
+/* Returns a number computed from the kind of a load and its function of time. Different loads have different numbers,
+ * so that sums of them are equal by chance only in rare cases. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -70,9 +71,10 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Sums the loads on component d of each particle in a form that can be compared between mirror images. ask[n]: sum of
- * the loads or prescribed velocities times load_mark of their boundary; held[n]: sum of load_mark over prescribed
- * motions and absorbing boundaries. In a symmetric scene, particles at mirror images have equal sums. */
+/* Sums the loads on component d of each particle, in a form in which mirror images can be compared. ask[n]: sum of the
+ * loads or prescribed velocities, each times load_mark(boundary), a number that identifies the load. held[n]: sum of
+ * load_mark(boundary) over prescribed motions and absorbing boundaries. In a symmetric scene, particles that are mirror
+ * images have equal sums. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -170,8 +172,8 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 /* Returns true if two numbers are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if every growth rule of cracks has a mirror image with equal settings in the plane normal to `axis` at
- * the coordinate `at` [m]. */
+/* Returns true if every rule by which cracks of the scene grow has a mirror image with equal settings in the plane
+ * normal to `axis` at the coordinate `at` [m]. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {

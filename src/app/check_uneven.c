@@ -10,15 +10,16 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns true if a part with the relative error `error` may belong to the list: the list is not full, or |error|
- * exceeds 0.9 times the smallest |off| in it. Errors of equal parts differ by up to a tenth, as they come from
- * samples. */
+/* Returns true if a part of a body whose particles have the relative error of width `error` may be added to the list.
+ * The list must not be full, or |error| must exceed 0.9 times the smallest |off| in it. The factor 0.9 is used because
+ * errors are estimated from samples, and errors of equal parts differ by up to a tenth. */
 bool uneven_list_accepts_error(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
-/* Returns true if two parts have nearly the same width, and both have too many rows or both have too few. */
+/* Returns true if the narrow parts a and b have nearly the same width, and both have too many rows of particles or both
+ * have too few. */
 static bool same_width(const struct uneven *a, const struct uneven *b)
 {
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
@@ -90,9 +91,9 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
     *high = u->at[u->axis] + piece_distance_to_surface(p, u->at, u->axis, 0.05 * h, most);
 }
 
-/* Measures the width of the part u of piece p through its point u->at. Replaces u->width, which comes from areas, and
- * sets u->measured if the measured width differs by less than 10 % and still differs clearly from the width u->filled
- * of the particles. */
+/* Measures the width of the narrow part u of piece p on the line through its point u->at. u->width must hold an
+ * estimate from areas. If the measured width differs from it by less than 10 %, and still differs clearly from the
+ * width u->filled of the particles, it replaces u->width and u->measured is set. */
 static void width_measure(struct uneven *u, const struct piece *p)
 {
     real low, high;
@@ -103,8 +104,9 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Returns the number of lattice rows between the coordinates `low` and `high` along an axis [m] if the scene had
- * another spacing [m]; -1 if the lattice of the body cannot be determined for this spacing. */
+/* Returns the number of lattice rows between the coordinates `low` and `high` along `axis` [m] that the piece p would
+ * have if the spacing of the scene were `spacing` [m]. Returns -1 if the lattice of the body cannot be determined for
+ * this spacing. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -131,9 +133,9 @@ static struct length_unit unit_of_spacing(real spacing)
     return unit[k];
 }
 
-/* Prints the nearest smaller and larger spacing that divide the width of a part and whose lattice has the matching
- * number of rows in it, cut to six digits. If the present spacing divides the width, prints how the part can be moved
- * to fit the lattice. */
+/* Prints the nearest smaller and the nearest larger spacing that divide the width of the narrow part u and give it the
+ * right number of lattice rows. Spacings are cut to six digits. If the present spacing divides the width already,
+ * prints how the part can be moved to fit the lattice. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);

@@ -17,8 +17,8 @@
 /* Capacity of the texts of labels and keys [byte]. */
 enum { KEY_LENGTH = 64 };
 
-/* Largest difference in time of two frames that are compared, as a share of the time between frames: runs with
- * different steps have no frames at identical times. */
+/* Largest difference in time of two frames that are compared, divided by the time between frames [1]. It is not 0
+ * because runs with different time steps have no frames at identical times. */
 static const double SAME_TIME = 0.05;
 
 struct pair {
@@ -76,8 +76,9 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the latest frame of run A for which run B has a frame at the same time, to within SAME_TIME of the time between
- * frames. Stores the indices of the two frames in *i and *j. Returns false if there are none. */
+/* Finds the latest frame of run A for which run B has a frame at the same time. Times are the same if they differ by at
+ * most SAME_TIME times the time between frames. a, b: frames of the runs A and B. Stores the index of the frame of A in
+ * *i and of B in *j. Returns false if there is no such pair. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -167,8 +168,9 @@ static double frame_step_length(const struct output_frame *f)
     return f->step > 0 ? f->t / (double)f->step : INFINITY;
 }
 
-/* Prints the difference in time of the two frames that are compared, unless it is below half a step, and that the
- * states of a run of LAMMPS are at other times within a step. */
+/* Prints the difference in time of the two compared frames a and b, unless it is below half a step. If exactly one of
+ * the runs is of LAMMPS, also prints that the velocities of the other run are taken half a step before those of LAMMPS,
+ * and its damage one step before. */
 static void print_time_apart(const struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
@@ -353,8 +355,8 @@ static void compare_time(const struct pair *p)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the two folders of the command line into p->folder. REFUSED for options, another number of words, or a folder
- * without a run. */
+/* Reads the two folders of the runs from the words of the command line, argv[argc], into p->folder. REFUSED if there
+ * are options or not exactly two words, or if a folder contains no run. */
 static status read_words(struct pair *p, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)

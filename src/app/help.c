@@ -7,7 +7,8 @@
 #include "scene/scene.h"
 #include "scene/words.h"
 
-/* Words that are neither keys nor values of keys, and where the manual or the program answers. words: a|b|c. */
+/* Words that a user may ask about but that are neither keys nor values of keys, with the texts that name where the
+ * manual or the program treats them. words: words with the same answer, separated by |. */
 static const struct {
     const char *words, *answer;
 } topics[] = {

@@ -8,8 +8,8 @@
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
-/* An entry of the manual. term NULL: a paragraph. of: names of the commands to which the entry applies; NULL: all
- * commands that have the term. */
+/* An entry of the manual. term: option or word that the entry explains; NULL: the entry is a paragraph. text: the
+ * explanation. of: names of the commands to which the entry applies; NULL: all commands that have the option. */
 struct entry {
     const char *term, *text, *of;
 };

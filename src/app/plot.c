@@ -36,8 +36,8 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads the value of --times: numbers with units separated by commas, or all, or last. REFUSED for a text that is no
- * time, or for more than PANELS_MAX times. */
+/* Reads the value of --times into w: numbers with units separated by commas, `all`, or `last`. REFUSED if the text
+ * contains anything that is no time, or more than PANELS_MAX times. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -166,8 +166,9 @@ static status read_fps(struct plot_words *w, const char *text)
     return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
 }
 
-/* Reads the value of --size: 1200x800 [pixel] or 90mmx60mm. REFUSED unless the width is from 300 pixels (53 mm) and
- * the height from 226 (40 mm) to 10000: a smaller picture has no space beside its letters. */
+/* Reads the value of --size into w: width and height as 1200x800 [pixel] or as 90mmx60mm. REFUSED unless the width is
+ * from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space beside its
+ * letters. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
     enum { WIDTH_LEAST = 300, HEIGHT_LEAST = 226, MOST = 10000 };

@@ -24,8 +24,9 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
-/* Prints when and at how many positions bonds broke first, the growth, angle and ends of the longest crack, and when a
- * bond of particles that a boundary drives broke first. Prints nothing if no bond broke. */
+/* Prints how bonds broke in the run e: when and at how many positions they broke first, the growth, angle and ends of
+ * the longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke.
+ */
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;

@@ -36,8 +36,8 @@ static status key_add(struct sweep_arguments *a, const char *text)
     return OK;
 }
 
-/* Appends the figure of an option --of to a->of. name: NULL if the option has no value. REFUSED if the value is
- * missing, or for more than FIGURES_MOST figures. */
+/* Appends the name of a figure, the value of an option --of, to the list a->of. name: NULL if the option has no value.
+ * REFUSED if name is NULL or the list already has FIGURES_MOST figures. */
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
     TRY(option_has_value("--of", name != NULL, usage));
