@@ -59,9 +59,9 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg for the film sheet.path, which it writes under a temporary name: H.264 with even sizes, which most
- * players support, or a GIF with a palette of its own. fps: frames per second; 0: the default. Returns FAILED if ffmpeg
- * cannot be started. */
+/* Starts ffmpeg for the film sheet.path, which it writes under a temporary name. The film is in H.264 with even numbers
+ * of pixels, which most players support, or a GIF with a palette of its own. fps: frames per second; 0: the default.
+ * Returns FAILED if ffmpeg cannot be started. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {
     struct path to;
@@ -109,8 +109,9 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
     return sent == length ? OK : status_set(FAILED, "%s", "");
 }
 
-/* Closes the input of ffmpeg, waits for its end and gives the film its name. fed: status of writing the pictures.
- * Returns `fed` if it is not OK, FAILED with the message of ffmpeg if there is no film. Removes an incomplete film. */
+/* Closes the input of ffmpeg, waits until it ends, and renames the film from its temporary name to sheet.path. fed:
+ * status of writing the pictures into ffmpeg. Returns `fed` if it is not OK, and FAILED with the message of ffmpeg if
+ * there is no film. Removes an incomplete film. */
 static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
 {
     char reason[256];

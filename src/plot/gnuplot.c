@@ -99,8 +99,8 @@ enum { NARROW = 760 }; /* pictures narrower than this have no room beside their 
 void picture_size_set(struct picture_size size) { usual = size; }
 struct picture_size picture_size_get(void) { return usual; }
 
-/* Factor on the letters of PDFs, whose sizes are points, by which they are those of a PNG; on those of narrow pictures,
- * which then have 7 points. */
+/* PDF_LETTERS: factor on the size of letters in a PDF, whose sizes are in points, that gives them the size of letters
+ * in a PNG. NARROW_LETTERS: factor on the size of letters in narrow pictures, which then have 7 points. */
 static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
 
 /* Writes the commands that select the terminal: SVG, PDF, or PNG by pngcairo (antialiased) if gnuplot has it. width,
@@ -142,7 +142,9 @@ static void gnuplot_release(struct gnuplot *g)
     *g = (struct gnuplot){0};
 }
 
-/* Does what gnuplot_open does, with a factor on the size of letters. */
+/* Opens gnuplot for the picture `path` of the given format. width, height: size of the picture [pixel]; letters: factor
+ * on the size of letters [1]. Returns REFUSED if `path` contains control characters, FAILED if gnuplot cannot be
+ * started. */
 static status open_with_letters(struct gnuplot *g, const char *path, enum picture_format format, int width, int height,
                                 double letters)
 {
@@ -188,7 +190,8 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 
 bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }
 
-/* Sizes of letters of titles, and the mean width of a letter over its size. */
+/* Sizes of letters of titles: in large pictures, in narrow pictures, the smallest one for which a title is not broken
+ * into two lines, and the smallest one of all. */
 enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
 static const double LETTER_WIDE = 0.58;
 

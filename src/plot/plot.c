@@ -79,7 +79,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 
 /* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments. A map is omitted if the
  * frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected frames. If r->every is set,
- * the same maps of every frame of the run follow. REFUSED if the request does not suit the field; FAILED if a frame
+ * also draws these maps for every frame of the run. REFUSED if the request does not suit the field; FAILED if a frame
  * cannot be read or gnuplot fails. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)

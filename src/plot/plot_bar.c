@@ -35,8 +35,8 @@ static status profile_read(struct history *h, const char *folder, const char *pr
     return history_read_file(h, path);
 }
 
-/* Returns true if `file` in `folder` is a profile at the first frame that has the columns of a closed-form solution.
- * Stores the name of its probe in name[]. */
+/* Returns true if `file` in `folder` is the profile of a probe at the first frame and has the columns of a closed-form
+ * solution. Stores the name of the probe in name[]. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -70,7 +70,8 @@ bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH])
 
 /* ---- scales ------------------------------------------------------------------------------------------------------ */
 
-/* Scale of the vertical axis of a panel: unit as a factor, ends in this unit, label. zero: all values are 0. */
+/* Scale of the vertical axis of a panel. factor: unit of the axis over the SI unit; low, high: ends of the axis in its
+ * unit; zero: all values are 0. */
 struct scale {
     double factor, low, high;
     bool zero;
@@ -96,8 +97,9 @@ static void power_text(char *text, size_t capacity, int power)
              raised[size % 10]);
 }
 
-/* Returns range, unit and label of panel q for the values of all frames, with a margin at both ends of the range.
- * h[frames]: profiles. Strains have a power of ten as their unit, other quantities an SI prefix. */
+/* Returns range, unit and label of the vertical axis of panel q, for its values in the profiles h[frames] of all
+ * frames. The range has a margin at both ends. The unit of strains is a power of ten, that of other quantities has an
+ * SI prefix. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* Number of sampled particles, and of distance comparisons, to estimate the spacing. */
+/* SAMPLES: largest number of particles that are sampled to estimate the spacing; SAMPLES_MIN: least number, if the
+ * number of distance comparisons limits it. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
 

@@ -220,7 +220,8 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     return gnuplot_close(&g);
 }
 
-/* Draws the pictures of a history with at least two samples. in_steps: it is one of load steps. */
+/* Draws the pictures of the history s, which must have at least two samples. in_steps: the history has a row for each
+ * load step instead of times. Returns FAILED if gnuplot fails. */
 static status draw_curves(const struct plot_request *r, const char *title, const struct series *s, bool in_steps)
 {
     const char *ending = picture_ending[r->format];
@@ -321,7 +322,8 @@ static double largest_in(const float *a, int64_t n)
     return largest;
 }
 
-/* Returns the extent of the axial stress or velocity of all particles of frame[frames]. factor: unit. */
+/* Returns the range of the axial stress (`stress` true) or of the velocity (false) of all particles of frame[frames].
+ * factor: unit of the range over the SI unit. */
 static struct value_range profile_extent(const struct output_frame *frame, int frames, double factor, bool stress)
 {
     struct value_range e = {INFINITY, -INFINITY};

@@ -8,13 +8,14 @@
 #include "data/cells.h"
 #include "plot/plot.h"
 
-/* Two particles are neighbours if their distance in the lattice is at most NEAR_REACH spacings, so that diagonal ones
- * are included. Deformations below STRAIN_SEEN are not visible, as particles are drawn a tenth wider than the spacing.
- * Two neighbours that have both lost bonds count as connected up to a drawn elongation of PARTED, or of PARTED_MORE
- * times that of 99 % of the pairs that are surely connected, if this is more. A pair is not drawn longer than LONGEST
- * spacings, nor where its elongation exceeds JUMP plus JUMP_TIMES the median of the pairs of its particle: material
- * points may separate without damage. A particle that has lost more than the share LOOSE of its bonds is rubble, which
- * has a size of its own. */
+/* NEAR_REACH: largest lattice distance of neighbours [spacings], so that diagonal ones are included. STRAIN_SEEN:
+ * strain below which a deformation is not visible, as particles are drawn a tenth wider than the spacing. PARTED,
+ * PARTED_MORE: two neighbours that have both lost bonds are drawn as connected up to the elongation PARTED, or
+ * PARTED_MORE times the elongation that 99 % of the surely connected pairs do not exceed, if this is more. LONGEST:
+ * largest length at which a pair is drawn as connected [spacings]. JUMP, JUMP_TIMES: a pair is drawn apart if its
+ * elongation exceeds JUMP plus JUMP_TIMES the median of the pairs of its particle, because material points may separate
+ * without damage. LOOSE: share of lost bonds above which a particle is rubble, whose drawn size does not depend on its
+ * neighbours. */
 #define NEAR_REACH 1.5
 #define STRAIN_SEEN 0.02
 #define PARTED 0.1
@@ -53,7 +54,8 @@ static bool same_side(const struct pairs *p, int64_t i, int64_t j)
            !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
-/* Returns true if the neighbours i and j are on one side of all cracks and at least one of them has all its bonds. */
+/* Returns true if the neighbours i and j are certainly connected: they are on one side of all pre-cracks, and at least
+ * one of them has all its bonds. */
 static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
 {
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);

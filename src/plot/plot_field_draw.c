@@ -47,7 +47,7 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     picture_compose_title(title, r, name, c);
 }
 
-/* Prints the named values of a field, and how many further ones there are. */
+/* Prints the first named values of a field, such as the names of materials, and the number of further ones. */
 static void say_categories(const struct categories *k)
 {
     for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);

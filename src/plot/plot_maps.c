@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "maps_parts.h"
 
-/* Margins of the panels, those of narrow pictures, and gaps between the panels [pixel]. */
+/* Margins of the panels, and gaps between the panels [pixel]. RIGHT_MAX: largest right margin, for a key of long names.
+ */
 enum { LEFT = 104, RIGHT = 136, RIGHT_MAX = 420, ABOVE = 84, BELOW = 70, GAP_X = 34, GAP_Y = 42 };
 enum {
     LEFT_NARROW = 74,
@@ -158,8 +159,9 @@ void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view
         metre->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
 }
 
-/* Draws the panel number `place`, counted row by row: the map of one frame's particles c with axes and title. second:
- * unit of time in the title; lowest: no panel is below this one, so that its axis has labels there. */
+/* Draws the panel number `place`, counted row by row from 0: the map of the particles c of one frame, with axes and
+ * title. second: unit of the time in the title; lowest: no panel is below this one, so that its horizontal axis has
+ * labels. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view,
                                  const struct plotted_particles *c, enum map map, const struct unit *second, int place,
                                  bool lowest)
@@ -235,8 +237,8 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
     }
 }
 
-/* Returns the height of the colour bar [pixel]: that of the panels, at most 360, and at least that of its label if the
- * picture has room. letters: number of letters of the label. */
+/* Returns the height of the colour bar [pixel]. It is the height of the panels, but at most 360 pixels, and at least
+ * the length of the bar's label if the picture is high enough. letters: number of letters of the label. */
 static int bar_height(const struct layout *l, size_t letters)
 {
     const int panels = l->rows * l->panel_height + (l->rows - 1) * GAP_Y, room = l->height - l->above - 40;
@@ -334,8 +336,8 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
     if (k->more > 0) key_entry(to, l, x, l->above + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Returns a layout with the margins of the panels alone. The right one holds the colour bar, or the key of named
- * values, the lower one of an outside view its axes. */
+/* Returns a layout in which only the margins of the panels are set. The right margin holds the colour bar, or the key
+ * of named values. outside: the map is an outside view, whose axes are in the lower margin. */
 static struct layout margins_of(const struct view *view, enum map map, bool outside)
 {
     const bool narrow = gnuplot_is_narrow(), key = map == MAP_KIND || map == MAP_FRAGMENT;

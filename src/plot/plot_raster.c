@@ -9,8 +9,9 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* Half width of a square and radius of a disc over the spacing. A square slightly wider than the spacing closes the
- * gaps of a strained lattice; a disc that reaches beyond the diagonal those of a rotated or irregular one. */
+/* SQUARE: half width of a square particle over the spacing. It is slightly more than 0.5 to close the gaps of a
+ * strained lattice. DISC: radius of a disc-shaped particle over the spacing. It is more than half the diagonal of a
+ * lattice cell to close the gaps of rotated or irregular particles. */
 static const double SQUARE = 0.55, DISC = 0.9;
 
 struct canvas {
@@ -61,8 +62,8 @@ static double distance_within(const struct outline *s, const double *off, double
     return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
 }
 
-/* Faces of pre-cracks, which are lines of the body: slits of a mesh cause no damage that would show them. In maps of
- * fields they are as white as a gap. */
+/* Colours of pre-cracks, which are drawn as lines because a pre-crack that is a slit of the mesh causes no damage.
+ * FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
 

@@ -1,6 +1,5 @@
-/* Rigid bodies in maps: the shape of the scene, at the place and with the rotation of the frame, evaluated in each
- * pixel.
- */
+/* Draws rigid bodies in maps: their shapes from the scene, with the positions and rotations of the frame, evaluated in
+ * each pixel. */
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +9,7 @@
 
 static const struct colour RIGID = {120, 120, 126, 255};
 
-/* The picture grows towards bodies beside the particles by up to this share of its longer side. */
+/* Largest extension of a picture to show rigid bodies beside the particles, over its longer side [1]. */
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 };
 
@@ -40,8 +39,8 @@ void plotted_particles_add_rigids(struct plotted_particles *c, const struct outp
     memory_free(at);
 }
 
-/* Returns the level set of a rigid body at the present position x[3] [m]: negative inside. dim: dimension of the run;
- * cut: an unbounded body is cut to its box. */
+/* Returns the level set of a rigid body at the present position x[3] [m]: the distance from its surface [m], negative
+ * inside. dim: dimension of the run; cut: an unbounded body is cut to its box. */
 static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};

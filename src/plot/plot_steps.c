@@ -33,8 +33,8 @@ static void write_horizontal_tics(FILE *to, const struct curves_layout *l, doubl
 
 /* ---- load over displacement -------------------------------------------------------------------------------------- */
 
-/* Columns of the components of a vector, for example NAME.force_x; n is 0 if the history has no such columns. since:
- * the vector is the difference from the first row. */
+/* Indices column[n] of the columns of the history with the components of a vector, for example NAME.force_x; n is 0 if
+ * the history has no such columns. since: the vector is the difference of the values from those in the first row. */
 struct components {
     int n, column[3];
     bool since;
@@ -106,8 +106,8 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Appends the rigid bodies that carry a force and move to the curves of r; if `resting`, also those that rest. Returns
- * true if one of them moves. */
+/* Appends to the curves of r the rigid bodies that carry a force and move, and if `resting` is true also those that
+ * carry a force at rest. Returns true if one of them moves. */
 static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
 {
     char name[NAME_MAX_LENGTH];
@@ -126,9 +126,9 @@ static bool reactions_add_rigids(struct reactions *r, const struct history *h, b
     return moving;
 }
 
-/* Finds the curves of force over displacement: of supports that move, and of rigid bodies that move under a force. If
- * none moves, takes all of them and uses the displacement of the first point probe that moves. Stores the largest
- * force, and the largest displacement while there is a force. */
+/* Finds the curves of force over displacement: those of supports that move, and of rigid bodies that move under a
+ * force. If none moves, uses all supports and rigid bodies with a force, over the displacement of the first point probe
+ * that moves. Stores in *r the curves, the largest force, and the largest displacement while there is a force. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -194,8 +194,9 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints why the load is not drawn. Prints nothing for a run in time without support and without a rigid body that
- * bears a load. */
+/* Prints why the picture `path` of load over displacement is not drawn. Prints nothing for a run in time (in_steps
+ * false) without support and without a rigid body that carries a load. Returns FAILED if standard output cannot be
+ * written. */
 static status say_missing_load(const char *path, const struct reactions *r, bool in_steps)
 {
     if (r->n > 0)
@@ -271,8 +272,8 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
-/* Plots the energy release rate over the crack area, the mean rate [J/m^2] unless it is NAN, and the critical rates
- * toughness[n] of the materials as horizontal lines. rate: unit of the axis. */
+/* Plots the energy release rate over the crack area. Also plots as horizontal lines the mean rate `mean` [J/m^2] unless
+ * it is NAN, and the critical rates toughness[n] [J/m^2] of the materials. rate: unit of the axis of rates. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
     fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate'", curve_colour[0]);

@@ -30,9 +30,9 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of n values without the lowest and the highest ones. At each end the share `share` of the values is
- * left out, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an empty
- * range if no value is finite. */
+/* Returns the range of value[n] without the lowest and the highest values. At each end it leaves out the share `share`
+ * of the values, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an
+ * empty range if no value is finite. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
     const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
@@ -105,8 +105,8 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
     return v;
 }
 
-/* Returns the smallest range that contains the range without extremes (bulk_of) of the values of each of cloud[clouds].
- * share, few: what bulk_of leaves out. */
+/* Returns the smallest range that contains the range without extremes of the values of each of cloud[clouds]. Of each
+ * cloud it leaves out at each end the share `share` of the values, or `few` values if these are more. */
 static struct span values_bulk(const struct plotted_particles *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);

@@ -51,8 +51,9 @@ static const char *unit_of_value(const struct boundary *b)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* A load at the time of its largest magnitude: time, largest value [unit_of_value], number of particles, and whether
- * the value differs between particles or times. */
+/* State of a load at the time at which its magnitude is largest. t: this time [s]; most: magnitude then, in the unit in
+ * which such loads are printed; particles: number of particles on which the load is not 0; varies: the magnitude
+ * differs between particles or times. */
 struct acting {
     double t, most;
     int64_t particles;
@@ -96,8 +97,8 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     return force > 0 ? pressure : 0;
 }
 
-/* Returns the largest magnitude of a load at time t [s] and the number of its particles on which it is not 0, from
- * every `every`-th of its particles. on[i]: particle i counts; NULL: all particles count. */
+/* Returns the largest magnitude of load l at time t [s] and the number of particles on which it is not 0. Only every
+ * `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included; NULL: all particles are. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -138,8 +139,8 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
     return on;
 }
 
-/* Returns the state of a load at the time of its largest magnitude, among evenly spaced times and the characteristic
- * times of its time function. on[i]: particle i counts; NULL: all particles count. */
+/* Returns the state of load l at the time at which its magnitude is largest, among evenly spaced times and the
+ * characteristic times of its time function. on[i]: 1 if particle i is included; NULL: all particles are. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
@@ -249,9 +250,9 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
     return c;
 }
 
-/* Draws the arrows of a load. Arrows of tension begin at the particle, arrows of compression end there. on[i]: particle
- * i counts, NULL: all particles count; acting: the largest magnitude of the load, whose arrow has full length, and its
- * time. */
+/* Draws the arrows of load l at its particles. An arrow of tension begins at the particle, an arrow of compression ends
+ * there. on[i]: 1 if particle i is included; NULL: all particles are. acting: time for which the arrows are drawn, and
+ * largest magnitude of the load at this time, whose arrow has full length. */
 static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;

@@ -13,7 +13,7 @@
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the component of the vector x[dim] along an axis of the picture. */
+/* Returns the component of the vector x[dim] along axis[dim], an axis of the picture as a unit vector. */
 static double marks_across(const double *axis, const double *x, int dim)
 {
     double sum = 0;
@@ -37,7 +37,7 @@ void marks_add_point(struct marks *m, const real *X, const double *vector)
 /* Ends a line of positions in the current block of marks; the next position begins another line. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
-/* Adds the line of the key of the last element of the plot command. */
+/* Adds `text` as a line of the key. It describes the element that was added last to the plot command. */
 static void key_line_add(struct marks *m, const char *text)
 {
     fputs("title ", m->plot);
@@ -97,7 +97,8 @@ void marks_draw_cracks(struct marks *m)
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
 
-/* Largest number of probes that have entries of their own in the key; number of edges of a drawn circle. */
+/* PROBES_NAMED: largest number of probes that have entries of their own in the key; CIRCLE: number of edges of a drawn
+ * circle. */
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
 /* Sends the edges of the box from[dim]..to[dim] as lines: four in 2D, twelve in 3D. */

@@ -22,7 +22,7 @@ enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82
 enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
 enum { RIGID_POINTS = 60000, RIGID_ACROSS = 40, TEXT_ROOM = 200 };
 
-/* Brightness of peridynamic particles relative to material points of the same body; colour of rigid bodies. */
+/* Brightness of peridynamic particles relative to material points of the same body [1]. */
 static const double PERIDYNAMIC = 0.72;
 static const struct colour RIGID = {120, 120, 126, 255};
 
@@ -203,8 +203,8 @@ static double arrow_length(const struct plotted_particles *c)
     return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
-/* Returns the layout of a picture with a key of `lines` lines. It is that of a larger picture of the same shape if
- * panel and key are too large for the size of picture_size_set. */
+/* Returns the layout of a picture with the view v and a key of `lines` lines. If panel and key do not fit into the size
+ * that the user has chosen (picture_size_set), returns the layout of a larger picture of the same shape. */
 static struct layout scene_layout(const struct view *v, int lines)
 {
     const bool narrow = gnuplot_is_narrow();
@@ -229,8 +229,8 @@ static struct layout scene_layout(const struct view *v, int lines)
     return l;
 }
 
-/* Writes the gnuplot command for the key of a scene: beside the panel, or below that of a narrow picture. Letters are
- * smaller if the longest line, of `letters` letters, requires it. */
+/* Writes the gnuplot command that places the key of a scene: beside the panel, or below it in a narrow picture. Letters
+ * are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
 static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
 {
     static const double LARGE = 12, LETTER_WIDE = 0.56, SAMPLE = 50;
@@ -293,8 +293,8 @@ static void draw_marks(struct marks *m)
     marks_draw_probes(m);
 }
 
-/* Draws particles and marks. metre: unit of the axes; data, elements: commands and elements of the plot command that m
- * has collected. FAILED if gnuplot fails. */
+/* Draws the particles c and the marks m of a scene. metre: unit of the axes; data: gnuplot commands with the data of
+ * the marks; elements: arguments of the plot command for the marks. FAILED if gnuplot fails. */
 static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
                              const struct plotted_particles *c, const struct unit *metre, const char *data,
                              const char *elements)
