@@ -25,9 +25,9 @@ double student_t_quantile_975(int degrees_of_freedom)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the mean, the scatter and the mean spacing of the runs of spacing level k, and stores them in *l.
- * spacing[n], value[n], level[n]: spacing [m], value and level of each run; values that are not finite are left out.
- * The scatter is NAN for a single run. */
+/* Computes the mean, the scatter and the mean spacing of the runs at spacing level k, and stores them in *l.
+ * spacing[n], value[n], level[n]: spacing [m], figure and level of each of the n runs of the study; runs whose value is
+ * not finite are left out. The scatter is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
@@ -78,8 +78,8 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p for which the means of the three finest levels l[3] are linear in h^p, with the spacing h. Found
- * by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 - m0). */
+/* Returns the order p for which the means m of the three finest levels l[3] (0 the finest) are linear in h^p, with the
+ * spacing h. It is found by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 - m0). */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;

@@ -39,9 +39,9 @@ static struct unit figure_unit(const struct scalar_result_study *f)
     return unit_with_allowed_prefix(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }
 
-/* Sends three data blocks for the figure f in panel number `panel`: $r, its value in every run over the spacing; $m,
- * the means of the levels with their 95 % intervals by scatter and spacing, as on pages; $e, at spacing 0, the
- * extrapolated value and the mean of the finest level with its interval. */
+/* Sends three data blocks to gnuplot for the figure f, a number in summary.json, with `panel` in their names. $r:
+ * spacing [mm] and value of every run. $m: spacing [mm], mean and half-width of the 95 % interval of every level. $e:
+ * spacing 0, the extrapolated value, and mean and half-width of the finest level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_find_result(&s->table, f->name);
@@ -82,8 +82,8 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, that places three to seven of them between 0 and
- * `most`. */
+/* Returns a round distance of tics of an axis, 1, 2 or 5 times a power of ten, that places three to seven tics between
+ * 0 and `most`. */
 static double tics_apart(double most)
 {
     const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
@@ -129,9 +129,9 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the crack tip at sample i: the index of the nearest earlier position from which the tip can have
- * moved by the growth of its crack, else a new index. Tolerates fluctuations of FLICKER spacings. spacing: of the run
- * [m]. */
+/* Returns the index of the crack tip at sample i. It is the index of the tip at the nearest earlier position from which
+ * the tip can have moved by the growth of its crack, to within FLICKER spacings. If there is no such position, it is a
+ * new index. spacing: of the run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -200,7 +200,8 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     return sent;
 }
 
-/* Extends the bounding box of the paths by a margin, which is not 0 for a straight path either. */
+/* Extends the bounding box *e of the crack paths on all sides by a margin, which is positive even if all paths are
+ * straight along an axis. */
 static void extent_widen(struct extent *e)
 {
     const double longer = fmax(e->high[0] - e->low[0], e->high[1] - e->low[1]);

@@ -13,12 +13,13 @@
 /* Largest number of figures that are printed. */
 enum { PRINTED_MOST = 24 };
 
-/* Factor from the change between two horizons to the remaining error. The summation error of irregular lattices does
- * not decrease with the spacing, only with the number of neighbours: it falls with the horizon m as about m^(-3/2)
- * (empirical), so that one step of the horizon removes only a third of it. */
+/* Factor from the change of a figure when the horizon m is increased by one spacing to the remaining error of the
+ * figure. The error of sums over the neighbours on an irregular lattice does not decrease with the spacing, only with
+ * the number of neighbours: as about m^(-3/2) (empirical). One step of the horizon thus removes only a third of it. */
 #define HORIZON_REST 2.9
 
-/* Largest standard deviation of an order that is printed. That of the prior, uniform from 0.5 to 2, is 0.43. */
+/* Largest standard deviation of an order of convergence that is printed. For comparison: an order about which the runs
+ * say nothing is uniform from 0.5 to 2, with a standard deviation of 0.43. */
 #define ORDER_KNOWN 0.35
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
@@ -39,8 +40,9 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
-/* Returns the change of a figure if the horizon is one spacing longer: the value in the run at level -1, minus the
- * first run of level 1, which has its spacing. value[k]: figure of run k. Returns NAN if the study has no such run. */
+/* Returns the change of a figure if the horizon is one spacing longer. It is the value in the run at level -1, which
+ * has the longer horizon, minus the value in the first run of level 1, which has the same spacing. value[k]: figure of
+ * run k. Returns NAN if the study has no run at level -1. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -54,9 +56,9 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes half the step in which the figure called `name` is quantised at each level, resolution[levels]: half a
- * spacing for positions and crack lengths, and for angles the rotation of the crack by half a spacing [degree]. Returns
- * false for figures that change continuously. */
+/* Computes half the step in which the figure called `name` can change, resolution[levels], at each spacing level. It is
+ * half a spacing for positions and crack lengths [m], and for angles the rotation of the crack by half a spacing
+ * [degree]. Returns false for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -272,8 +274,8 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
     return positive && least > 0 && f->c.extrapolated < 0;
 }
 
-/* Prints the orders of convergence and the limit of a figure at spacing 0, as clauses. Prints nothing if its means
- * oscillate or diverge. */
+/* Prints the orders of convergence of a figure, and its limit at spacing 0, as part of a sentence. Prints nothing if
+ * the means of its levels oscillate or diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;

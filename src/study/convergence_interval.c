@@ -31,7 +31,8 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale S: the range of the means of all levels and half of their largest error, added in quadrature. */
+/* Returns the scale S of the means of a figure: sqrt(range^2 + (error/2)^2), with the range of the means of all levels
+ * and their largest error. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;

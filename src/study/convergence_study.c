@@ -96,8 +96,9 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the predicted duration of a run with the given spacing [s]. It is scaled from the first run: in proportion to
- * the numbers of particles and steps, and to the number of bonds per particle if the horizon is fixed. */
+/* Returns the predicted duration of a run with the given spacing [s]. The duration of the first run is scaled by the
+ * number of particles and the number of time steps, and if the horizon is a fixed length, also by the number of bonds
+ * per particle. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -145,7 +146,8 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason why the convergence of scene s cannot be studied as requested; NULL if it can. */
+/* Returns the reason why the convergence of scene s cannot be studied as the request w demands, as text for a message;
+ * NULL if it can. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -155,9 +157,9 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run, at the coarsest level, and stores its duration in s->spent, from which those of the other runs
- * are predicted. Sets *refused to true if the scene is invalid at this spacing, for example because rings of probes
- * become too narrow. REFUSED if the run exceeds the budget, FAILED if it fails. */
+/* Makes the first run of the study, at the coarsest level. Stores its duration in s->spent; the durations of the other
+ * runs are predicted from it. Sets *refused to true if the scene is invalid at this spacing, for example because the
+ * integration rings of probes become too narrow. Returns REFUSED if the run exceeds the budget, FAILED if it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -283,9 +285,9 @@ static void plan_print(const struct convergence_study *s)
             1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
 }
 
-/* Plans a convergence study within its budget, makes its runs and reads the figures of all runs into s->table. REFUSED
- * or FAILED if the study cannot be planned, its first run fails, or a summary cannot be read. INTERRUPTED by a stop
- * signal. */
+/* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
+ * their figures into s->table. REFUSED or FAILED if the study cannot be planned, its first run fails, or a summary
+ * cannot be read. INTERRUPTED after a stop signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;

@@ -13,7 +13,8 @@
 #include "scene/spacings.h"
 #include "study/uncertainty.h"
 
-/* Largest ratio of the coarsest spacing to the chosen one; beyond, extrapolation by the order is unreliable. */
+/* Largest ratio of the coarsest spacing of a study to the spacing that is chosen by extrapolation of its errors. For
+ * larger ratios the extrapolation with the order of convergence is unreliable. */
 #define FARTHEST 8.0
 #define FINER_LEAST 1.4    /* least refinement from one study of a method to the next */
 #define FINER_MOST 2.9     /* largest refinement: three levels */
@@ -84,8 +85,8 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 /* Returns the time of the budget of pilot runs that is left [s], at least 0. */
 static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
 
-/* Returns the candidate method whose run at its required spacing has the shortest predicted duration; NULL if none has
- * a prediction. */
+/* Returns the candidate method with the shortest predicted duration of a run at the spacing that the method requires;
+ * NULL if no method has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -94,9 +95,9 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
-/* Studies every candidate method once, with equal shares of the part PILOT_FIRST_SHARE of the time. If the scene is
- * invalid at the spacing, the study is repeated at finer spacings. Returns INTERRUPTED after a stop signal, or the
- * error if runs lack the requested figure. */
+/* Makes one convergence study of every candidate method. The studies share the part PILOT_FIRST_SHARE of the time
+ * equally. If the scene is invalid at the spacing of a study, the study is repeated at finer spacings. Returns
+ * INTERRUPTED after a stop signal, or the error if the runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -117,8 +118,8 @@ static status search_first(struct pilot_search *p)
 }
 
 /* Repeats the study of the method *c at finer spacings, as fine as its prediction requires and the remaining time
- * allows, and replaces *c by its outcome. Returns false if there is no time left or the study yields nothing new, or if
- * it is interrupted, in which case *done is INTERRUPTED. */
+ * allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study yields nothing
+ * new, or if it is interrupted. Only in the last case *done is set to INTERRUPTED. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -138,8 +139,9 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     return true;
 }
 
-/* Studies the method with the cheapest prediction at finer spacings, until a run of the then cheapest method is
- * accurate enough or no refinement is possible. Returns INTERRUPTED after a stop signal. */
+/* Repeats the study of the method with the shortest predicted duration at finer spacings. Ends when this method has a
+ * run that is accurate enough, or no refinement is possible. The method may change from one study to the next. Returns
+ * INTERRUPTED after a stop signal. */
 static status search_finer(struct pilot_search *p)
 {
     status done = OK;
@@ -148,8 +150,8 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a method whose value differs from the one of c by more than the uncertainties of both and the requested
- * accuracy, so that one of the two must be wrong; NULL if all methods agree. */
+/* Returns a candidate method whose value of the figure differs from that of c by more than the uncertainties of both
+ * and the requested accuracy, so that one of the two values must be wrong. Returns NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {

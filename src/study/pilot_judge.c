@@ -29,8 +29,8 @@ static const struct scalar_result_study *figure_usual(const struct scalar_result
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the first run of a level, which has the parameters of a run outside a study; -1 if there is
- * none. */
+/* Returns the index of the first run of a spacing level, whose time step and seed are those of a run outside a study;
+ * -1 if the level has no run. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)

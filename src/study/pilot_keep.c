@@ -60,8 +60,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* Stores the scene with the chosen overrides, and the table with the error bars of the method *best, in the folder of
- * the pilot runs. FAILED if a file cannot be read or written. */
+/* Stores two files in the folder of the pilot runs: the scene with the chosen overrides, and the table with the error
+ * bars of the chosen method *best. FAILED if a file cannot be read or written. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
@@ -93,8 +93,8 @@ status pilot_store_choice(const struct pilot *to, const struct pilot_search *p, 
     return put;
 }
 
-/* Reads lines key=value of a stored choice into to->key and to->value, at most CHOSEN_MOST. Returns their number.
- * Changes `text`. */
+/* Reads the lines key=value of a stored choice from `text`, and copies the keys to to->key and the values to to->value,
+ * at most CHOSEN_MOST of each. Returns their number. Modifies `text`. */
 static int answer_read(struct pilot *to, char *text)
 {
     int n = 0;

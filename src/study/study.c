@@ -272,8 +272,8 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads from the summary of the run in `folder` how it ended, such as "done" or "failed", into ended[capacity]. Stores
- * "" if there is no finished run, or if the run has another scene than scene_text. */
+/* Reads how the run in `folder` ended, such as "done" or "failed", from its summary into ended[capacity]. Stores "" if
+ * the folder has no finished run, or if the scene of the run is not scene_text. */
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||

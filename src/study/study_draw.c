@@ -11,15 +11,17 @@
 
 enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
 
-/* Sizes [pixel]: width and height of a panel; a character; a line of text; width of the numbers at an axis; height of a
- * title; of tics and label below the axis; width of a colour bar. */
+/* Sizes in the pictures of a study [pixel]: width and height of a panel; width of a character; height of a line of
+ * text; width of the numbers at an axis; height of a title; height of tics and label below the axis; width of a colour
+ * bar. */
 enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
-/* Role of a key in a picture: its values are along the axis; each has a line; the picture shows its first value only;
- * it has no physical meaning (random seed), and its values are combined to points with bars. */
+/* Role of a varied key in a picture. ACROSS: its values are along the horizontal axis. LINES: each of its values has a
+ * line. HELD: the picture shows the runs with its first value only. CHANCE: it has no physical meaning, such as a
+ * random seed, and runs that differ in it alone are combined to one point with a bar. NONE: no role yet. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
 
-/* Statistics of the runs of one point: mean, scatter over ROLE_CHANCE keys, number. */
+/* Statistics of the runs that are combined to one point of a line: mean and scatter of a figure, and number of runs. */
 struct point_of {
     double mean, scatter;
     int runs;
@@ -67,8 +69,8 @@ static void panel_add(struct study_picture *p, int f)
     p->figure[p->panels++] = f;
 }
 
-/* Chooses the figures of the panels: figures of cracks, then probes, energies and the duration, each only if it
- * varies. */
+/* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
+ * energies, and the duration. Figures that are equal in all runs are left out. */
 static void panels_choose(struct study_picture *p)
 {
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
@@ -239,8 +241,8 @@ static void notes_find(struct study_picture *p, bool map)
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
 }
 
-/* Sends the labels of a key's values as tics of the axis "x" or "y", at the positions 0, 1, ..; not all of them if
- * there are many. rotated: labels are slanted. */
+/* Sends the labels of a key's values as tics of an axis, at the positions 0, 1, 2 and so on. If there are many values,
+ * some labels are omitted. axis: "x" or "y"; rotated: labels are slanted. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + TICS_MOST - 1) / TICS_MOST;
@@ -265,7 +267,7 @@ static bool words_touch(const struct varied_key *key)
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of columns in which the panels are arranged. */
+/* Return the number of columns, and of rows, in which the panels are arranged. */
 static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
 static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
 
@@ -328,7 +330,8 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
     return unit_with_allowed_prefix(unit, largest);
 }
 
-/* Sends margins, title and axis labels of panel number `panel`. up: label of the vertical axis, NULL for numbers. */
+/* Sends margins, title and axis labels of panel number `panel`. up: label of the vertical axis; NULL: the axis shows
+ * the values of the figure. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
@@ -469,8 +472,9 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two keys of a map: the varied keys with a physical meaning or, if they are not two, all varied keys.
- * Returns false if these are not two either. */
+/* Finds the two keys of a map: the varied keys with a physical meaning or, unless these are two, all varied keys.
+ * Stores the index of the key along the vertical axis in *up, along the horizontal axis in *across. Returns false if
+ * neither selection has exactly two keys. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

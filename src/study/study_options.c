@@ -28,7 +28,8 @@ static char *line_from_text(const char *text)
     return line;
 }
 
-/* Replaces the contents of a line, as line_from_text makes it, by the text. */
+/* Replaces a line that line_from_text has made by the original text, in place: \n becomes a line break and \ a
+ * backslash. */
 static void line_to_text(char *line)
 {
     char *to = line;

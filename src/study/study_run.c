@@ -56,8 +56,9 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
-/* Prints a character of a word in single quotes. harmful: a terminal would interpret the character and the output
- * stream would replace it; its number is printed instead, which the shell passes to printf. */
+/* Prints the character c of a word of a shell command, which is in single quotes. harmful: a terminal would act on the
+ * character and the output stream would replace it. It is then printed as a number, which the shell converts to the
+ * character with printf. */
 static void print_quoted(FILE *out, char c, bool harmful)
 {
     if (harmful)
@@ -130,8 +131,8 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of the log of a run, by which Cleave recognises it. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks that run c of a study may be written. REFUSED if its folder is a link, which may lead out of the folder of the
- * study, or if its log would replace a file that Cleave did not write. */
+/* Checks that the files of run c of a study may be written. REFUSED if the folder of the run is a link, which may lead
+ * out of the folder of the study, or if the log of the run would replace a file that Cleave did not write. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -304,8 +305,9 @@ static status cases_run(struct runner *r)
 
 /* ---- whole study ------------------------------------------------------------------------------------------------- */
 
-/* Returns the options `how` with values for those that are 0: as many runs at a time as there are cores or waiting
- * runs, each with an equal share of threads. */
+/* Returns the options `how` of a study in which numbers that are 0 are replaced. The number of runs at a time becomes
+ * the number of cores over the threads of a run if these are given, else the number of cores or of waiting runs,
+ * whichever is smaller. The number of threads becomes an equal share of the cores for each run. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = machine_cores();

@@ -7,7 +7,8 @@
 #include "output/output_files.h"
 #include "study/study.h"
 
-/* Beginning and end of the last part of a name, and its unit; the first matching entry applies. */
+/* Units of figures. begin, end: beginning and end of the last part of a figure's name (after its last point); unit:
+ * unit of the figure. The first entry that matches a name applies. */
 static const struct {
     const char *begin, *end, *unit;
 } unit_of_name[] = {

@@ -26,7 +26,8 @@ double value_read_number(const char *value, const char **unit)
 
 /* ---- pieces of a list -------------------------------------------------------------------------------------------- */
 
-/* Returns the first character `mark` in the text `at` outside brackets and quotes, or the end of the text. */
+/* Returns the position of the first character `mark` in the text `at` that is outside brackets and quotes, or of the
+ * end of the text if there is none. */
 static const char *value_end(const char *at, char mark)
 {
     int depth = 0;

@@ -15,7 +15,8 @@
 /* Largest relative difference between the spacings of a level's runs and that of the scene [1]. */
 #define SAME_LEVEL 0.05
 
-/* Returns the path of the folder NAME_converge, NAME being `name`, beside the folder of a run. */
+/* Returns the path of the folder of the convergence study NAME_converge, with NAME = name, which is beside the folder
+ * of a run. */
 static struct path study_beside(const char *folder, const char *name)
 {
     char place[PATH_NAME_ROOM];
@@ -66,8 +67,9 @@ static void columns_find(struct bar_columns *c, char *header)
     }
 }
 
-/* Reads a line of converge.csv: the name of a figure, and the half-width of its error bar at the level whose spacing is
- * nearest to `spacing` [m]. Returns false if no spacing is within SAME_LEVEL of it. Changes `line`. */
+/* Reads a line of converge.csv into *bar: the name of a figure, and the half-width of its error bar at the level whose
+ * spacing is nearest to `spacing` [m]. c: columns of the table. Returns false if the spacing of no level agrees with
+ * `spacing` to within the relative tolerance SAME_LEVEL. Modifies `line`. */
 static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
 {
     enum { CELLS_MOST = 256 };
