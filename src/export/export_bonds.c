@@ -104,8 +104,8 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
 }
 
 /* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo 2 m +
- * 1 spacings along each axis, m being the reach of bonds in spacings. The positions in the keys of two neighbours thus
- * determine their offset. */
+ * 1 spacings along each axis, where bonds reach m spacings far. The positions of two neighbours modulo 2 m + 1 thus
+ * determine the vector between them. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -124,8 +124,9 @@ static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
 
 /* ---- particles at cut bonds -------------------------------------------------------------------------------------- */
 
-/* Work arrays of the search for cut bonds. found[room]: neighbours of a particle in LAMMPS; bonded[particles]: marks of
- * row_mark; number[particles]: mark, later index in the list, of particles at cut bonds. */
+/* Work arrays of the search for cut bonds, which are pairs that LAMMPS would bond and the scene does not. found[room]:
+ * neighbours of a particle in LAMMPS; bonded[particles]: i + 1 for the neighbours to which particle i has a bond in the
+ * scene; number[particles]: 1 for particles at cut bonds, later their index in the list of these particles. */
 struct search {
     int32_t *found;
     int64_t *bonded;
@@ -165,8 +166,9 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* Lists the neighbours of each touched particle in LAMMPS, with the kind of each pair (bonded or cut). Computes the key
- * of each touched particle as the sum of key_of and the hashes of the offsets of its cut bonds. */
+/* Lists the neighbours in LAMMPS of each touched particle (at a cut bond), with the kind of each pair: bonded or cut.
+ * Computes the key of each touched particle as the sum of key_of, a hash of its material, loads and position, and of
+ * the hashes of the offsets of its cut bonds. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

@@ -72,8 +72,8 @@ static void settings_add(struct lammps_settings *to, bool differs, const char *k
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Appends the contact settings that an export needs; none if the scene has no contact. own: the pair style of LAMMPS
- * has contact of its own, whose rules the settings must follow; otherwise contact is switched off. */
+/* Appends the settings of contact that an export needs; none if the scene has no contact. own: the pair style of LAMMPS
+ * includes a contact law, and the settings must follow its rules. If own is false, contact is switched off. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";

@@ -19,9 +19,9 @@ void touched_free(struct touched *t)
     *t = (struct touched){0};
 }
 
-/* Colours assigned so far. of[k]: colour of particle k in the list of touched particles, -1: none yet; n: number of
- * colours; key[c]: key of the particles with colour c; pair[COLOURS_MOST * a + b]: kind of pairs of the colours a and
- * b. */
+/* Colours assigned so far to the particles at cut bonds. of[k]: colour of particle k in the list of these particles,
+ * -1: none yet; n: number of colours; key[c]: key that all particles with colour c have; pair[COLOURS_MOST * a + b]:
+ * kind (bonded or cut) of pairs of particles with the colours a and b. */
 struct colouring {
     const struct touched *t;
     int32_t *of;
@@ -44,8 +44,8 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to particle k and records the kind, bonded or cut, of the pairs of colours with its coloured
- * neighbours. Returns false if one pair of colours would need both kinds. */
+/* Assigns colour c to particle k. Records the kind, bonded or cut, of the pairs that colour c forms with the colours of
+ * neighbours of k. Returns false if one pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;
@@ -59,9 +59,9 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns a colour to all touched particles: the first colour of the particle's key that fits its neighbours
- * (colour_fits), else a new one. Returns false if more than COLOURS_MOST colours are needed or a pair of colours needs
- * both kinds. */
+/* Assigns a colour to all touched particles (at cut bonds). It is the first colour of the particle's key for which
+ * every pair with a coloured neighbour has one kind, bonded or cut, else a new colour. Returns false if more than
+ * COLOURS_MOST colours are needed or a pair of colours needs both kinds. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

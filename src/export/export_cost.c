@@ -4,8 +4,9 @@
 #include "export_parts.h"
 
 /* Time per directed bond and step on one core of the same machine [ns], from `cleave bench peers` (bench/README.md).
- * here: Cleave; there: LAMMPS of 29 September 2021, pair_style peri; there_bonds: bond_style bpm/peri, which is 3.6
- * (bond-based) and 5.4 (state-based) times as fast on 4096 particles in LAMMPS' own examples/bpm/peri. */
+ * here: Cleave; there: LAMMPS of 29 September 2021 with pair_style peri; there_bonds: LAMMPS with bond_style bpm/peri.
+ * In examples/bpm/peri of LAMMPS with 4096 particles, bpm/peri is 3.6 times (bond-based) and 5.4 times (state-based) as
+ * fast as pair_style peri. */
 struct bond_time {
     real here, there, there_bonds;
 };

@@ -18,13 +18,15 @@
 enum { NAME_WIDTH = 33, LINE_WIDTH = 81, VARIABLES_MOST = 32 };
 #define EXODUS_SIGN ", exported by Cleave"
 
-/* A number over time at every particle: component `component` of a field of frames; -1: 0, which a plane lacks. */
+/* A number over time at every particle, as a variable of the file. field: index of the field of frames; component:
+ * index of its component, or -1 for a component that 2D lacks, whose value is 0. */
 struct variable {
     char name[NAME_WIDTH];
     int field, component;
 };
 
-/* Fields of frames that are exported, if the run has them: vectors at nodes, else numbers of elements. */
+/* Fields of frames that are exported, if the run has them. nodal: the field is a vector, which is stored at nodes;
+ * other fields are stored as numbers of elements. */
 static const struct exported_field {
     const char *name;
     bool nodal;
@@ -144,7 +146,7 @@ static int64_t block_size(const struct export_mesh *m, int material)
     return m->first[material + 1] - m->first[material];
 }
 
-/* Dimensions that several arrays have. */
+/* Identifiers of the netCDF dimensions that several arrays of the file share. */
 struct shared {
     int records, dim, nodes, blocks, sets, name, line, rows;
 };
@@ -368,7 +370,7 @@ static status exodus_check_name(const char *path)
 }
 
 /* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. REFUSED if there are
- * too many particles for the format, REFUSED or FAILED if the scene or a frame cannot be read or the file cannot be
+ * too many particles for the format. REFUSED or FAILED if the scene or a frame cannot be read, or the file cannot be
  * written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {

@@ -121,7 +121,8 @@ static void particles_write(FILE *to, const struct exported *x)
 }
 
 /* Writes the commands that follow the creation of bonds: two runs of zero steps, the end of the exclusion of pairs of
- * types, initial displacements, and time integration. Without the exclusion these pairs can come into contact. */
+ * types, initial displacements, and time integration. The exclusion is ended because excluded pairs cannot come into
+ * contact. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);

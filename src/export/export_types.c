@@ -21,7 +21,8 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
 }
 
-/* Returns the class of particle i, which is added if there is none yet; -1 if there would be more than CLASSES_MOST. */
+/* Returns the index of the class of particle i: particles with the same material, the same loads and, for bond styles,
+ * the same mass. Adds a new class if there is none yet. Returns -1 if there would be more than CLASSES_MOST. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -32,8 +33,9 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers the n future types from 1, such that the types of one material are consecutive. any[n]: index of a particle
- * of each type. Stores the number of each type in number[n], and allocates and fills t->material and t->any. */
+/* Numbers the n future types of particles from 1, such that the types of one material are consecutive. any[n]: index of
+ * a particle of each type, in the old order of types. Stores the number of each type in number[n], and allocates and
+ * fills t->material and t->any, in the order of the numbers. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -46,8 +48,8 @@ static void types_number(struct lammps_types *t, const struct exported *x, int32
             }
 }
 
-/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds: those of colours with cut bonds.
- * pair[colours][colours]: kind of each pair of colours; number[colours]: type of each colour. */
+/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds: those whose colours are a pair of
+ * kind `cut`. pair[colours][colours]: kind of each pair of colours; number[colours]: type of each colour. */
 static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -75,9 +77,9 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     return OK;
 }
 
-/* Sets the type t->of[i] of every particle from its class or, at cut bonds, its colour, and lists the excluded pairs of
- * types. colour[touched->n]: colour of each touched particle; pair[colours][colours]: kind of each pair of colours,
- * NULL: no cut bonds. REFUSED if there are too many classes. */
+/* Sets the type t->of[i] of every particle i from its class or, if it is touched (at a cut bond), from its colour.
+ * Lists the excluded pairs of types. colour[touched->n]: colour of each touched particle; pair[colours][colours]: kind,
+ * bonded or cut, of each pair of colours; NULL if no bond is cut. REFUSED if the particles have too many classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {

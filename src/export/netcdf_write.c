@@ -3,8 +3,8 @@
 
 #include "base/memory.h"
 
-/* Tags of the lists in the header, as the format defines them; number of values that are converted and written at a
- * time. */
+/* Tags of the lists in the header of a netCDF file, as the format defines them. CHUNK: number of values that are
+ * converted and written at a time. */
 enum { TAG_DIMENSIONS = 10, TAG_ARRAYS = 11, TAG_ATTRIBUTES = 12, CHUNK = 1024 };
 
 static int64_t type_size(enum netcdf_type type) { return type == NETCDF_CHAR ? 1 : type == NETCDF_DOUBLE ? 8 : 4; }
@@ -98,7 +98,8 @@ static void put_attribute(struct netcdf_writer *w, const struct netcdf_attribute
     put_number(w, bits, 4);
 }
 
-/* Builds the header of the file. first: position of the first array, the length of the header [byte]. */
+/* Builds the header of the file. first: length of the header [byte], which is the position of the first array in the
+ * file. */
 static void header_build(struct netcdf_writer *w, int64_t first)
 {
     int64_t at[2] = {first, first}; /* position of the next array of one length; over records */
