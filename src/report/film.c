@@ -7,13 +7,14 @@
 #include "base/arrays.h"
 #include "base/memory.h"
 
-/* Numbers of frames of a film: the largest, and two smaller ones for films that are too large; largest stride with
- * which particles are left out before busy ones are, too. */
+/* FILM_FRAMES_MOST: largest number of frames of a film. FRAMES_FEWER, FRAMES_FEWEST: numbers of frames of films that
+ * would otherwise be too large. EVERY_MOST: largest stride with which particles are left out before damaged and yielded
+ * particles are left out as well. */
 enum { FILM_FRAMES_MOST = 61, FRAMES_FEWER = 21, FRAMES_FEWEST = 11, EVERY_MOST = 32 };
 /* Largest values of stored 16-bit numbers, unsigned and signed. */
 enum { U16_MOST = 65535, I16_MOST = 32767 };
 
-/* Plastic strain above which a particle counts as busy [1]. */
+/* Plastic strain above which a particle counts as yielded, and is shown as a particle of its own [1]. */
 static const float YIELDED = 1e-4f;
 
 /* ---- particle sets ----------------------------------------------------------------------------------------------- */
@@ -27,7 +28,8 @@ static void *copy_of(const void *from, int64_t n, size_t size)
     return to;
 }
 
-/* Returns true if a frame has the particles of the set s: equal number, reference positions and sizes. */
+/* Returns true if a frame has the particles of the particle set s: their number, reference positions and sizes are
+ * equal. */
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
     bool same = s->n == frame->n && !s->size == !frame->spacing;
@@ -59,8 +61,8 @@ static void set_free(struct film_set *s)
     memory_free(s->hidden);
 }
 
-/* Sets s->busy of the particles that are damaged or have yielded in a frame, and adds kind and fragment of all
- * particles to the hash s->history. frame, path: the frame and its file. */
+/* Sets s->busy[i] to true for each particle i of the set s that is damaged or has yielded in a frame. Also updates
+ * s->history[i], a hash of the kinds and fragments that particle i has in all frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -139,7 +141,9 @@ static void frames_use(struct film *f, int most)
     for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
 }
 
-/* Divides the particles of all particle sets of the film into groups, by the present levels and thinning. */
+/* Divides the particles of all particle sets of the film into groups, each of which is shown as one particle. f->levels
+ * determines the sizes of the cells whose particles are merged, f->every the stride with which particles are left out.
+ */
 static void film_group(struct film *f)
 {
     for (int k = 0; k < f->sets; k++) film_set_form_groups(&f->set[k], f);
@@ -155,8 +159,8 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Uses the bytes of the budget that the groups of particles leave: first for the extra fields, then for more frames.
- * budget: size of the film in the page [byte]. */
+/* Uses the part of the budget that the film does not need yet: first for the extra fields, then for more frames.
+ * budget: largest size of the film in the page [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
     const int used = f->used;
@@ -210,8 +214,8 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements u[s->n] [m] of a frame along axis d for the shown groups: the mean over each group, as
- * signed 16 bits of the largest displacement f->reach[d]. */
+/* Writes the displacements of a frame along axis d for the shown groups of a particle set: the mean of u[s->n] [m] over
+ * the particles of each group, over the largest displacement f->reach[d], as signed 16-bit numbers. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);

@@ -9,7 +9,8 @@
 /* Values of a frame that are sampled for the stored range; codes: largest value, no value, no fragment. */
 enum { SAMPLES_OF_FRAME = 4000, VALUE_MOST = 254, VALUE_NONE = 255, FRAGMENT_NONE = 65535 };
 
-/* Share of the values beyond either end of the stored range: a few hot particles do not use up the colours. */
+/* Share of the values that are beyond each end of the stored range of a field [1], so that a few extreme values do not
+ * reduce the resolution of all others. */
 static const double BEYOND = 5e-4;
 
 /* Names of the fields of a film in the order of the page. extra: left out first if the page becomes too large; fixed:
@@ -104,9 +105,9 @@ int film_fields_bytes(const struct film *f)
     return bytes;
 }
 
-/* Returns the mean of value[s->n] over group g as a stored number: 0..254 over the range of the field, 255 for no
- * value. Categories are stored unchanged, and fragments with 16 bits. Of both the value of one particle of the group is
- * used. */
+/* Returns the mean of value[s->n] over group g of the particle set s as a stored number: 0..254 over the range of the
+ * field, 255 for no value. Categories, such as materials, are stored unchanged; fragments are stored in 16 bits.
+ * Categories and fragments are those of one particle of the group. */
 static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
 {
     double sum = 0;

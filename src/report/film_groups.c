@@ -1,5 +1,5 @@
-/* Particles of a film in groups: where nothing happens, whole cells of the lattice are shown as one particle of the
- * same area, so that a picture of the body stays without gaps. */
+/* Divides the particles of a film into groups. Full cells of the lattice with equal, undamaged particles are shown as
+ * one particle of the same area, so that a picture of the body has no gaps. */
 #include <math.h>
 
 #include "base/arrays.h"
@@ -46,8 +46,9 @@ static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Merges particles into cells with an edge of 2^level spacings: sets s->level to `level` for all particles of cells
- * that are full and whose particles are alike. from[dim]: lower corner of the lattice [m]. */
+/* Merges particles into cubic cells with an edge of 2^level spacings: sets s->level to `level` for all particles of a
+ * cell if they fill the cell and have equal material, body and history of kinds and fragments. from[dim]: lower corner
+ * of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);

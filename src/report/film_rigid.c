@@ -1,4 +1,4 @@
-/* Rigid bodies of the frames of a page: their surfaces once, their places in each frame. */
+/* Writes the rigid bodies of a page: their surfaces once, and their positions in each frame. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -18,7 +18,8 @@ static void particles_box(const struct film *f, real *low, real *high)
     }
 }
 
-/* Writes n numbers as an array of the JSON. key: name of the array; NULL in a list. */
+/* Writes value[n] as an array of the JSON of the page. key: name of the array; NULL: the array is an element of a list
+ * and has no name. */
 static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
     json_open(&p->json, key, '[');
@@ -26,8 +27,8 @@ static void write_vector(struct page *p, const char *key, const real *value, int
     json_close(&p->json, ']');
 }
 
-/* Writes the points [points][dim] and faces [faces][corners] of a surface as arrays in single precision, which is exact
- * for numbers of points. */
+/* Writes a surface in `dim` dimensions: its points [points][dim] and its faces [faces][corners] as arrays in single
+ * precision. The indices of points in the faces are exact in single precision. */
 static void write_surface(struct page *p, const struct rigid_surface *s, int dim)
 {
     const int64_t corners = s->faces * s->corners;

@@ -53,8 +53,8 @@ static status page_destination(struct path *path, const struct report_request *r
                       printable_name(path->text).text);
 }
 
-/* Writes the entries that all pages have: the folder, and version, commit, processor and time with which the page is
- * made. */
+/* Writes the entries that all pages have: the folder of the request r, and the version, commit, processor and time with
+ * which the page is made. */
 static void write_origin(struct page *p, const struct report_request *r)
 {
     json_write_text(&p->json, "folder", r->folder);

@@ -16,8 +16,8 @@
 #include "scene/scene_read.h"
 #include "study/study.h"
 
-/* Bytes of frames and of the history in a page; in base64 they are a third more. A scene with more particles is not
- * drawn. */
+/* FILM_BYTES, HISTORY_BYTES: largest sizes of the frames and of the history in a page [byte]; encoded in base64 they
+ * are a third larger. PICTURE_PARTICLES: number of particles above which the scene is not drawn. */
 enum { FILM_BYTES = 9 << 20, HISTORY_BYTES = 1 << 20, PICTURE_PARTICLES = 2000000 };
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
@@ -28,8 +28,8 @@ struct units {
     const char *header;
 };
 
-/* Writes the unit of the figure of summary.json called `key`, if it has one; its value is not needed. context: struct
- * units. Called for each figure. */
+/* Writes the unit of the figure `key`, a number in summary.json, to the page if the figure has a unit. context: struct
+ * units; value: of the figure, not used. Called for each figure. */
 static void write_unit(void *context, const char *key, double value)
 {
     const struct units *u = context;
