@@ -60,19 +60,20 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 /* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
 
-/* sampling points along the longest edge of the bounding box, in the plane and in space */
+/* Numbers of sampling points along the longest edge of the bounding box of a rigid body, in 2D and in 3D. */
 enum { SAMPLES = 200, SAMPLES_SPACE = 80 };
 
-/* tolerance of points on inclined faces, so that opposite faces are treated alike [longest edge] */
+/* Tolerance with which a sampling point counts as inside a region, over the longest edge of its box. With it, opposite
+ * inclined faces are treated alike in spite of round-off. */
 #define ON_FACE 1e-9
 
 struct box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Integrates over sampling points of a region in its bounding box b: adds its centre to centre[dim] [m] and its second
- * moments about the centre to `second` [m^2], both 0 before. Returns the volume of the region [m^dim], 0 if the box has
- * none. */
+/* Integrates over the sampling points of a region in its bounding box b. Adds the centre of the region to centre[dim]
+ * [m] and its second moments per volume about the centre to `second` [m^2]; both must be 0 before. Returns the volume
+ * of the region [m^dim], or 0 if the box has no volume. */
 static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
                            real second[DIM_MAX][DIM_MAX])
 {
@@ -177,9 +178,9 @@ void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Rotates rigid body r by its rotation in a step dt [s]. The angular velocity in the middle of the step depends on the
- * orientation there, and this on the angular velocity: both are found by a fixed-point iteration, whose third value is
- * exact to round-off for any step that contact allows. */
+/* Rotates rigid body r by its rotation in a time step dt [s]. The angular velocity in the middle of the step depends on
+ * the orientation at this time, which depends on the angular velocity. Both are found by a fixed-point iteration. Its
+ * third iterate is exact to round-off for any time step that is stable for contact. */
 static void turn_on(struct rigid_body *r, real dt)
 {
     real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];
@@ -241,8 +242,8 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the work that moves a driven body against the contact forces in the last step [J]: mean of the previous and
- * the present force times the increment. 0 for other bodies. */
+/* Returns the work that moves a driven rigid body against the contact forces in the last time step [J]: the mean of the
+ * contact forces at its beginning and end times the displacement. Returns 0 for bodies that are not driven. */
 static real work_of_step(const struct rigid_body *r)
 {
     real work = 0;
@@ -284,8 +285,9 @@ real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves or restores the state of rigid body `number`: the members of the structure from `x` on, which change from step
- * to step. Returns the status of the archive. */
+/* Saves the state of rigid body r to the archive, or restores it; the archive determines which. The state consists of
+ * the members of the structure from `x` to the end, which change in each time step. number: index of the body, which
+ * names its entry in the archive. Returns the status of the archive. */
 status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a)
 {
     char name[64];

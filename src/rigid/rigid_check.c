@@ -70,8 +70,8 @@ status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, 
     return OK;
 }
 
-/* Returns true if two rigid bodies overlap, i.e. if a sampling point of r is more than half a spacing deep inside
- * `other`. spacing: lattice spacing [m]. */
+/* Returns true if two rigid bodies overlap: a sampling point inside r is more than half a spacing deep inside `other`.
+ * spacing: of the lattice of particles [m]. */
 static bool have_met(const struct rigid_body *r, const struct rigid_body *other, real spacing)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];

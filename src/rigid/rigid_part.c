@@ -1,4 +1,4 @@
-/* Row of the rigid bodies in the table of parts. */
+/* Defines the rigid bodies as a part of a run: its entry in the table of parts. */
 #include "rigid/rigid_part.h"
 #include "base/memory.h"
 #include "rigid/rigid_surface.h"

@@ -13,7 +13,8 @@
 #include "output/output_files.h"
 #include "rigid/rigid_part.h"
 
-/* An unbounded body is shown farther than the particles by this share of the longest edge of their box [1]. */
+/* Distance by which the shown part of an unbounded rigid body extends beyond the particles, over the longest edge of
+ * the bounding box of the particles [1]. */
 #define RIGID_BESIDE 0.08
 enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
 
@@ -34,9 +35,10 @@ static real cut_level_set(const struct region *shape, const real *X, int dim, co
     return value;
 }
 
-/* Makes a grid of nodes over the box low[dim] .. high[dim] [m] and computes the level set of the region `shape`, cut to
- * this box, at its nodes. Half a cell more along an edge than a whole number keeps nodes off the faces of the box,
- * where round-off would decide which side they are on. The caller frees g->value and g->point. */
+/* Makes a grid of nodes over the box low[dim] .. high[dim] [m], and computes the level set of the region `shape`, cut
+ * to this box, at its nodes. The length of the box along its longest or its shortest edge is a whole number of cells
+ * plus half a cell. This keeps nodes off the faces of the box, where round-off would decide on which side they are. The
+ * caller frees g->value and g->point. */
 static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
 {
     real thinnest = INFINITY, longest = 0, nodes;
@@ -148,8 +150,9 @@ void rigid_surface_free(struct rigid_surface *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Finds the point of the box low[dim] .. high[dim] [m] that is nearest to a region, among its corners, its centre and
- * those of its edges and faces. Stores it in X[dim] [m] and returns the level set there [m]. */
+/* Finds the point of the box low[dim] .. high[dim] [m] that is nearest to a region. Candidates are the corners of the
+ * box, its centre, and the centres of its edges and faces. Stores the point in X[dim] [m] and returns the level set of
+ * the region there [m]. */
 static real box_point_nearest(const struct region *shape, int dim, const real *low, const real *high, real *X)
 {
     real least = INFINITY;
@@ -165,9 +168,9 @@ static real box_point_nearest(const struct region *shape, int dim, const real *l
     return least;
 }
 
-/* Extends the box low[dim] .. high[dim] [m] if a region lies outside it, so that the box holds the nearest part of the
- * region, to a depth of some cells of the grid over the extended box: from the nearest point of the box along the
- * gradient of the level set. longest: longest edge of the box [m]. */
+/* Extends the box low[dim] .. high[dim] [m] if a region lies outside it, so that the box contains the nearest part of
+ * the region to a depth of some grid cells. The extension begins at the point of the box that is nearest to the region,
+ * and is along the gradient of the level set. longest: longest edge of the box [m]. */
 static void box_extend_to_region(const struct region *shape, int dim, real *low, real *high, real longest)
 {
     real X[DIM_MAX] = {0}, gradient[DIM_MAX];
@@ -301,8 +304,9 @@ static void print_index(FILE *to, const struct frame_series *s)
     fputs("\n]}\n", to);
 }
 
-/* Composes a file in memory and writes it to `path`: the surfaces of rigid bodies at the last frame of series s, or the
- * index of these files if rigid is NULL. Returns FAILED, with a message, if that is not possible. */
+/* Composes a file in memory and writes it to `path`. If `rigid` is NULL, the file is the index of all surface files of
+ * the series s. Otherwise it holds the surfaces of the rigid bodies at the last frame of s. Returns FAILED, with a
+ * message, if the file cannot be composed or written. */
 static status compose(const char *path, const struct rigid_set *rigid, const struct frame_series *s)
 {
     char *text = NULL;
