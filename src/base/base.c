@@ -7,7 +7,8 @@
 
 enum { MESSAGE_LENGTH = 1024 };
 
-/* Message of the last fault. Each thread has its own, so that messages of two threads are never mixed. */
+/* Message of the last error, set with a status. Each thread has its own, so that messages of two threads are never
+ * mixed. */
 static _Thread_local char message[MESSAGE_LENGTH];
 static _Thread_local bool placed; /* set by status_prepend_location */
 

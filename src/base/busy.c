@@ -1,4 +1,4 @@
-/* Other programs on the machine, by the load average of the system. */
+/* Determines whether other programs keep the machine busy, from the load average of the system. */
 #include "base/busy.h"
 
 #include <stdio.h>

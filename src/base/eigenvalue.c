@@ -42,9 +42,9 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* Computes the next Lanczos vector w = A v - (v . A v) v - last `before` of the symmetric matrix A. apply(context, v,
- * w): computes w = A v. last: length of w in the previous iteration. Stores v . A v in *diagonal. Returns the length of
- * w. */
+/* Computes the next Lanczos vector w = A v - (v . A v) v - last u of the symmetric matrix A, where v is the present
+ * vector and u = l->before the previous one. apply(context, v, w): computes w = A v. last: length of w in the previous
+ * iteration. Stores v . A v in *diagonal. Returns the length of w. */
 static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];
@@ -57,7 +57,8 @@ static real next(struct lanczos *l, matrix_product_fn *apply, void *context, rea
     return sqrt(sum[1]);
 }
 
-/* Makes v the previous Lanczos vector, and w, divided by its length `size`, the present one. */
+/* Prepares the next iteration of the Lanczos method: makes v the previous Lanczos vector, and w/size the present one.
+ * size: length of w. */
 static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;
@@ -66,8 +67,8 @@ static void eigenvalue_turn(struct lanczos *l, real size)
     for (int64_t k = 0; k < l->n; k++) l->v[k] /= size;
 }
 
-/* Returns true if x is above all eigenvalues of the symmetric tridiagonal n x n matrix with the diagonal a[n] and the
- * secondary diagonal b[n - 1] (Sturm sequence): b[k] couples rows k and k + 1. */
+/* Returns true if x is larger than all eigenvalues of a symmetric tridiagonal n x n matrix, determined from its Sturm
+ * sequence. a[n]: diagonal; b[n - 1]: secondary diagonal, where b[k] couples rows k and k + 1. */
 static bool above_all(const real *a, const real *b, int n, real x)
 {
     real pivot = x - a[0];

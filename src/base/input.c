@@ -8,7 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Identity of a file. A file written later may have the number of a removed one, but not its time. */
+/* Identity of a file: device, number of the file on it, and time of its last change. The time is included because a new
+ * file may get the number of a removed one. */
 struct identity {
     dev_t device;
     ino_t number;

@@ -10,8 +10,8 @@
 
 enum { PATH_LONGEST = 4200 };
 
-/* The temporary files and child processes that a signal handler removes and ends. While a path is being written its
- * first character is 0, so that the handler never reads a part of it. */
+/* The temporary files and child processes that a signal handler removes and ends. While an element of `path` is being
+ * written, its first character is 0, so that the handler never reads an incomplete path. */
 static struct {
     volatile sig_atomic_t process;
     char path[PATH_LONGEST];
@@ -19,11 +19,10 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Handles the signal `number`, which ends the process. Ends the child processes, waits for them, since they could
- * create their files once more, removes the temporary files, and ends the process by the same signal. Calls only
- * functions that are safe in a handler. In any other thread than `maker`, which creates files and children, only
- * forwards the signal to `maker`, which would otherwise continue to create them (it blocks signals while it starts a
- * child). */
+/* Handles the signal `number`, which ends the process. Ends the child processes and waits for them, since they could
+ * create their files once more; removes the temporary files; ends the process by the same signal. Calls only functions
+ * that are safe in a handler. Files and children are created by the thread `maker` alone, which blocks signals while it
+ * starts a child. Another thread only forwards the signal to `maker`, which would otherwise continue to create them. */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {

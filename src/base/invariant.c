@@ -1,4 +1,4 @@
-/* The end of a program with a broken invariant: one line for its developers. */
+/* Ends the program when an invariant is broken: prints one line for its developers. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>

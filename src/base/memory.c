@@ -9,8 +9,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Cache line and widest vector [byte]; pieces in which pages are first touched; page; large page; smallest array on
- * large pages. */
+/* Sizes [byte]. ALIGNMENT: of a cache line, and of the widest vector register; PIECE: of the pieces in which threads
+ * first write to pages; PAGE, LARGE_PAGE: of a page and of a large page; LARGE_ARRAY: of the smallest array on large
+ * pages. */
 enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 4 << 20 };
 
 /* Pages from mmap are used where the system has it, but not under the address sanitizer, which watches the heap
@@ -21,12 +22,13 @@ enum { HEAP_ALONE = 1 };
 enum { HEAP_ALONE = 0 };
 #endif
 
-/* Arrays from this size on have pages of their own: reused heap pages would be in the memory of the processor whose
- * threads touched them first, and new pages are zero, so that they need not be written twice. */
+/* Size from which an array has pages of its own instead of a part of the heap [byte]. Reused heap pages would be in the
+ * memory of the processor whose threads wrote to them first. New pages are zero, so that zeros need not be written. */
 enum { OWN_PAGES = 1 << 20 };
-/* Limits of the store of released blocks, in which blocks released on request wait for an array of similar size, mostly
- * the rebuilt one: the system takes longer to provide a page than to write one. KEPT: number of blocks; KEPT_LEAST,
- * KEPT_MOST: size of a block; KEPT_ALL: size of all blocks [byte]. */
+/* Limits of the store of released blocks. KEPT: largest number of blocks; KEPT_LEAST, KEPT_MOST: smallest and largest
+ * size of a block [byte]; KEPT_ALL: largest size of all blocks [byte]. A block in the store is used again for an array
+ * of similar size, mostly for the rebuilt version of the released array. This saves time because the system takes
+ * longer to provide a page than a thread takes to write it. */
 enum { KEPT = 256, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
 /* Elements allocated by the first growth of an array. */
@@ -83,8 +85,9 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Returns the size of the pages for an array of `length` bytes, in steps of at most a quarter, so that a slightly
- * larger array finds its old block. Pages beyond an array are never touched. */
+/* Returns the size of the pages to be provided for an array of `length` bytes [byte]. The sizes are in steps of at most
+ * a quarter, so that the released block of an array can be used again for a slightly larger one. Pages beyond the end
+ * of the array are never written and thus take no memory. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -109,9 +112,9 @@ static struct block take_kept(size_t least)
     return block;
 }
 
-/* Adds a released block to the store in place of the oldest one, and returns further old blocks to the system while the
- * store exceeds KEPT_ALL. The block itself is returned to the system if it is larger than KEPT_MOST, or if blocks are
- * not reused. */
+/* Adds a released block to the store of released blocks, in place of the oldest one. Then returns further old blocks to
+ * the system while the store is larger than KEPT_ALL bytes. A block larger than KEPT_MOST is not stored but returned to
+ * the system; so is every block if the store is not in use. */
 static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {

@@ -60,8 +60,8 @@ static int64_t groups_limit(void)
 
 /* ---- limits of the process --------------------------------------------------------------------------------------- */
 
-/* Returns how much memory a limit of the process (RLIMIT_*) leaves beyond that in use [byte], at least 1; INT64_MAX if
- * it is unlimited. taken: memory in use [pages]. */
+/* Returns the memory that a limit of the process leaves [byte]: the limit minus the memory in use, at least 1;
+ * INT64_MAX if there is no limit. resource: the limit, RLIMIT_*; taken: memory in use [pages]. */
 static int64_t left_of(int resource, long long taken)
 {
     struct rlimit l;

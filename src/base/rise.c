@@ -4,8 +4,8 @@
 #include <math.h>
 
 #define NOTHING 1e-30 /* relative to the value: smaller records, also negative ones, count as this */
-/* Smallest record, over the present value, from which a growth rate is derived: a smaller one may be the background of
- * a quantity that grows faster; empirical. */
+/* Smallest ratio of a recorded value to the present value from which a growth rate is derived. A smaller recorded value
+ * may be the constant background of a quantity that grows faster. Empirical. */
 #define SOMETHING 0.03
 
 void growth_samples_add(struct growth_samples *samples, int64_t step, real value)

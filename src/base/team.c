@@ -24,9 +24,9 @@ struct place {
     hwloc_bitmap_t mask; /* hardware threads the process may run on */
 };
 
-/* The memory of the machine, or the tightest limit of it, read once: that takes about 6 ms, a hundred steps of a small
- * scene. In a container hwloc may not see the memory, in a virtual machine only its initial part: then the system's
- * figure counts. */
+/* The memory of the machine, or the smallest limit below it. It is read only once because reading takes about 6 ms, as
+ * long as a hundred steps of a small scene. hwloc may not report the memory in a container, and only its initial part
+ * in a virtual machine; the figure of the system is then used. */
 static struct memory_limit memory;
 
 /* The name of the processor, "" before the topology of the machine has been read. */
@@ -173,8 +173,8 @@ static void bind_helpers(const struct place *place, int threads)
 
 static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
 
-/* Returns the number of hardware threads in the user's OMP_PLACES, at most that of OpenMP; that of OpenMP if OMP_PLACES
- * is not set. */
+/* Returns the number of threads for which the user's OMP_PLACES provides hardware threads, at most the number of
+ * threads of OpenMP (omp_get_max_threads). Returns the latter number if OMP_PLACES is not set. */
 static int bound_threads(void)
 {
     int held = 0, most = omp_get_max_threads();
@@ -255,7 +255,7 @@ int team_set_threads(int threads)
 
 /* ---- shares of the cores ----------------------------------------------------------------------------------------- */
 
-/* The machine, the number of shares into which its physical cores are divided, and the number of these cores. */
+/* A machine whose physical cores are divided into shares. n: number of shares; cores: number of cores. */
 struct core_shares {
     struct place place;
     int n, cores;
@@ -304,12 +304,12 @@ void core_shares_free(struct core_shares *s)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-/* largest number of blocks of a sum without allocation: steps need short sums several times; largest number of terms
- * that threads compute before they are added */
+/* FEW_BLOCKS: largest number of blocks of a sum for which no memory is allocated, since each time step computes several
+ * short sums. FEW_TERMS: largest number of terms that the threads compute one by one before they are added. */
 enum { FEW_BLOCKS = 16, FEW_TERMS = 4 * SUM_BLOCK };
 
-/* Stores the `terms` sums over block number b of n entries in part[terms]. block(context, first, end, sum): adds the
- * terms of the entries first .. end - 1 to sum. */
+/* Stores the `terms` sums over block number b of the entries 0 .. n - 1 in part[terms]. A block has SUM_BLOCK entries.
+ * block(context, first, end, sum): adds the terms of the entries first .. end - 1 to sum[terms]. */
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
 {
@@ -338,7 +338,8 @@ struct single {
     const void *context;
 };
 
-/* Stores all n terms in `each`. There are few, each of which may take long: threads share them, not blocks of them. */
+/* Stores the terms s->term(s->context, i), i = 0 .. n - 1, in each[n]. The threads share single terms instead of blocks
+ * of them, because n is small and each term may take long. */
 static void terms_store(int64_t n, const struct single *s, real *each)
 {
     TEAM_LOOP(n > 1, for (int64_t i = 0; i < n; i++) each[i] = s->term(s->context, i););
@@ -350,7 +351,7 @@ static void single_block(const void *context, int64_t first, int64_t end, real *
     for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
 }
 
-/* Returns term i of the array `context`. */
+/* Returns element i of the array `context` of real numbers, as a term of a sum. */
 static real stored_term(const void *context, int64_t i) { return ((const real *)context)[i]; }
 
 real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
