@@ -25,8 +25,8 @@ static inline bool responses(unsigned leaf, unsigned bits)
     return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
 }
 
-/* Returns true if the processor has all instructions of x86-64-v3. They are tested one by one, since not every compiler
- * knows the names of the levels, or all instructions. */
+/* Returns true if the processor has all instructions of x86-64-v3. They are tested one by one, since some compilers do
+ * not know the names of the x86-64 levels, or of some instructions. */
 static inline bool runs_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
@@ -59,8 +59,8 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* The kernels in use, under their own names. Together with simd_current_kernels they are the only selection of the
- * program that is stored outside of a run. */
+/* Pointers to the kernels in use, with the names of the kernels. They and simd_current_kernels store which set of
+ * kernels is selected, the only choice that all runs of the program share. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
@@ -75,8 +75,8 @@ void simd_use_kernels(const struct simd_set *set)
 
 const struct simd_set *simd_current_kernels(void) { return in_use; }
 
-/* Writes the names of all sets of kernels to text[size], as in "avx2, portable", and returns text. running: true for
- * the sets that this processor supports only. */
+/* Writes the names of all sets of kernels to text[size], separated by commas as in "avx2, portable", and returns text.
+ * running: true: only those sets that this processor supports. */
 static const char *names(bool running, char *text, size_t size)
 {
     size_t length = 0;
@@ -108,5 +108,6 @@ status simd_select_kernels(void)
                       names(true, text, sizeof text));
 }
 
-/* Selects the kernels before main starts, which checks the selection again and reports a failure. */
+/* Selects the set of kernels before main starts, without a check of the result: main selects the kernels again and
+ * reports a failure. */
 __attribute__((constructor)) static void simd_start_set(void) { (void)simd_select_kernels(); }
