@@ -68,8 +68,8 @@ static int by_key(const void *a, const void *b)
     return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
 }
 
-/* Returns the key of a lattice site of body `body`: body number and site indices in one integer. k: site indices, steps
- * from the first particle of the body along each of dim axes. Returns -1 if an index needs more than SITE_BITS bits. */
+/* Returns the key of a lattice site: number `body` of its body and the indices k[dim] of the site, steps from the first
+ * particle of the body, in one integer. Returns -1 if an index needs more than SITE_BITS bits. */
 static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
@@ -278,8 +278,8 @@ static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
     }
 }
 
-/* Computes the weights w[t->n] of the particles of a corner, of least weighted square with sum w = 1 and sum w r = 0: w
- * = counts (1 - (r - mean) . C^-1 mean)/sum counts. C: variance of r; SINGULAR on its diagonal for thin bodies. */
+/* Computes weights w[t->n] of a corner's particles, w = counts (1 - (r - mean) . C^-1 mean)/sum counts: sum w = 1, sum
+ * w r = 0. C: weighted variance of r; SINGULAR is added to its diagonal, which for thin bodies has zeros. */
 static void corner_weights(const struct around *t, int dim, real *w)
 {
     real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;
@@ -301,8 +301,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Computes the reference position of corner c, the weighted mean of the positions of its particles and images t, to the
- * last digit, so that its forces have no moment. first: first particle of the body; site: the site above the corner. */
+/* Computes the reference position of corner c: the weighted mean of the particles and images t, exact to round-off, so
+ * that the forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -340,7 +340,7 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-/* Lists for each particle of load l the corners that depend on it. particles: number of particles of the scene. */
+/* Lists for each particle of load l the corners whose positions depend on it. particles: number of all particles. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);
@@ -359,8 +359,8 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     memory_free(place);
 }
 
-/* Fills surface a of load l from its free faces f: corners, stencils and working memory. The particles of all stencils
- * become those of l, and their inward reference areas its shares. s: sorted lattice sites. */
+/* Fills surface a of load l from its free faces f: corners, weights, working memory. The particles that move the
+ * corners become those of l, with their inward reference areas [m^2] as shares. s: sorted lattice sites. */
 static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
                          struct particles *p)
 {
@@ -431,7 +431,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes half the area vector of a 2D segment for each end, to[2][2] [m^2]. x: its ends [m]; sign: orientation. */
+/* Computes half the area vector of a 2D segment at each end, to[2][2] [m^2]. x: ends [m]; sign: orientation, +-1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
