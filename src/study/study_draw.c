@@ -16,9 +16,9 @@ enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST 
  * bar. */
 enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
-/* Role of a varied key in a picture. ACROSS: its values are along the horizontal axis. LINES: each of its values has a
- * line. HELD: the picture shows the runs with its first value only. CHANCE: it has no physical meaning, such as a
- * random seed, and runs that differ in it alone are combined to one point with a bar. NONE: no role yet. */
+/* Role of a varied key in a picture. NONE: it has a single value. ACROSS: its values are along the horizontal axis.
+ * LINES: each of its values has a line. HELD: the picture shows only the runs with its first value. CHANCE: it has no
+ * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
 
 /* Statistics of the runs that are combined to one point of a line: mean and scatter of a figure, and number of runs. */
