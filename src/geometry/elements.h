@@ -177,8 +177,9 @@ struct surface_builder {
     int32_t (*face)[DIM_MAX];
     int64_t patches; /* sides with middle nodes, until surface_builder_divide_sides turns them into faces */
     struct patch *patch;
-    int64_t file_nodes;   /* nodes from the file; later ones are on curved sides between the corners `parent` */
-    int32_t (*parent)[4]; /* [node - file_nodes] corner nodes of the side, -1: unused */
+    int64_t file_nodes;     /* nodes from the file; later ones are on curved sides between the corners `parent` */
+    int32_t (*parent)[4];   /* [node - file_nodes] corner nodes of the side, -1: unused */
+    struct label_map edges; /* edges of elements with triangular sides, which may be diagonals of quadrilateral ones */
 };
 
 /* Appends to the faces of surface b a face with the nodes i, j and, in 3D, k (indices); in 2D it is a segment and k is
@@ -186,7 +187,7 @@ struct surface_builder {
 void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k);
 
 /* Appends the side of an element with n = 3 or 4 corners, given by the node indices `node`, to the faces of surface b,
- * as one or two triangles. */
+ * as one or two triangles. These are the sides of the elements beyond it if those are triangles. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n);
 
 /* Appends a copy of *p, a side of an element with middle nodes, to surface b. surface_builder_divide_sides divides it

@@ -20,9 +20,33 @@ static bool point_before(const real *X, const real *Y, real size)
     return false;
 }
 
+/* Returns a number that two nodes, in either order, share with no other two. */
+static int64_t edge_label(int32_t i, int32_t j) { return ((int64_t)(i < j ? i : j) << 32) + (i < j ? j : i); }
+
+/* Lists in b->edges the edges of the volume elements with triangular sides, if others have quadrilateral sides. */
+static void builder_list_edges(struct surface_builder *b)
+{
+    const struct element_mesh *m = b->m;
+    int64_t n = 0, kinds[ELEMENT_KINDS] = {0}, solids = 0;
+    for (int64_t k = 0; k < m->elements; k++)
+        kinds[m->element[k].kind]++, solids += element_dim[m->element[k].kind] == 3;
+    if (b->body_dim < 3 || kinds[ELEMENT_TETRAHEDRON] == solids || kinds[ELEMENT_HEXAHEDRON] == solids) return;
+    int64_t *label = NEW("mesh.edges", ELEMENT_EDGES_MAX * solids, int64_t);
+    for (int64_t k = 0; k < m->elements; k++) {
+        const struct element *e = &m->element[k];
+        const struct element_edges *edges = &element_edges[e->kind];
+        if (element_dim[e->kind] < 3 || e->kind == ELEMENT_HEXAHEDRON) continue;
+        for (int c = 0; c < edges->n; c++)
+            label[n++] = edge_label(e->node[edges->corner[c][0]], e->node[edges->corner[c][1]]);
+    }
+    label_map_make(&b->edges, label, 0, n);
+    memory_free(label);
+}
+
 /* Adds a side of an element, with n = 3 or 4 corners node[n], to the faces. A quadrilateral becomes two triangles,
  * whose common diagonal starts at the corner that is first by position: two elements that share the side but not its
- * nodes then have the same diagonal. */
+ * nodes then have the same diagonal. If the other diagonal alone is an edge of an element, as where two tetrahedra
+ * meet the side, it is taken: no gap is left between them and a side that is not plane. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;
@@ -30,6 +54,9 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *node, in
     for (int d = 0; d < DIM_MAX; d++) size += fabs(b->m->node[node[0]][d] - b->m->node[node[n / 2]][d]);
     for (int k = 1; k < n; k++)
         if (point_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
+    if (n == 4 && b->edges.n > 0 && label_map_find(&b->edges, edge_label(node[low], node[(low + 2) % 4])) < 0 &&
+        label_map_find(&b->edges, edge_label(node[(low + 1) % 4], node[(low + 3) % 4])) >= 0)
+        low = (low + 1) % 4;
     surface_builder_add_face(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
     if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
@@ -268,11 +295,13 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
     TRY(surface_builder_set_chord_tolerance(&b, path, max_chord_error));
+    builder_list_edges(&b);
     for (int64_t k = 0; k < m->elements; k++)
         if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);
     take_sets(&b, node_of, g);
     memory_free(node_of);
+    label_map_free(&b.edges);
     memory_free(b.parent);
     memory_free(b.patch);
     return OK;

@@ -113,6 +113,29 @@ static void each_type(void **state)
     unlink("a.exo");
 }
 
+/* A hexahedron and a wedge beside three tetrahedra, which share two sides with them that are not plane and that they
+ * divide by the diagonals farther from the origin. Only the outer surface remains, a box of 20 x 10 x 8, and the middle
+ * of a shared side is as deep below it as half of the height. */
+static void twisted_sides(void **state)
+{
+    (void)state;
+    const real X[12][DIM_MAX] = {{0, 0, 0}, {10, 0, 0}, {20, 0, 0}, {0, 10, 0}, {10, 10, 0}, {20, 10, 0},
+                                 {0, 0, 8}, {12, 0, 8}, {20, 0, 8}, {0, 10, 8}, {10, 10, 8}, {20, 10, 8}};
+    struct geometry g;
+    const int file = exodus_begin("a.exo", 0, 3, 12, X[0], 3, 0, 0);
+    exodus_put_block(file, 1, "HEX8", 1, 8, (int[]){1, 2, 5, 4, 7, 8, 11, 10});
+    exodus_put_block(file, 2, "WEDGE", 1, 6, (int[]){2, 3, 6, 8, 9, 12});
+    exodus_put_block(file, 3, "TETRA", 3, 4, (int[]){2, 6, 5, 8, 6, 5, 8, 12, 5, 8, 12, 11});
+    NC(nc_close(file));
+    assert_ok(geometry_read(&g, "a.exo", 3, 1e-3, NAN));
+    assert_int_equal(g.whole.faces, 20);
+    assert_close(g.whole.volume, 1e-9 * 20 * 10 * 8, 1e-12);
+    for (int k = 0; k < 3; k++) /* along the diagonals of the shared side of the hexahedron, and between them */
+        assert_close(hull_distance(&g.whole, (real[]){1e-3 * (10 + 0.5 * k), 5e-3, 4e-3}, NULL), -4e-3, 1e-12);
+    geometry_free(&g);
+    unlink("a.exo");
+}
+
 /* A bulge of edges to the outside adds two thirds of its height times its area, as a parabola does. */
 static void curved_edges(void **state)
 {
@@ -375,9 +398,9 @@ static void damaged(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_type), cmocka_unit_test(curved_edges), cmocka_unit_test(blocks_and_sets),
-        cmocka_unit_test(spheres),   cmocka_unit_test(bad_files),    cmocka_unit_test(claims),
-        cmocka_unit_test(damaged),
+        cmocka_unit_test(each_type),       cmocka_unit_test(twisted_sides), cmocka_unit_test(curved_edges),
+        cmocka_unit_test(blocks_and_sets), cmocka_unit_test(spheres),       cmocka_unit_test(bad_files),
+        cmocka_unit_test(claims),          cmocka_unit_test(damaged),
     };
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }
