@@ -334,6 +334,12 @@ static status csv_value(const struct csv *c, struct particle_list *l, int k, con
     char *end;
     real value = strtod(field, &end), *to = *particle_list_column_array(l, column) + l->n;
     if (column == COLUMN_MATERIAL) l->material_at[l->n] = (int16_t)(field - c->in.text + 1);
+    if (column == COLUMN_MATERIAL && l->head.unnamed && field[strspn(field, "0123456789")])
+        return csv_report_fault(
+            &c->in, field,
+            "%.40s: without names the fourth column is block_id, a whole number; if it is the volume, give the list as "
+            "{file: .., columns: [x, y, z, volume, block]}, else with [x, y, z, block, volume]",
+            field);
     if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
     if (end == field || *end != '\0' || strpbrk(field, "xX"))
         return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
