@@ -383,11 +383,12 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
     return export_write_file(x->request->folder, exodus_put, x);
 }
 
-/* Prints which file was written with which contents, and the pre-cracks of the scene, which Exodus files do not
- * hold. */
+/* Prints which file was written with which contents, and what it lacks of the scene: rigid bodies, and pre-cracks,
+ * which the damage of a run shows. */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;
+    const int cracks = x->folder ? 0 : s->cracks;
     printf("%s: %lld particles in %d block%s, %d node set%s", printable_name(x->request->folder).text,
            (long long)x->mesh.n, s->materials, s->materials == 1 ? "" : "s", x->mesh.e->loads.n,
            x->mesh.e->loads.n == 1 ? "" : "s");
@@ -395,9 +396,10 @@ static void exodus_print(const struct exodus_export *x)
         printf(", %d variables at %d times\n", x->variables[0] + x->variables[1], x->frames);
     else
         puts("");
-    if (s->cracks > 0 && !x->folder)
-        printf("left out: %d pre-crack%s, which Exodus files do not hold (Peridigm and PeriLab: Bond Filters)\n",
-               s->cracks, s->cracks == 1 ? "" : "s");
+    if (s->rigids == 0 && cracks == 0) return;
+    printf("left out: ");
+    if (s->rigids > 0) printf("%d rigid bod%s%s", s->rigids, s->rigids == 1 ? "y" : "ies", cracks > 0 ? ", " : "\n");
+    if (cracks > 0) printf("%d pre-crack%s (Peridigm and PeriLab: Bond Filters)\n", cracks, cracks == 1 ? "" : "s");
 }
 
 status export_exodus(const struct export_request *request)
