@@ -7,6 +7,7 @@
 #include "base/team.h"
 #include "commands.h"
 #include "export/export.h"
+#include "output/output_files.h"
 
 static const char usage[] = "export " EXPORT_WORDS;
 
@@ -38,6 +39,18 @@ static status export_words(struct export_request *r, int *argc, char **argv)
     return OK;
 }
 
+/* Returns REFUSED if `scene` is the folder of a study, which has a table or list of its runs in place of a scene. */
+static status check_not_study(const char *scene)
+{
+    static const char *const file[] = {"study.yaml", "sweep.csv", "converge.csv"};
+    if (!path_is_folder(scene) || path_is_file(path_join(scene, "scene.yaml").text)) return OK;
+    for (size_t k = 0; k < COUNT_OF(file); k++)
+        if (path_is_file(path_join(scene, file[k]).text))
+            return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders in it",
+                              printable_name(scene).text);
+    return OK;
+}
+
 status command_export(int argc, char **argv)
 {
     struct export_request request = {0};
@@ -55,7 +68,8 @@ status command_export(int argc, char **argv)
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
     status result =
-        a.folder ? target->write(&request) : status_set(REFUSED, "export: -o is missing; usage: cleave %s", usage);
+        a.folder ? check_not_study(a.scene) : status_set(REFUSED, "export: -o is missing; usage: cleave %s", usage);
+    if (result == OK) result = target->write(&request);
     arguments_free(&a);
     return result;
 }

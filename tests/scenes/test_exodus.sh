@@ -30,6 +30,13 @@ refused()
 # column NAME: its last value in history.csv of a run.
 column() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { split($k, word, " "); if (word[1] == name) at = k } } END { print $at }' "$1/history.csv"; }
 
+# What the file has not is said: rigid bodies and pre-cracks, of a run rigid bodies alone, since its damage shows the cracks.
+said=$("$cleave" export exodus plate.yaml -o less.g -s 'cracks=[{from: [15 mm, 0], to: [15 mm, 4 mm]}]' -s 'bodies=[
+    {name: plate, material: glass, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}},
+    {name: ball, rigid: true, mass: 5 g, shape: {ball: {centre: [10 mm, 20 mm], radius: 6 mm}}},
+    {name: stamp, rigid: true, mass: 7 g, shape: {ball: {centre: [10 mm, -20 mm], radius: 6 mm}}}]' 2>&1)
+holds "what is left out: $said" test "$(echo "$said" | sed -n 2p)" = "left out: 2 rigid bodies, 1 pre-crack (Peridigm and PeriLab: Bond Filters)"
+
 # The same particles by a list: the energies at the end agree to the digits of history.csv, although the order of particles is another.
 said=$("$cleave" export exodus plate.yaml -o plate.g 2>&1) || fail "export: $said"
 holds "what is exported: $said" test "$said" = "plate.g: 800 particles in 2 blocks, 2 node sets"
@@ -81,6 +88,9 @@ refused "that ends in .exo, .e or .g is expected" export exodus plate.yaml -o pl
 refused "choose another -o, or replace it with --overwrite" export exodus plate.yaml -o plate.g
 refused "is a run, whose scene -s cannot change" export exodus shape -o other.g -s duration=1us
 refused "are for lammps" export exodus plate.yaml -o other.g --allow-different
+mkdir study && touch study/sweep.csv study/study.yaml
+refused "study: holds a study; export one of its runs" export exodus study -o other.g
+refused "study: holds a study; export one of its runs" export lammps study -o other
 refused "lammps or exodus is expected" export cubit plate.yaml -o other.g
 refused "is no list of columns" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, columns: x}}]'
 refused "is no unit of length" check plate.yaml -s 'bodies=[{name: plate, particles: {file: bare.txt, unit: inch}}]'
