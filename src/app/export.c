@@ -29,7 +29,9 @@ static status export_words(struct export_request *r, int *argc, char **argv)
         if (style && k + 1 < *argc && (!strcmp(argv[k + 1], "peri") || !strcmp(argv[k + 1], "bpm")))
             r->bond_style = !strcmp(argv[++k], "bpm");
         else if (style)
-            return status_set(REFUSED, "--style: peri or bpm is expected; usage: cleave %s", usage);
+            return status_set(
+                REFUSED, "--style: peri (pair_style peri) or bpm (bond_style bpm/peri) is expected; usage: cleave %s",
+                usage);
         else if (!strcmp(argv[k], "--resume") || !strcmp(argv[k], "-q"))
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", argv[k], usage);
         else

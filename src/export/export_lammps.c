@@ -74,8 +74,11 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;
-    fprintf(to, "left out: %d probes, frames of %d regions; plate.dump has positions, velocities and damage\n",
-            s->probes, s->n_series);
+    fputs("left out: ", to);
+    if (s->probes > 0) fprintf(to, "%d probe%s", s->probes, s->probes == 1 ? "" : "s");
+    if (s->n_series > 0)
+        fprintf(to, "%sframes of %d region%s", s->probes > 0 ? ", " : "", s->n_series, s->n_series == 1 ? "" : "s");
+    fputs("; plate.dump has positions, velocities and damage\n", to);
 }
 
 static void readme_write(FILE *to, const struct exported *x)
@@ -239,14 +242,17 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
-/* Prints how to start LAMMPS on the export, the number of bonds that it cuts, the estimated cost, and how the results
- * differ from the scene. t: types of the particles. */
+/* Prints how to start LAMMPS on the export, whether its style has been tested, the number of bonds that it cuts, the
+ * estimated cost, and how the results differ from the scene. t: types of the particles. */
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
     printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
-    if (x->cut > 0)
-        printf("%lld bonds are cut by pre-cracks: LAMMPS excludes %lld pairs among %d types of particles\n",
-               (long long)x->cut, (long long)t->pairs, t->n);
+    if (x->bond_style)
+        puts("bond_style bpm/peri: not run with a LAMMPS of that style; compare with check.csv before you rely on it");
+    if (x->cut > 0) printf("%lld bonds are cut by pre-cracks", (long long)x->cut);
+    if (x->cut > 0 && t->pairs > 0)
+        printf(": LAMMPS excludes %lld pairs among %d types of particles", (long long)t->pairs, t->n);
+    if (x->cut > 0) puts("");
     lammps_cost_write(stdout, x);
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)

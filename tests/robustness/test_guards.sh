@@ -350,7 +350,12 @@ is "without them, with a frame that is cut short: $(cat "$work/err")" $? 0
 # An export: once, again only with --overwrite, never over the scene that it reads.
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
 is "an export: $(cat "$work/out")" $? 0
-holds "what it leaves out is said" grep -q "^left out: 1 probes, frames of 0 regions" "$work/out"
+holds "what it leaves out is said" grep -q "^left out: 1 probe; plate.dump has" "$work/out"
+declined "a style by another name" "--style: peri (pair_style peri) or bpm (bond_style bpm/peri) is expected" \
+    export lammps "$work/strip.yaml" -o "$work/bonds" --style bpm-peri
+"$cleave" export lammps "$work/strip.yaml" -o "$work/bonds" --allow-different --style bpm >"$work/out" 2>&1
+is "an export with bonds: $(cat "$work/out")" $? 0
+holds "an untested style is said" grep -q "^bond_style bpm/peri: not run with a LAMMPS of that style" "$work/out"
 declined "an export that is there" "holds an export; .*--overwrite" export lammps "$work/strip.yaml" -o "$work/there" --allow-different
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s duration=2us >"$work/out" 2>&1
 is "an export that is replaced" $? 0
