@@ -186,6 +186,37 @@ for name, need in (("matplotlib.pyplot", lambda: run.plot()), ("pandas", frame.t
     if kept:
         sys.modules[name] = kept
 
+# an empty selection, and arguments of pictures that mean nothing: one plain line each; where pandas or matplotlib is missing, not tested
+def plain(what, words, call):
+    try:
+        call()
+    except ValueError as fault:
+        holds("%s: %s" % (what, fault), words in str(fault) and "\n" not in str(fault))
+        return
+    sys.exit("test_python: not refused: " + what)
+
+
+empty = frame[frame["damage"] > 5]
+plain("a time that is no number", "time: ", lambda: run.frames.at(float("nan")))
+try:
+    import pandas
+    table = empty.to_pandas()
+    holds("an empty table", len(table) == 0 and list(table) == list(frame.to_pandas()) and "stress_xy" in table)
+except ImportError:
+    pass
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+except ImportError:
+    matplotlib = None
+if matplotlib:
+    plain("no particles", "no particles to draw", lambda: empty.plot("damage"))
+    plain("magnify=-1", "magnify: a number from 0, not -1", lambda: run.plot(magnify=-1))
+    for limits in ((1, 0), (0, 0), (0, np.nan), (0,)):
+        plain("limits", "limits: two numbers, the lower one first", lambda: run.plot("damage", limits=limits))
+    plain("a time that is no number", "time: a number", lambda: run.plot(time=float("nan")))
+    plain("colours", "not 'nosuch'", lambda: run.plot(colours="nosuch"))
+
 # scenes that are dictionaries: the bits of the scene in a file; what is refused names line, column and key
 plate = {"space": "plane stress", "thickness": "1 mm", "duration": 6e-6, "method": "pd",
          "material": {"young": "72 GPa", "density": "2440 kg/m^3", "energy_release_rate": 135},
@@ -216,6 +247,10 @@ def faulty(entries, key, line, words, **more):
 fault = faulty({**plate, "duratoin": 1}, "duratoin", 41, "the nearest is duration")
 holds("its line", fault.source == "duratoin: 1" and fault.column == 1)
 faulty({**plate, "boundary": [plate["boundary"][0], {"traction": [0, "1 kg"], "face": "y-"}]}, "boundary.1.traction", 21, "1 kg is a mass")
+faulty(plate, "thickness", 1, "thickness: missing", changes={"thickness": None})
+faulty(plate, "material.density", 5, "density: missing", changes={"material.density": None})
+faulty({**{k: v for k, v in plate.items() if k != "material"}, "materials": [{"name": "glass", "young": 72e9, "energy_release_rate": 135}]},
+       "materials.0.density", 38, "density: missing")
 faulty(plate, "particles.spacing", None, "2 s is a time", changes={"particles.spacing": "2 s"})
 with open(work + "/faulty.yaml", "w") as file:
     file.write("space: plane stress\nthickness: 1 s\n")
@@ -298,6 +333,12 @@ with open(work + "/line.yaml", "w") as file:
     file.write("space: line\nsection: 2 mm^2\nduration: 2 us\nmethod: pd\nmaterial: {young: 70 GPa, density: 2700}\n"
                "body: {box: {from: [0], to: [20 mm]}}\nparticles: {spacing: 1 mm}\noutput: {frames: 1, samples: 4}\n")
 line = cleave.run(work + "/line.yaml", output=work + "/line")
+cube = cleave.run({"space": "solid", "duration": "1 us", "method": "pd", "material": {"young": "70 GPa", "density": 2700},
+                   "body": {"box": {"from": [0, 0, 0], "to": ["4 mm", "4 mm", "4 mm"]}}, "particles": {"spacing": "1 mm"},
+                   "output": {"frames": 1, "samples": 4}}, output=work + "/cube")
+for plane in ({"q": 1}, {}, {"x": 1e-3, "y": 1e-3}):
+    if matplotlib:
+        plain("a plane", "slice: one of x, y, z", lambda: cube.plot(slice=plane))
 holds("places at rest of a line", line.frames[-1].reference.shape == (20, 3) and (line.frames[-1].reference[:, 1:] == 0).all())
 
 print(checks)

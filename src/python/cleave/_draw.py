@@ -69,6 +69,8 @@ def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[
         damaged = "damage" in frame and frame["damage"].max(initial=0) > 0
         at = reference[np.argmax(frame["damage"]), axis] if damaged else reference[:, axis].min() + np.ptp(reference[:, axis]) / 2
         plane = {"xyz"[axis]: float(at)}
+    if len(plane) != 1 or next(iter(plane)) not in ("x", "y", "z"):
+        raise ValueError('slice: one of x, y, z with its position [m], as {"z": 4e-3}, not %r' % (plane,))
     (name, at), = plane.items()
     axis = "xyz".index(name)
     part = frame.slice(**{name: at})
@@ -101,11 +103,24 @@ def _when(frame: Any) -> str:
     return "%.4g %s" % (frame.time * factor, seconds if frame.time > 0 else "s")
 
 
+def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> None:
+    """Raises ValueError for a frame without particles, and for options that mean nothing."""
+    if len(frame) == 0:
+        raise ValueError("no particles to draw")
+    if not (np.isfinite(magnify) and magnify >= 0):
+        raise ValueError("magnify: a number from 0, not %g" % magnify)
+    if limits is not None and not (len(limits) == 2 and np.isfinite(limits).all() and limits[0] < limits[1]):
+        raise ValueError("limits: two numbers, the lower one first, not %r" % (limits,))
+    if isinstance(colours, str) and colours not in need("matplotlib.pyplot", "plot").colormaps():
+        raise ValueError("colours: a colour map of matplotlib, as viridis or magma, not %r" % colours)
+
+
 def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: float = 1.0, limits: Any = None, colours: Optional[str] = None,
                colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
     need("matplotlib.pyplot", "plot")
     from matplotlib.collections import PolyCollection
+    _check(frame, magnify, limits, colours)
     name, words, axes = _name_of(frame, field), [], (0, 1)
     words.append(_when(frame))
     if slice is not None and frame.dimension < 3:

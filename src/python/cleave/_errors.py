@@ -8,6 +8,7 @@ from types import ModuleType
 from typing import Optional
 
 PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): (?P<message>.*)", re.S)
+MISSING = re.compile(r"(?P<key>\w+): missing(?: in [^;]*)?;")
 OVERRIDE = re.compile(r"-s (?P<key>[^\s=]+)=.*?: (?P<message>.*)", re.S)
 
 # Name of a package for import: its names for pip and in Debian.
@@ -34,7 +35,8 @@ class SceneError(Error):
     """Reports a fault of a scene and where it is.
 
     file, line, column  location in the scene file, from 1; None for a fault of an override
-    key                 key at this location, as "boundary.0.traction": of overrides and of scenes that are dictionaries; else None
+    key                 key at this location, or the one that is missing, as "boundary.0.traction": of overrides and of scenes that are
+                        dictionaries; else None
     message             the fault and its remedy
     source              text of the line in the scene, "" if unknown
     """

@@ -240,7 +240,7 @@ class Frame:
         for name, unit in self.units.items():
             values = self[name]
             named = [name + "_" + suffix for suffix in components(name, values)] or [name]
-            columns.update(zip(named, values.reshape(len(values), -1).T))
+            columns.update(zip(named, values.reshape(len(values), int(np.prod(values.shape[1:]))).T))
             units.update((column, unit) for column in named)
         table = pandas.DataFrame(columns)
         table.attrs.update(units=units, time=self.time)
@@ -292,9 +292,11 @@ class Frames(collections.abc.Sequence):
         return np.array([time for _, time in self._listed])
 
     def at(self, time: float) -> Frame:
-        """Returns the frame nearest to a time [s]. Raises IndexError if there is none at all."""
+        """Returns the frame nearest to a time [s]. Raises IndexError if there is none at all, ValueError for a time that is no number."""
         if not self._listed:
             raise IndexError("the run has no frames yet")
+        if np.isnan(float(time)):
+            raise ValueError("time: a number [s], not nan")
         return self[int(np.argmin(np.abs(self.times - float(time))))]
 
     def __len__(self) -> int:

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optio
 
 import numpy as np
 
-from ._errors import PLACE, Error, SceneError
+from ._errors import MISSING, PLACE, Error, SceneError
 from ._program import Progress, call_fully, value_text
 from ._run import Run
 from ._yaml import scene_text
@@ -116,8 +116,20 @@ class Scene:
             fault = SceneError(line, fault.status, place) if place and fault.status == 2 else Error(line, fault.status)
         if isinstance(fault, SceneError) and fault.line and fault.file in (path, "<%s>" % self.name):
             fault.source = (self.text.splitlines()[fault.line - 1:fault.line] or [""])[0]
-            fault.key = self._keys[fault.line - 1] if fault.line <= len(self._keys) else None
+            fault.key = self._key_of(fault) if fault.line <= len(self._keys) else None
         return fault
+
+    def _key_of(self, fault: SceneError) -> str:
+        """Returns the key of the line of a fault; if a key is missing, that one: the line is that of the dictionary which lacks it."""
+        key = self._keys[(fault.line or 1) - 1]
+        missing = MISSING.match(fault.message)
+        if not missing:
+            return key
+        if " in " not in missing.group():
+            return missing.group("key")
+        if fault.source.lstrip().startswith("- "):       # the first line of an item is that of its first key
+            key = key.rpartition(".")[0]
+        return "%s.%s" % (key, missing.group("key"))
 
     def check(self, threads: Optional[int] = None, trial: bool = True) -> Check:
         """Checks the scene without running it and returns its warnings.
