@@ -333,12 +333,30 @@ with open(work + "/line.yaml", "w") as file:
     file.write("space: line\nsection: 2 mm^2\nduration: 2 us\nmethod: pd\nmaterial: {young: 70 GPa, density: 2700}\n"
                "body: {box: {from: [0], to: [20 mm]}}\nparticles: {spacing: 1 mm}\noutput: {frames: 1, samples: 4}\n")
 line = cleave.run(work + "/line.yaml", output=work + "/line")
-cube = cleave.run({"space": "solid", "duration": "1 us", "method": "pd", "material": {"young": "70 GPa", "density": 2700},
-                   "body": {"box": {"from": [0, 0, 0], "to": ["4 mm", "4 mm", "4 mm"]}}, "particles": {"spacing": "1 mm"},
-                   "output": {"frames": 1, "samples": 4}}, output=work + "/cube")
+SOLID = {"space": "solid", "duration": "1 us", "method": "pd", "material": {"young": "70 GPa", "density": 2700},
+         "body": {"box": {"from": [0, 0, 0], "to": ["4 mm", "4 mm", "4 mm"]}}, "particles": {"spacing": "1 mm"}, "output": {"frames": 1, "samples": 4}}
+cube = cleave.run(SOLID, output=work + "/cube")
 for plane in ({"q": 1}, {}, {"x": 1e-3, "y": 1e-3}):
     if matplotlib:
         plain("a plane", "slice: one of x, y, z", lambda: cube.plot(slice=plane))
+
+# rigid bodies are outlined where they are, with magnified displacements: a box 3 mm x 2 mm that has moved 20 um, a sphere cut at its middle
+anvil = {"name": "anvil", "rigid": True, "shape": {"box": {"from": ["4 mm", "11 mm"], "to": ["7 mm", "13 mm"]}}, "velocity": [0, "-10 m/s"]}
+pressed = cleave.run({**{k: v for k, v in plate.items() if k not in ("body", "output", "boundary")}, "duration": "2 us",
+                      "bodies": [{"name": "plate", "shape": plate["body"]}, anvil], "output": {"frames": 1, "samples": 4}}, output=work + "/pressed")
+ball = cleave.run({**{k: v for k, v in SOLID.items() if k != "body"},
+                   "bodies": [{"name": "cube", "shape": SOLID["body"]},
+                              {"name": "ball", "rigid": True, "shape": {"ball": {"centre": ["2 mm", "2 mm", "6 mm"], "radius": "1.5 mm"}}}]}, output=work + "/ball")
+for factor in (1, 100):
+    outline = cleave._rigid.outlines_of(pressed.frames[-1], factor, (0, 1), None).reshape(-1, 2)
+    holds("the outline of a box", np.allclose([outline.min(axis=0), outline.max(axis=0)], [[4e-3, 11e-3 - 2e-5 * factor], [7e-3, 13e-3 - 2e-5 * factor]], atol=3e-7 * factor))
+outline = cleave._rigid.outlines_of(ball.frames[0], 1, (0, 2), 2e-3).reshape(-1, 2)
+holds("the section of a sphere", len(outline) > 20 and np.allclose(np.hypot(outline[:, 0] - 2e-3, outline[:, 1] - 6e-3), 1.5e-3, rtol=0.02))
+holds("no rigid body", len(cleave._rigid.outlines_of(frame, 1, (0, 1), None)) == 0)
+if matplotlib:
+    lines = pressed.plot().collections[1]
+    holds("it is drawn", type(lines).__name__ == "LineCollection" and lines.axes.get_ylim()[1] > 12.9)
+    holds("the sphere is drawn", len(ball.plot(slice={"y": 2e-3}).collections) == 2 and len(run.plot().collections) == 1)
 holds("places at rest of a line", line.frames[-1].reference.shape == (20, 3) and (line.frames[-1].reference[:, 1:] == 0).all())
 
 print(checks)

@@ -9,9 +9,11 @@ import numpy as np
 
 from ._errors import need
 from ._fields import scale_of
+from ._rigid import outlines_of
 from ._shape import corners_of
 
 _EXTREME = 0.002                         # share of the values beyond either end of the colour bar
+_BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
 
 
 def _axes_of(ax: Any, tall: float = 0.7) -> Any:
@@ -61,8 +63,8 @@ def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
     return float(low), float(high if high > low else low + 1.0)
 
 
-def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], str]:
-    """Returns the particles of a solid to draw, the axes of the picture, and the section in words."""
+def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], float, str]:
+    """Returns the particles of a solid to draw, the axes of the picture, the position of the section [m], and it in words."""
     reference = frame.reference
     if plane is None:
         axis = int(np.argmin(np.ptp(reference, axis=0)))
@@ -78,7 +80,7 @@ def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[
         raise ValueError("no particles at %s = %g m" % (name, at))
     factor, unit = scale_of(float(np.abs(reference).max()), "m")
     kept: List[int] = [k for k in range(3) if k != axis]
-    return part, (kept[0], kept[1]), "%s = %.4g %s" % (name, at * factor, unit)
+    return part, (kept[0], kept[1]), at, "%s = %.4g %s" % (name, at * factor, unit)
 
 
 def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
@@ -115,13 +117,21 @@ def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> N
         raise ValueError("colours: a colour map of matplotlib, as viridis or magma, not %r" % colours)
 
 
+def _seen(particles: np.ndarray, rigid: np.ndarray) -> np.ndarray:
+    """Returns two corners of the rectangle to show [m]: all corners of particles, and of rigid bodies those beside them."""
+    low, high = particles.min(axis=0), particles.max(axis=0)
+    beside = _BESIDE * float((high - low).max())
+    points = np.concatenate([particles, np.clip(rigid, low - beside, high + beside)])
+    return np.array([points.min(axis=0), points.max(axis=0)])
+
+
 def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: float = 1.0, limits: Any = None, colours: Optional[str] = None,
                colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
     need("matplotlib.pyplot", "plot")
-    from matplotlib.collections import PolyCollection
+    from matplotlib.collections import LineCollection, PolyCollection
     _check(frame, magnify, limits, colours)
-    name, words, axes = _name_of(frame, field), [], (0, 1)
+    name, words, axes, at = _name_of(frame, field), [], (0, 1), None
     words.append(_when(frame))
     if slice is not None and frame.dimension < 3:
         raise ValueError("slice is for solids; this frame has %d dimension%s" % (frame.dimension, "s" * (frame.dimension > 1)))
@@ -130,7 +140,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
         ax.set_title(", ".join(words), fontsize="medium")
         return ax
     if frame.dimension == 3:
-        frame, axes, where = _section(frame, slice)
+        frame, axes, at, where = _section(frame, slice)
         words.append(where)
     if magnify != 1:
         words.append("displacements times %g" % magnify)
@@ -138,13 +148,18 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     low, high = _limits(values, limits)
     factor, shown = scale_of(max(abs(low), abs(high)), unit)
     corners = corners_of(frame, magnify, axes)
-    wide, high_up = np.ptp(corners.reshape(-1, 2), axis=0) if len(corners) else (1.0, 1.0)
+    outlines = outlines_of(frame, magnify, axes, at)
+    seen = _seen(corners.reshape(-1, 2), outlines.reshape(-1, 2))
+    wide, high_up = np.ptp(seen, axis=0)
     ax = _axes_of(ax, high_up / wide)
     long, metres = scale_of(float(max(wide, high_up)) / 4, "m")
     squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low == -high else "viridis"),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)
     ax.add_collection(squares)
+    if len(outlines):
+        ax.add_collection(LineCollection(long * outlines, colors="0.35", linewidths=1.0), autolim=False)
+        ax.update_datalim(long * seen)
     ax.autoscale_view()
     ax.set_aspect("equal")
     ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))

@@ -223,7 +223,7 @@ class Run:
              limits: Any = None, colours: Optional[str] = None, colour_bar: bool = True,
              slice: Optional[Dict[str, float]] = None) -> matplotlib.axes.Axes:
         """Draws a field of a frame by matplotlib and returns the axes. Each particle is drawn with the shape that it has been
-        deformed to, solids as a section, bars as a curve. Axes are in m, mm or µm.
+        deformed to, solids as a section, bars as a curve; rigid bodies are outlines. Axes are in m, mm or µm.
 
         field       name as of frame[...]; "stress" is drawn as von Mises stress, a vector by its length. Default: damage if
                     bonds are broken, else plastic strain if there is any, else von Mises stress
