@@ -206,5 +206,5 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
         snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
     const size_t length = strlen(title);
     if (c != NULL && c->magnify != 1)
-        snprintf(title + length, TITLE_LENGTH - length, ", displacements x %.4g", c->magnify);
+        snprintf(title + length, TITLE_LENGTH - length, "%sdisplacements x %.4g", length > 0 ? ", " : "", c->magnify);
 }

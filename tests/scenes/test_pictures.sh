@@ -119,6 +119,8 @@ drawn "what is beyond them" "set label '[0-9.]* % above' at screen"
 drawn "the title, and that displacements are not as they are" "'It''s a strip, displacements x 50'"
 "$cleave" plot results/strip --field speed --times last --size 90mmx70mm -o size.pdf >out 2>err
 drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
+"$cleave" plot results/strip --field speed --times last --magnify 10 --title '' $small -o untitled.png >out 2>err
+drawn "no title: the magnification alone" "set label 1 'displacements x 10' at"
 refused "LOW:HIGH" results/strip --field speed --range 3
 refused "--range 5m" results/strip --field speed --range 0:5m
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
