@@ -171,6 +171,9 @@ static double coarse_tic_distance(double top)
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
+/* Position of the label of the balance error, whose numbers may be wide, and in narrow pictures [pixel]. */
+static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
+
 /* Plots the balance error below the energies. l: layout of the picture; largest: largest magnitude of the error
  * [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
@@ -181,9 +184,12 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
     curves_write_panel(to, l, two.lower_from, two.lower_end);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\n"
-            "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel '%serror [%%]'\n"
+            "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nunset ylabel\n"
+            "set label '%serror [%%]' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n"
             "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
-            -top, top, coarse_tic_distance(top), gnuplot_is_narrow() ? "" : "balance ", curve_colour[6]);
+            -top, top, coarse_tic_distance(top), gnuplot_is_narrow() ? "" : "balance ",
+            (gnuplot_is_narrow() ? LABEL_AT_NARROW : LABEL_AT) / l->width,
+            1 - (l->above + 0.5 * (two.lower_from + two.lower_end)) / l->height, curve_colour[6]);
 }
 
 /* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if

@@ -110,13 +110,19 @@ static double numbers_width(double low, double high, double tics, const char *fo
     return (gnuplot_is_narrow() ? 7.4 : 9) * longest;
 }
 
-/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch. */
+/* Returns the number of multiples of `tics` between `low` and `high`. */
+static double tics_within(double low, double high, double tics) { return floor(high / tics) - ceil(low / tics) + 1; }
+
+/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
+ * that there are two at least: a single one gives no scale. */
 static double tics_across(double low, double high, double pixels)
 {
     double apart = 20, tics = tic_distance(high - low, pixels, apart);
     while (apart < pixels && numbers_width(low, high, tics, "%g") + 14 > tics / (high - low) * pixels)
         tics = tic_distance(high - low, pixels, apart *= 1.3);
-    return tics;
+    if (tics_within(low, high, tics) > 1) return tics;
+    while (apart > 1 && tics_within(low, high, tics) < 2) tics = tic_distance(high - low, pixels, apart /= 1.3);
+    return tics_within(low, high, 2 * tics) < 2 ? tics : 2 * tics;
 }
 
 void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct plotted_particles *c,

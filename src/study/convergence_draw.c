@@ -93,18 +93,18 @@ static double tics_apart(double most)
 static status draw_figures(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST, wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE;
-    const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE, width = 266 + 420 * wide;
+    const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE, width = 350 + 420 * wide;
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence.png");
     const double coarsest = 1e3 * s->spacings.at[s->spacings.levels - 1][0]; /* [mm] */
     TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, width, 80 + 360 * rows));
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
-            "set multiplot layout %d,%d margins char 11, char 20, char 4, char 3 spacing char 12, char 6\n"
+            "set multiplot layout %d,%d margins char 11, char 29, char 4, char 3 spacing char 12, char 6\n"
             "set format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\n"
             "set key at screen %.5f,0.93 left top\nset pointintervalbox 0\n"
             "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\nset xtics %g\n",
-            rows, wide, -0.05 * coarsest, 1 - 166.0 / width, tics_apart(coarsest));
+            rows, wide, -0.05 * coarsest, 1 - 250.0 / width, tics_apart(coarsest));
     for (int k = 0; k < shown; k++) {
         plot_figure(g.to, &figure[k], k);
         fputs("unset key\n", g.to);

@@ -287,6 +287,16 @@ END
     "$cleave" plot results/strip --size 85mmx60mm -o maps/ >out 2>err
     "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
     for picture in damage last scene; do uncut "maps/$picture.png"; done
+    : >all
+    "$cleave" plot results/strip --field speed --size 85mmx60mm --crop -9mm:19mm,0mm:10mm -o maps/six.png >out 2>err
+    for tics in $(sed -n 's/^set xtics \([0-9.]*\) format.*/\1/p' all | sort -u); do between "small panels have two tics at least: $(cat err)" "$tics" 1 10; done
+    mkdir minute
+    sed 's/,1e-4,0.004/,2e-6,0.004/; s/,-3e-4,/,-6e-6,/' tips/history.csv >minute/history.csv
+    "$cleave" plot minute --size 85mmx60mm -o minute/ >out 2>err
+    uncut minute/energy.png
+    "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --budget 2s -o finer >out 2>err
+    set -- $(python3 "$root/tests/scenes/picture_margins.py" finer/pictures/convergence.png)
+    between "the key of a convergence study is whole: blank pixels beside it" "$2" 2 150
     for size in 85mmx150mm 180mmx250mm; do
         : >all
         "$cleave" plot both --size $size -o "keys$size/" >out 2>err
