@@ -12,6 +12,7 @@
 /* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken
  * body only moves apart. */
 #define FORCE_LEFT 0.01
+#define LINE_WIDE 0.002 /* width of a line over the length of an axis */
 enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200 };
 
 bool run_has_load_steps(const char *folder)
@@ -162,6 +163,38 @@ static void reactions_find(struct reactions *r, const struct history *h)
     }
 }
 
+/* Returns true if two curves are nowhere further apart than the width of a line. */
+static bool curves_coincide(const struct reactions *r, const struct history *h, const struct reaction *a,
+                            const struct reaction *b)
+{
+    for (int64_t i = 0; i < h->rows; i++) {
+        const double newton = length_at(h, i, &a->force) - length_at(h, i, &b->force);
+        const double metre = length_at(h, i, &a->displacement) - length_at(h, i, &b->displacement);
+        if (!(fabs(newton) <= LINE_WIDE * r->force && fabs(metre) <= LINE_WIDE * r->displacement)) return false;
+    }
+    return true;
+}
+
+/* Makes one curve with both names of each two that coincide: a support is also measured by a probe, or by the opposite
+ * one. */
+static void reactions_join(struct reactions *r, const struct history *h)
+{
+    int kept = 0;
+    for (int m = 0; m < r->n; m++) {
+        int same = 0;
+        while (same < kept && !curves_coincide(r, h, &r->of[same], &r->of[m])) same++;
+        if (same == kept) {
+            r->of[kept++] = r->of[m];
+            continue;
+        }
+        char *name = r->of[same].name;
+        const size_t length = strlen(name);
+        if (length + strlen(r->of[m].name) + 2 < NAME_MAX_LENGTH)
+            snprintf(name + length, NAME_MAX_LENGTH - length, ", %s", r->of[m].name);
+    }
+    r->n = kept;
+}
+
 static void reactions_send(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {
@@ -211,6 +244,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     struct gnuplot g;
     reactions_find(&r, h);
     if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, in_steps);
+    reactions_join(&r, h);
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);

@@ -331,6 +331,19 @@ sed -i 's/,0,1$/,0,0.5/' pressed/history.csv
 "$cleave" plot pressed -o shares/ >out 2>err
 holds "a share of all particles: its axis ends at 100 %" grep -a -q "set y2range \[0:104\]" all
 
+# A support that a probe measures too: one curve with both names, one peak; others stay apart.
+mkdir twice
+cat >twice/history.csv <<'END'
+time [s],step,load_time [s],probe.force_x [N],probe.displacement_x [m],up.force_x [N],up.displacement_x [m],down.force_x [N],down.displacement_x [m]
+0,0,0,0,0,0,0,0,0
+1,1,1,470,1e-5,470.001,1e-5,-300,-1e-5
+2,2,2,900,2e-5,900.001,2e-5,-700,-2e-5
+END
+: >all
+"$cleave" plot twice $small -o twice/ >out 2>err
+holds "two curves that coincide are one: $(cat err)" grep -a -q "title 'probe, up'" all
+is "their peak and the other's" "$(grep -a -o "title '[0-9.]* N at 20 µm'" all | tr '\n' ' ')" "title '900 N at 20 µm' title '700 N at 20 µm' "
+
 # Numbers of five digits below the axis of a column of a journal do not touch: tics every 5000 mm^2.
 mkdir grown
 cat >grown/history.csv <<'END'
