@@ -173,13 +173,42 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     return OK;
 }
 
+/* Returns true if the rectangle of a view holds something of one of cloud[clouds]: a particle, up to two spacings
+ * beside it, or a part of a rigid body. */
+static bool view_shows_any(const struct view *v, const struct plotted_particles *cloud, int clouds)
+{
+    bool any = false;
+    for (int c = 0; c < clouds && !any; c++) {
+        struct view wider = *v;
+        for (int a = 0; a < 2; a++) wider.from[a] -= 2 * cloud[c].spacing, wider.to[a] += 2 * cloud[c].spacing;
+        any = count_outside(&wider, &cloud[c]) < cloud[c].n || rigids_are_visible(v, &cloud[c]);
+    }
+    return any;
+}
+
+/* Returns REFUSED if a view is cropped to a rectangle beside all that there is to draw. around: the view of all of it.
+ */
+static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
+                              const struct plotted_particles *cloud, int clouds)
+{
+    if (!r->cropped || view_shows_any(v, cloud, clouds)) return OK;
+    const struct unit metre = unit_for_length(
+        fmax(fmax(fabs(around->from[0]), fabs(around->to[0])), fmax(fabs(around->from[1]), fabs(around->to[1]))));
+    const double f = metre.factor;
+    return status_set(REFUSED, "plot: --crop: nothing is in this rectangle; the body is in %.4g%s:%.4g%s,%.4g%s:%.4g%s",
+                      around->from[0] / f, metre.name, around->to[0] / f, metre.name, around->from[1] / f, metre.name,
+                      around->to[1] / f, metre.name);
+}
+
 status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
 {
     *v = view_around(cloud, clouds);
     view_set_field(v, r->projection.field, cloud, clouds);
     const struct scene *scene = r->projection.scene;
     if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
+    const struct view around = *v;
     TRY(view_set_options(v, r));
+    TRY(view_check_crop(v, &around, r, cloud, clouds));
     count_beyond(v, cloud, clouds);
     if (isfinite(v->to[0] - v->from[0]) && isfinite(v->to[1] - v->from[1])) return OK;
     return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);

@@ -126,6 +126,8 @@ refused "--range 5m" results/strip --field speed --range 0:5m
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
 refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
+refused "nothing is in this rectangle; the body is in -0.5mm:20.5mm,-3mm:10.5" results/strip --crop 100mm:120mm,0mm:5mm -o beside.png
+holds "no empty picture" test ! -e beside.png
 refused "above 0" results/strip --magnify -3
 refused "WxH" results/strip --size 100
 refused "from 53mmx40mm" results/strip --size 52mmx60mm
