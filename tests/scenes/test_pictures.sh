@@ -290,7 +290,7 @@ END
     "$cleave" plot --scene strip.yaml --size 85mmx90mm -o maps/scene.png >out 2>err
     for picture in damage last scene; do uncut "maps/$picture.png"; done
     : >all
-    "$cleave" plot results/strip --field speed --size 85mmx60mm --crop -9mm:19mm,0mm:10mm -o maps/six.png >out 2>err
+    "$cleave" plot results/strip --field speed --size 85mmx60mm --crop -19mm:19mm,0mm:10mm -o maps/six.png >out 2>err
     for tics in $(sed -n 's/^set xtics \([0-9.]*\) format.*/\1/p' all | sort -u); do between "small panels have two tics at least: $(cat err)" "$tics" 1 10; done
     mkdir minute
     sed 's/,1e-4,0.004/,2e-6,0.004/; s/,-3e-4,/,-6e-6,/' tips/history.csv >minute/history.csv
