@@ -296,6 +296,7 @@ END
     sed 's/,1e-4,0.004/,2e-6,0.004/; s/,-3e-4,/,-6e-6,/' tips/history.csv >minute/history.csv
     "$cleave" plot minute --size 85mmx60mm -o minute/ >out 2>err
     uncut minute/energy.png
+    holds "the label of the error has a place beside wide numbers" grep -a -q "set label 'error \[%\]' at screen 0.02" all
     "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --budget 2s -o finer >out 2>err
     set -- $(python3 "$root/tests/scenes/picture_margins.py" finer/pictures/convergence.png)
     between "the key of a convergence study is whole: blank pixels beside it" "$2" 2 150
