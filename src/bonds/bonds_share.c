@@ -42,7 +42,7 @@ void bond_column_update_common_properties(const struct bonds *b, int64_t column)
 {
     const real *w = b->w + column * LANES;
     struct bond_column *c = &b->common[column];
-    *c = (struct bond_column){.first = b->first[column], .begun = c->begun};
+    *c = (struct bond_column){.first = b->first[column], .begun = b->soft.curve ? c->begun : 0};
     if (c->first >= 0) c->shell = (uint8_t)bonds_find_lattice_shell(b, b->inverse_length + column * LANES, c->excess);
     c->alike = c->shell != 0;
     bool same = w[0] != 0;
