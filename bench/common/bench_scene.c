@@ -59,7 +59,6 @@ status bench_engine_make(struct run *e, struct scene *s, const char *path, const
 
 void bench_engine_free(struct run *e, struct scene *s)
 {
-    memory_set_reuse(false);
     engine_free(e);
     scene_free(s);
 }

@@ -28,8 +28,7 @@ real run_estimate_memory(const struct scene *s, const struct particles *p, const
  * peridynamic [byte]. */
 real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Runs a scene from the present step to its end, with all reports. Released arrays are kept for later ones until the
- * caller calls memory_set_reuse(false). Returns INTERRUPTED, after a checkpoint, if a
+/* Runs a scene from the present step to its end, with all reports. Returns INTERRUPTED, after a checkpoint, if a
  * signal or the wall-clock limit stops the run; FAILED if the run becomes unstable, no equilibrium is found, or a file
  * cannot be written. */
 status engine_run(struct run *e);

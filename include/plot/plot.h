@@ -84,6 +84,9 @@ status field_draw_picture(const struct plot_request *r);
 /* Returns true if the folder of a run holds a file called `name`. */
 bool run_has_file(const char *folder, const char *name);
 
+/* Returns true if a folder holds a sweep or a convergence study, by its table. */
+bool folder_holds_study(const char *folder);
+
 /* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
  * be read or is damaged. Release with frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int number);

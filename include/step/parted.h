@@ -6,6 +6,23 @@
 #include "data/cells.h"
 #include "scene/scene.h"
 
+/* A shape function whose material points bear too little where metal is pulled. Measured with a specimen with heads of
+ * 100 + 500 a MPa (tests/scenes/claims/pulled_metal.yaml), beside (sigma_y + H log l)/l at the stretch l: linear shapes
+ * -12 % at 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp
+ * -3, -4, -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are pulled so far for a moment, as the
+ * foot spreads. */
+struct weak_shape {
+    enum shape shape;
+    real stretch;           /* of a bar over its initial length above which it bears too little [1] */
+    real pulled, share;     /* stretch of the distance of neighbours above which they count as pulled, and share of such
+                               pairs above which the run says that the shape is too weak [1] */
+    const char *word;       /* value of mpm.shape */
+    const char *too_little; /* by how much the force is too small [%] */
+};
+
+/* Returns the row of a shape function that is too weak for metal that is pulled; NULL for one that is not. */
+const struct weak_shape *weak_shape_of(enum shape shape);
+
 /* Two neighbouring material points, by particle index. */
 struct point_pair {
     int32_t a, b;

@@ -18,6 +18,7 @@
 #include "fracture/tips.h"
 #include "probes/probes_part.h"
 #include "mesh/mesh_part.h"
+#include "step/parted.h"
 #include "step/shock.h"
 
 #define ENOUGH 0.99      /* share of FEATURE horizons that is tolerated: 12 spacings are 3.98 horizons */
@@ -307,25 +308,21 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
     return stretch;
 }
 
-/* Stretches (present over initial length) of metal bars whose material points are in the current frame, above which
- * results are wrong. Measured (inputs/choosing.md, Yielding): with linear shape functions the force is 12 to 45 % too
- * small above WEAK_LINEAR, with gimp 6 to 10 % above WEAK_GIMP. Points beside those that a support drives separate
- * above PARTS_AT_GRIP. */
-#define WEAK_LINEAR 1.02
-#define WEAK_GIMP 1.4
+/* Stretch of metal bars in the current frame above which points separate beside those that a support drives [1].
+ * Measured (inputs/choosing.md, Yielding). */
 #define PARTS_AT_GRIP 1.3
 
 /* Writes to `out` a remark if supports pull metal bodies to `stretch` times their initial length and, with the shape
  * functions of scene s, the force is then too small or the points separate. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    const bool linear = s->shape == SHAPE_LINEAR, gimp = s->shape == SHAPE_GIMP;
-    if ((linear && stretch > WEAK_LINEAR) || (gimp && stretch > WEAK_GIMP))
+    const struct weak_shape *weak = weak_shape_of(s->shape);
+    if (weak && stretch > weak->stretch)
         fprintf(
             out,
             "accuracy       metal is pulled to %.3g times its length: with mpm.shape: %s it bears %s %% too little: "
             "use mpm.shape: cpgimp\n",
-            stretch, linear ? "linear" : "gimp", linear ? "12 to 45" : "6 to 10");
+            stretch, weak->word, weak->too_little);
     if (stretch > PARTS_AT_GRIP)
         fprintf(
             out,

@@ -123,7 +123,6 @@ static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock(), began = wall_clock();
     e->report->quiet = e->warnings.silent = true;
-    memory_set_reuse(true);
     if (report_start(e) != OK) return NAN;
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
@@ -144,13 +143,14 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     struct quartiles step;
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
+        memory_set_reuse(whole);
         if (whole)
             seconds = all_steps(&e);
         else if (time_steps(&e, &step) == OK)
             seconds = step.median * (double)e.clock.steps;
     }
-    if (found) warnings_append_from(found, &e.warnings, 0);
     memory_set_reuse(false);
+    if (found) warnings_append_from(found, &e.warnings, 0);
     engine_free(&e);
     scene_free(&s);
     return seconds;
@@ -238,7 +238,6 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step) == OK)
         seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
-    memory_set_reuse(false);
     engine_free(&e);
     scene_free(&s);
     return seconds;

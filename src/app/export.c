@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "export/export.h"
 #include "output/output_files.h"
+#include "plot/plot.h"
 
 static const char usage[] = "export " EXPORT_WORDS;
 
@@ -41,16 +42,13 @@ static status export_words(struct export_request *r, int *argc, char **argv)
     return OK;
 }
 
-/* Returns REFUSED if `scene` is the folder of a study, which has a table or list of its runs in place of a scene. */
+/* Returns REFUSED if `scene` is the folder of a study, which has a list of its runs in place of a scene. */
 static status check_not_study(const char *scene)
 {
-    static const char *const file[] = {"study.yaml", "sweep.csv", "converge.csv"};
-    if (!path_is_folder(scene) || path_is_file(path_join(scene, "scene.yaml").text)) return OK;
-    for (size_t k = 0; k < COUNT_OF(file); k++)
-        if (path_is_file(path_join(scene, file[k]).text))
-            return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders in it",
-                              printable_name(scene).text);
-    return OK;
+    const bool study = folder_holds_study(scene) || run_has_file(scene, "study.yaml");
+    if (!study || run_has_file(scene, "scene.yaml")) return OK;
+    return status_set(REFUSED, "%s: holds a study; export one of its runs, which are folders in it",
+                      printable_name(scene).text);
 }
 
 status command_export(int argc, char **argv)

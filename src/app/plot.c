@@ -317,7 +317,7 @@ static status check_folder(const char *folder)
                           "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
                           "--scene %s`",
                           printable_name(folder).text, printable_name(folder).text);
-    if (run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv"))
+    if (folder_holds_study(folder))
         return status_set(REFUSED,
                           "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
                           "runs",

@@ -4,7 +4,6 @@
 #include <stdio.h>
 
 #include "arguments.h"
-#include "base/memory.h"
 #include "base/busy.h"
 #include "commands.h"
 #include "engine/engine.h"
@@ -161,7 +160,6 @@ status command_run(int argc, char **argv)
     status result = pilot_scene_read(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
                                      (struct study_options){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
-    memory_set_reuse(false);
     engine_free(&e);
     if (out.folder) snprintf(folder.text, sizeof folder.text, "%s", out.folder);
     output_close(&out);

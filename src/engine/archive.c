@@ -75,12 +75,14 @@ static status clock_archive(struct run_clock *c, struct archive *a)
     return OK;
 }
 
-/* Saves hollow cells, particles and bonds of a run to the archive a. Returns FAILED if it cannot be written. */
-static status body_save(struct run *e, struct archive *a)
+/* Saves hollow cells, particles and bonds of a run to the archive a. optional: optional arrays of p, sum of WITH_*.
+ * Returns FAILED if the archive cannot be written. */
+static status body_save(struct cells_without_particles *hollow, struct particles *p, int optional, struct bonds *b,
+                        struct archive *a)
 {
-    TRY(hollow_save(&e->frame->hollow, a));
-    TRY(particles_save_or_load(&e->part, e->optional, a));
-    return bonds_save_or_load(&e->bonds, &e->part, a);
+    TRY(hollow_save(hollow, a));
+    TRY(particles_save_or_load(p, optional, a));
+    return bonds_save_or_load(b, p, a);
 }
 
 /* Restores particles and bonds from archive a, and rebuilds lists, coupling, mesh and coarse cells from them. Returns
@@ -116,7 +118,7 @@ status engine_save_or_load(void *engine, struct archive *a)
 {
     struct run *e = engine;
     TRY(kernels_archive(&e->warnings, a));
-    TRY(a->saving ? body_save(e, a) : body_restore(e, a));
+    TRY(a->saving ? body_save(&e->frame->hollow, &e->part, e->optional, &e->bonds, a) : body_restore(e, a));
     TRY(clock_archive(&e->clock, a));
     ARCHIVE_VALUE(a, "engine/damped", e->damped);
     TRY(active_set_save_or_load(&e->bonds.active, "bonds", a));

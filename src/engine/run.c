@@ -39,9 +39,9 @@ status engine_step(struct run *e)
     return step(e);
 }
 
-status engine_run(struct run *e)
+/* Runs a scene to its end by the method that its solver and steps ask for. Returns as engine_run does. */
+static status run_to_end(struct run *e)
 {
-    memory_set_reuse(true);
     if (scene_is_single_equilibrium(e->scene)) return engine_solve_static(e);
     if (scene_has_load_steps(e->scene)) return engine_run_load_steps(e);
     TRY(report_start(e));
@@ -52,4 +52,12 @@ status engine_run(struct run *e)
         TRY(report_step(e));
     }
     return report_end(e);
+}
+
+status engine_run(struct run *e)
+{
+    memory_set_reuse(true);
+    const status ended = run_to_end(e);
+    memory_set_reuse(false);
+    return ended;
 }

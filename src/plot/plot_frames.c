@@ -60,6 +60,11 @@ bool run_has_file(const char *folder, const char *name)
     return snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path && stat(path, &found) == 0;
 }
 
+bool folder_holds_study(const char *folder)
+{
+    return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
+}
+
 status run_read_frame(struct output_frame *f, const char *folder, int number)
 {
     const struct path path = run_frame_path(folder, number);

@@ -12,11 +12,6 @@
 #include "plot/plot.h"
 #include "report_parts.h"
 
-static bool is_study(const char *folder)
-{
-    return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
-}
-
 /* Checks that `folder` holds a run or a study. REFUSED otherwise. */
 static status folder_check_kind(const char *folder)
 {
@@ -25,7 +20,8 @@ static status folder_check_kind(const char *folder)
         return status_set(REFUSED, "%s is a file: the folder of a run or a study is expected", shown.text);
     if (strlen(folder) + PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "%s: the name is too long", shown.text);
-    if (is_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv")) return OK;
+    if (folder_holds_study(folder) || run_has_file(folder, "frames.hdf.series") || run_has_file(folder, "history.csv"))
+        return OK;
     if (run_has_file(folder, "study.yaml"))
         return status_set(REFUSED, "%s holds a study without a table: the same command with --collect makes it",
                           shown.text);
@@ -72,7 +68,7 @@ static status report_page(const struct report_request *r, const struct path *pat
     TRY(page_make(&p));
     write_origin(&p, r);
     status s = OK;
-    if (is_study(r->folder))
+    if (folder_holds_study(r->folder))
         report_write_study(&p, r->folder);
     else
         s = report_write_run(&p, r, path->text);

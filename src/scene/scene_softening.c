@@ -52,8 +52,7 @@ real scene_softening_horizon(const struct scene *s, const struct material *m, re
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, s->space);
-    const real most = s->horizon * s->spacing * square(m->critical_stretch / strain);
+    const real most = scene_softening_horizon(s, m, 1);
     const bool spacing_counts = !isnan(m->energy_release_rate);
     if (spacing_counts && note_largest_spacing(r, scene_softening_horizon(s, m, FREE_OF_TRAPPING) / s->horizon))
         return OK;

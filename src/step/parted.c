@@ -16,20 +16,10 @@
 /* Stretch of the distance of neighbours below which they cannot be parted. */
 #define PARTED_LEAST 1.25
 
-/* A shape whose points bear too little where they are pulled: the stretch of the distance of neighbours from which on
- * they count as pulled, the share of all pairs at which the shape is said to be too weak, and how much too little they
- * then bear. Measured with a specimen with heads of 100 + 500 a MPa (tests/scenes/claims/pulled_metal.yaml), beside
- * (sigma_y + H log l)/l at the stretch l: linear shapes -12 % at 1.1, -30 % at 1.2; gimp, whose domains do not grow
- * with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4, -4 %. In bars that hit a wall up to 0.06 of the
- * pairs are pulled so far for a moment, as the foot spreads. */
-static const struct weak_shape {
-    enum shape shape;
-    real pulled, share;
-    const char *word, *too_little;
-} weak_shapes[] = {{SHAPE_LINEAR, 1.25, 0.01, "linear", "12 to 45"}, {SHAPE_GIMP, 1.4, 0.08, "gimp", "6 to 10"}};
+static const struct weak_shape weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
+                                                {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 
-/* Returns the row of a shape that is too weak for points that are pulled, NULL for the others. */
-static const struct weak_shape *weak_shape_of(enum shape shape)
+const struct weak_shape *weak_shape_of(enum shape shape)
 {
     for (size_t k = 0; k < COUNT_OF(weak_shapes); k++)
         if (weak_shapes[k].shape == shape) return &weak_shapes[k];
