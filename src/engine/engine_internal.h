@@ -103,4 +103,8 @@ void engine_warn_of_idle_places(const struct scene *s, const struct particles *p
 /* Adds warnings to *to about times of frames beyond the end of the run. */
 void engine_warn_of_late_frames(const struct scene *s, struct warnings *to);
 
+/* Returns REFUSED, with a message that contains the estimate, if the memory of the machine is smaller than that of the
+ * run. */
+status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
+
 #endif

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plot/plot.h"
+#include "curves_parts.h"
 
 /* Margins of a picture as wide as a text page, and of a narrower one [pixel]. */
 enum { LEFT = 100, RIGHT = 24, AXIS = 100, ABOVE = 60, BELOW = 74 };

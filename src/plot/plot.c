@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/pictures.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 #include "scene/scene_read.h"
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */

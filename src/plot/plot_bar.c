@@ -6,7 +6,7 @@
 
 #include "output/history.h"
 #include "base/memory.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 
 enum { PATH_LENGTH = 4096, QUANTITIES = 4, DIGITS = 6 };
 

@@ -6,7 +6,7 @@
 #include "output/history.h"
 #include "base/memory.h"
 #include "output/pictures.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 #include "run/ledger.h"
 
 enum { POINTS_MAX = 4000 }; /* largest number of points of a curve */

@@ -9,7 +9,7 @@
 #include "output/output_files.h"
 #include "output/pictures.h"
 #include "plot/film.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 #include "scene/scene_read.h"
 
 /* Determines the path of the picture of a field: the option -o, or a file in DIR/pictures, a folder that is created.

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "curves_parts.h"
 #include "maps_parts.h"
 
 /* Margins of the panels, and gaps between the panels [pixel]. RIGHT_MAX: largest right margin, for a key of long names.

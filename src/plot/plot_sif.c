@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "output/pictures.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 #include "output/summary_read.h"
 
 /* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "output/pictures.h"
 #include "output/summary_read.h"
-#include "plot/plot.h"
+#include "curves_parts.h"
 #include "scene/scene_read.h"
 
 /* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken

@@ -1,6 +1,6 @@
 /* Fills a scene from its tree of nodes: first the overrides, then struct scene by the table of keys. */
 #include "scene/shape_file.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>

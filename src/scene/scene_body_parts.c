@@ -1,7 +1,7 @@
 /* Reads parts of a body that consist of another material. Bonds between parts act as springs in series (bonds/bonds.c:
  * material_pair_table_make); in state-based models each end uses the modulus of its own material. */
 #include "base/memory.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 status read_body_parts(struct reader *r, const struct yaml_node *list, const struct key *k, struct scene_body *b)
 {

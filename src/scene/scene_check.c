@@ -2,7 +2,7 @@
 #include "data/particles.h"
 #include "list_lattice.h"
 #include "scene/fill.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>

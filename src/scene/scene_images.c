@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "scene_parts.h"
 #include "scene_shapes.h"
 
 int compare_paths(const void *a, const void *b) { return strverscmp(*(char *const *)a, *(char *const *)b); }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 #include "scene_remedies.h"
 
 /* Sets face->body[2] to the indices of the two bodies that an interface joins, found by name. n: node of the interface.

@@ -1,5 +1,5 @@
 /* Reads laws by which metals yield: hardening curves, kinematic hardening, Johnson-Cook, heating (data/law.h). */
-#include "scene_internal.h"
+#include "scene_parts.h"
 #include "scene_remedies.h"
 
 #include <math.h>

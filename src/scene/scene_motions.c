@@ -1,5 +1,5 @@
 /* Reads the motions of a solid: move, rotate, mirror and pattern, in the order of the scene. */
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <string.h>

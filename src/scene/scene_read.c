@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 /* Derives the name of a scene from its path: the file name without folder and extension, with _ for characters that a
  * name cannot have, cut off to NAME_MAX_LENGTH - 1 characters. */

@@ -1,7 +1,7 @@
 /* Writes the table of keys as a JSON schema (draft 7), with which editors complete and check scenes. The schema
  * refuses unknown keys and words, and numbers out of range; formulas and values of keys that functions read are
  * checked only by the program. */
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,7 +11,7 @@
 
 #include "base/memory.h"
 #include "geometry/image.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 #include "scene_shapes.h"
 
 enum { SLICES_MOST = 65536 };

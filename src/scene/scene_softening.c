@@ -3,7 +3,7 @@
 
 #include "bonds/softening_work.h"
 #include "scene/scene_softening.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 #include "scene_remedies.h"
 
 enum { ITERATIONS = 30 }; /* of stretches; each leaves about a tenth of the error */

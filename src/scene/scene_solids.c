@@ -1,5 +1,5 @@
 /* Reads the geometry of a scene: solids, regions and cracks, and checks that they are valid. */
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 /* Returns REFUSED for keys that require inertia or time, which the load steps of solver static do not have. root: tree
  * of the scene. */

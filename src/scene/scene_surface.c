@@ -3,7 +3,7 @@
 
 #include "data/softening.h"
 #include "scene/scene_softening.h"
-#include "scene_internal.h"
+#include "scene_parts.h"
 #include "scene_remedies.h"
 
 /* Ratio kappa = (critical stretch/onset stretch)^2 of bonds that soften by themselves before a strength surface is

@@ -1,5 +1,5 @@
 /* Reads the function of time of a boundary condition, also from a CSV file. */
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Reads values from nodes by the table of keys, and writes the messages about faults. */
-#include "scene_internal.h"
+#include "scene_parts.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,0 +1,107 @@
+/* Memory and time that the set-up of a run needs, estimated before it is made. */
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "engine_internal.h"
+#include "scene/fill.h"
+
+/* Memory as measured on blocks of 10^6 particles: */
+#define BYTES_PER_PARTICLE 320.0 /* [byte] fields, cells, lists, share of the grid, copy for the writer of frames */
+/* [byte] implicit bonds: stencils at surfaces, and the stored bonds at cracks and ends of lines */
+#define BYTES_PER_BOND_LATTICE 3.0
+#define EXACT_MOST 6000.0 /* [spacings] in longer bodies positions may be rounded (fill.c), and bonds are stored */
+
+/* Returns the fraction of the box from[dim] .. to[dim] [m] that is inside a shape [1], from evenly spaced sample
+ * points. */
+static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
+{
+    enum { ACROSS = 24 };
+    int inside = 0, all = 1;
+    for (int d = 0; d < dim; d++) all *= ACROSS;
+    for (int k = 0; k < all; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0, rest = k; d < dim; d++, rest /= ACROSS)
+            X[d] = from[d] + (rest % ACROSS + 0.5) / ACROSS * (to[d] - from[d]);
+        inside += region_contains(shape, X, dim, 0);
+    }
+    return real_max(inside, 1) / all;
+}
+
+/* Estimates the number of particles of bodies on lattices; bodies from files are left out. boxes: use the boxes around
+ * bodies, without their shapes. *longest: receives the longest edge of these boxes [spacings]. */
+static real particles_expected(const struct scene *s, bool boxes, real *longest)
+{
+    real n = 0, from[DIM_MAX], to[DIM_MAX];
+    *longest = 0;
+    for (int b = 0; b < s->bodies; b++) {
+        if (s->body[b].file || !region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
+        real count = boxes ? 1 : share_filled(&s->body[b].shape, from, to, s->dim);
+        for (int d = 0; d < s->dim; d++) {
+            count *= (to[d] - from[d]) / s->spacing;
+            *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
+        }
+        n += count;
+    }
+    return n;
+}
+
+/* Returns the number of particles, or its estimate if p has none yet. *longest: receives the longest edge of a box
+ * around a body [spacings]. */
+static real particles_now(const struct scene *s, const struct particles *p, real *longest)
+{
+    const real expected = particles_expected(s, false, longest);
+    return p->n > 0 ? (real)p->n : expected;
+}
+
+/* Estimates the memory of n particles and their bonds [byte]. families: all particles have bonds to their whole family,
+ * else about one bond each; longest: longest edge of a box around a body [spacings]. */
+static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
+{
+    const real bonds = families ? source->family.full / source->family.cell_volume : 1;
+    bool follow = s->irregularity == 0 && !source->yield.stretch && longest < EXACT_MOST;
+    for (int b = 0; b < s->bodies; b++) follow = follow && !s->body[b].file;
+    return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
+}
+
+real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
+{
+    real longest;
+    const real n = particles_now(s, p, &longest);
+    return memory_of(s, source, n, longest, s->method == METHOD_PD);
+}
+
+real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source)
+{
+    real longest;
+    particles_expected(s, true, &longest);
+    return memory_of(s, source, (real)p->n_body, longest, true);
+}
+
+#define BYTES_OF_BONDS 500.0      /* [byte] least memory of a particle with bonds */
+#define POSITIONS_QUICK 3e7       /* number of lattice positions that are filled in some seconds */
+#define SECONDS_PER_POSITION 1e-6 /* of the set-up, on one thread; measured 0.4 to 1.7 us [s] */
+
+void engine_announce_long_set_up(const struct scene *s)
+{
+    real longest;
+    if (particles_expected(s, true, &longest) < POSITIONS_QUICK) return;
+    const real n = particles_expected(s, false, &longest);
+    const bool refused =
+        s->method == METHOD_PD && n * BYTES_OF_BONDS > (real)machine_memory_size(); /* at once, in a line */
+    if (n < POSITIONS_QUICK || refused) return;
+    fprintf(stderr,
+            "particles.spacing %.3g m: the bodies have about %.2g lattice positions, %.2g along the longest edge; the "
+            "set-up takes about %.1g min\n",
+            s->spacing, n, longest, n * SECONDS_PER_POSITION / 60);
+}
+
+status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
+{
+    const real memory = (real)machine_memory_size(), bytes = run_estimate_memory(s, p, source);
+    real longest;
+    if (memory <= 0 || bytes <= memory) return OK;
+    return status_set(REFUSED,
+                      "particles.spacing: about %.2g particles would need some %.2g GB of memory, and %.2g GB are "
+                      "available (%s); a larger one is expected",
+                      particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
+}

@@ -1,0 +1,135 @@
+/* Declares what the files of src/plot that draw curves share. */
+#ifndef CLEAVE_CURVES_PARTS
+#define CLEAVE_CURVES_PARTS
+
+#include "plot/plot.h"
+
+/* Data of curves over time: one row per sample, sent as the gnuplot data block $data. */
+struct series {
+    const struct history *h;
+    int time;           /* column of the time, or of the number of the load step */
+    struct unit second; /* unit of the time; factor 1 without name for load steps */
+    enum picture_format format;
+    const char *pictures; /* folder of the pictures */
+    bool bar;             /* the run has one dimension */
+};
+
+/* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
+ * values. */
+double history_largest_magnitude(const struct history *h, int column);
+
+/* Smallest and largest value of a set of numbers. */
+struct value_range {
+    double low, high;
+};
+
+/* Returns the smallest and the largest finite value in the columns column[columns] of the history h. */
+struct value_range history_extent(const struct history *h, const int *column, int columns);
+
+/* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
+ * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
+void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
+
+/* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
+ * [pixel]; columns and lines of its key, and whether the key is below the panels. */
+struct curves_layout {
+    int width, height;
+    double left, right, above, below;
+    int key_columns, key_lines;
+    bool key_below;
+};
+
+/* Lays out the picture that g draws. entries, longest: number of texts of the key, and number of letters of the longest
+ * one; 0 entries: there is no key. second_axis: there is an axis on the right. The key is beside the panels; in narrow
+ * pictures (gnuplot_is_narrow), or with a second axis, below them. */
+struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, size_t longest, bool second_axis);
+
+/* Returns the height between the upper edge of the first panel and the lower edge of the last one [pixel]. */
+double curves_layout_inner_height(const struct curves_layout *layout);
+
+/* Writes the gnuplot commands for the margins of a panel. from, end: its upper and lower edge, from the upper edge of
+ * the first panel [pixel]. */
+void curves_write_panel(FILE *to, const struct curves_layout *layout, double from, double end);
+
+/* Writes the gnuplot command for the position of the key (legend) in the layout. */
+void curves_write_key(FILE *to, const struct curves_layout *layout);
+
+/* Writes the gnuplot commands for margins and key of a picture with one panel. */
+void curves_write_margins(FILE *to, const struct curves_layout *layout);
+
+/* Edges of two panels, one above the other, measured from the upper edge of the first one [pixel]. The lower panel has
+ * about a fourth of the height. */
+struct two_panels {
+    double upper_end, lower_from, lower_end;
+};
+struct two_panels curves_two_panels(const struct curves_layout *layout);
+
+/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` that is drawn on
+ * `pixels` pixels. Tics are at least `apart` pixels apart, and there are at most about ten. */
+double tic_distance(double range, double pixels, double apart);
+
+/* Writes the gnuplot command for the tics of the vertical axis "y" or "y2" of a panel of the given height [pixel],
+ * whose values extend from `low` to `high`. */
+void curves_write_tics(FILE *to, const char *axis, double low, double high, double pixels);
+
+/* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
+ * `123.4 µs`. */
+enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
+
+/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
+void curves_write_title(const struct gnuplot *g, const char *title, const char *what);
+
+/* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.
+ */
+void curves_write_time_axis(FILE *to, const struct series *s);
+
+/* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
+ * picture `sif`. title: heading of the picture; s: history of the run. Returns OK without a picture if the run has no
+ * SIF probe, FAILED if gnuplot fails. */
+status sif_curves_draw(const char *title, const struct series *s);
+
+/* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
+ * measured in an experiment if the scene states one. title: heading of the picture; s: history of the run. Returns OK
+ * without a picture if the run has no growth probe, FAILED if gnuplot fails. */
+status crack_paths_draw(const char *folder, const char *title, const struct series *s);
+
+/* Returns true if the run in `folder` consists of load steps. */
+bool run_has_load_steps(const char *folder);
+
+/* Draws the force over the displacement of each support and rigid body that bears a force, with its peak marked, to the
+ * file `sheet`. title: heading of the picture; h: history of the run; in_steps: the run has load steps. If no support
+ * or body carries a force or moves, prints that instead of drawing, and which probe would record it. Returns FAILED if
+ * gnuplot fails. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
+
+/* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
+ * fracture energy G_c of the materials, to the file `sheet`. folder: folder of the run; title: heading of the picture;
+ * h: history of the run. If no crack has grown, prints that instead. Returns FAILED if gnuplot fails. */
+status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
+
+/* Draws all pictures of history.csv of the run r->folder into r->pictures: crack, energy, sif, path and
+ * load_displacement, for load steps also r_curve (names in output/pictures.h). title: heading of each picture. Returns
+ * FAILED if history.csv cannot be read or gnuplot fails. */
+status history_curves_draw(const struct plot_request *r, const char *title);
+
+/* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
+ * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frames);
+
+/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames], to the file
+ * `sheet`. title: heading of the picture; value[k]: values of the field at the particles of frame k. Returns FAILED if
+ * gnuplot fails. */
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
+                           const struct output_frame *frame, int frames);
+
+/* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
+ * stores its name in `name`. Returns false if there is none. */
+bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH]);
+
+/* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
+ * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in
+ * `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
+status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
+                                   const struct listed_frame *show, int frames);
+
+#endif

@@ -1,0 +1,35 @@
+/* Places of probes: the particle nearest to a position, and positions on lines. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "probes_parts.h"
+
+const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
+
+/* Returns the largest distance of a position inside a body from the nearest particle [m]: half the diagonal of a
+ * lattice cell, times 1.5 for particles that are not on a lattice. */
+static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
+
+int32_t particle_nearest(const struct observed_run *o, const real *X)
+{
+    const struct particles *p = o->part;
+    real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;
+    int room = cells_find_near(o->cells, p, X, reach, -1, NULL, 0);
+    int32_t *found = NEW("probes.found", room, int32_t), nearest = -1;
+    int n = cells_find_near(o->cells, p, X, reach, -1, found, room);
+    for (int k = 0; k < n; k++) {
+        if (found[k] >= p->n) continue;
+        real distance2 = 0;
+        for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][found[k]] - X[d]);
+        if (distance2 < least) nearest = found[k], least = distance2;
+    }
+    memory_free(found);
+    return nearest;
+}
+
+void line_probe_station_position(const struct probe *q, int dim, int k, real *X)
+{
+    const struct probe_request *r = &q->request;
+    real s = r->points > 1 ? (real)k / (r->points - 1) : 0;
+    for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
+}

@@ -1,0 +1,166 @@
+/* Reads the materials of a scene. */
+#include "scene_parts.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene_remedies.h"
+
+/* Reads the fracture strength of material m from one of the keys energy_release_rate, critical_stretch and toughness.
+ * Toughness K gives the energy release rate K^2/E, or K^2 (1 - nu^2)/E in plane strain and 3D. n: node of the material.
+ * Returns REFUSED if more than one of the keys is given. */
+static status read_strength(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
+    const struct yaml_node *given = NULL, *toughness = yaml_node_find(n, "toughness");
+    for (size_t k = 0; k < COUNT_OF(ways); k++) {
+        const struct yaml_node *way = yaml_node_find(n, ways[k]);
+        if (way && given)
+            return fault(r, way, "is given together with %s, and each determines the other; leave one of them out",
+                         given->key);
+        if (way) given = way;
+    }
+    if (toughness) {
+        real K;
+        bool plane_strain = r->scene->space == SPACE_PLANE_STRAIN || r->scene->space == SPACE_SOLID;
+        TRY(read_number(r, key_find("material", "toughness"), toughness, &K));
+        m->energy_release_rate = K * K / m->young * (plane_strain ? 1 - square(m->poisson) : 1);
+    }
+    if (!given) m->critical_stretch = INFINITY;
+    return OK;
+}
+
+/* Returns REFUSED if the material m is given a Poisson's ratio that bonds cannot have: bond-based peridynamics has one
+ * elastic constant, an isotropic solid two. n: node of the material. */
+static status check_poisson(struct reader *r, const struct yaml_node *n, const struct material *m)
+{
+    const struct scene *s = r->scene;
+    const real bond = bond_based_poisson_ratio(s->space);
+    const struct yaml_node *poisson = yaml_node_find(n, "poisson");
+    if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
+    if (fabs(m->poisson - bond) <= 1e-6) return OK;
+    return refuse_poisson(r, poisson);
+}
+
+/* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or
+ * the hardening modulus H of the key yield_hardening: E_t = E H/(E + H). n: node of the material. Returns REFUSED if
+ * both are given, or unless E_t < E. */
+static status read_hardening(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    const struct yaml_node *tangent = yaml_node_find(n, "yield_tangent"),
+                           *hardening = yaml_node_find(n, "yield_hardening");
+    real H;
+    if (tangent && hardening)
+        return fault(r, hardening,
+                     "is given together with yield_tangent, and each determines the other; leave one of them out");
+    if (hardening) {
+        TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
+        m->yield_tangent = m->young * H / (m->young + H);
+    }
+    if (m->yield_tangent < m->young) return OK;
+    return fault(r, tangent ? tangent : hardening,
+                 "%s is not below Young's modulus; the slope of the stress-strain curve after yield, 0 to below young, "
+                 "is expected",
+                 node_text(r, tangent ? tangent : hardening));
+}
+
+/* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form,
+ * or for model mospd from the energy that separates the two halves of a lattice. */
+real scene_critical_stretch(const struct scene *s, const struct material *m)
+{
+    const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
+    if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
+    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    const struct state_modulus modulus = state_modulus_of_material(m, s->space, true);
+    family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    return sqrt(m->energy_release_rate / family_separation_work_per_area(&f, &modulus, !s->bulk));
+}
+
+/* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
+ * REFUSED for a material whose bonds do not break, and if the parameter of the distribution is missing. */
+static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    struct strength_scatter *s = &m->scatter;
+    if (!n) return OK;
+    s->modulus = s->variation = NAN;
+    TRY(read_group(r, n, n, "material.scatter", s));
+    s->given = true;
+    const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
+    const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
+    if (!yaml_node_find(n, own[s->form])) return fault_missing_key(r, n, key_find("material.scatter", own[s->form]));
+    if (other)
+        return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
+    if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
+        return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
+    if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
+        return fault(r, n,
+                     "where it yields, stress does not say how far a bond is from its limit; method: pd is "
+                     "expected, or no yield_stress");
+    return OK;
+}
+
+/* Reads the viscosity of material m. n: node of `viscosity`, or NULL if there is none. With viscosity all cells have
+ * one time step, and regions at rest are computed as well, because viscous forces act between moving regions and
+ * regions at rest. Returns REFUSED where viscosity has no effect. */
+static status read_viscosity(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    struct scene *s = r->scene;
+    if (!n) return OK;
+    TRY(read_group(r, n, n, "material.viscosity", m));
+    if (s->levels == LEVELS_AUTO) s->levels = 0;
+    s->active_set = false;
+    const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
+                                                       "volume is known"
+                      : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"
+                      : !scene_is_dynamic(s)                              ? "goes with solver explicit"
+                      : s->levels > 0 ? "goes with mpm.levels: 0, as it has one time step"
+                                      : NULL;
+    return why ? fault(r, n, "%s", why) : OK;
+}
+
+/* Reads the material of node n into m, with defaults that depend on the space, and derives its wave speeds and critical
+ * stretch. Returns REFUSED for invalid or contradicting keys. */
+static status scene_parts_read_material(struct reader *r, const struct yaml_node *n, struct material *m)
+{
+    const struct scene *s = r->scene;
+    bool line = s->space == SPACE_LINE;
+    m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = m->tensile_strength = NAN;
+    m->compressive_strength = m->hydrostatic_strength = m->biaxial_strength = m->strength_radius = NAN;
+    m->poisson = line ? 0 : bond_based_poisson_ratio(s->space);
+    strcpy(m->name, "material");
+    TRY(read_group(r, n, n, "material", m));
+    TRY(check_poisson(r, n, m));
+    TRY(read_strength(r, n, m));
+    TRY(read_hardening(r, n, m));
+    TRY(read_flow_law(r, n, m));
+    TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
+    TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
+    const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
+    if (s->model != MODEL_BOND && material_yields(m)) return refuse_state_yield(r, yield ? yield : n);
+    material_compute_derived_constants(m, s->space);
+    if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
+    if (m->critical_stretch > 0) return read_softening(r, n, m);
+    return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
+}
+
+status read_materials(struct reader *r, const struct yaml_node *root)
+{
+    struct scene *s = r->scene;
+    const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
+    if (!one && !many) return fault_missing_key(r, root, key_find("", "material"));
+    if (one && many) return fault_exclusive_keys(r, one, many);
+    if (many) TRY(expect_list(r, key_find("", "materials"), many));
+    s->materials = many ? many->n : 1;
+    s->material = NEW("materials", s->materials, struct material);
+    const struct yaml_node *n = many ? many->first : one;
+    for (int k = 0; k < s->materials; k++, n = n->next) {
+        TRY(scene_parts_read_material(r, n, &s->material[k]));
+        if (many && !yaml_node_find(n, "name")) return fault_missing_key(r, n, key_find("material", "name"));
+        for (int j = 0; j < k; j++)
+            if (strcmp(s->material[j].name, s->material[k].name) == 0)
+                return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
+        TRY(check_one_softening(r, n, k));
+    }
+    return OK;
+}
