@@ -12,7 +12,7 @@
 #include <cpuid.h>
 #endif
 
-static bool runs_anywhere(void) { return true; }
+static inline bool runs_anywhere(void) { return true; }
 extern const struct kernel_set kernel_set_portable;
 
 #ifdef __x86_64__

@@ -35,7 +35,7 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
     }
     cloud_source(&s->c);
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
-        s->pair[k] = (struct softening_pair){CRITICAL / sqrt(2), false, true}, s->c.limit[k] = CRITICAL;
+        s->pair[k] = (struct softening_pair){.onset = CRITICAL / sqrt(2), .surface = true}, s->c.limit[k] = CRITICAL;
     struct bond_source *source = &s->c.source;
     source->yield.stretch = NULL;
     source->limit.softening = s->pair, source->limit.curve = &s->curve;
