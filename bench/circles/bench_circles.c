@@ -141,8 +141,7 @@ static void missed_print(const struct circles *c)
         asked += strcmp(verdict, "-") != 0, missed += strcmp(verdict, "MISSED") == 0;
     }
     printf("\n  %d of %d figures are MISSED; nothing is asked (-) of notches shorter than three horizons and of shear "
-           "above "
-           "0.34 l\n",
+           "above 0.34 l\n",
            missed, asked);
 }
 

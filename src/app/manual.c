@@ -122,9 +122,9 @@ static const struct entry files[] = {
     {"frames.xdmf", "the same for other readers", NULL},
     {"history.csv",
      "one line per sample: energies, momentum, crack tip, probes, forces of supports; pd_share and mpm_share, shares "
-     "of the particles by "
-     "method, and inactive_share, the share of them that rested, mean over the steps since the last sample; where "
-     "nothing outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about their centre of mass",
+     "of the particles by method, and inactive_share, the share of them that rested, mean over the steps since the "
+     "last sample; where nothing outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about "
+     "their centre of mass",
      NULL},
     {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame", NULL},
     {"fragments.csv", "pieces that bonds hold together at the end (method pd)", NULL},

@@ -116,15 +116,13 @@ const struct key keys[] = {
         "of these bonds only those whose ratio of stretch to critical stretch is within this share of the largest"),
     KEY("accept", KEY_SET, UNIT_NONE, AT(scene, accept), ANY, "none",
         "warnings that this scene means, a list; figures that look like mistakes of units: speed of waves, critical "
-        "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves "
-        "travel, particles across a body with a crack, density, yield stress over Young's modulus, number of times "
-        "that waves cross the body, thickness over width in plane stress, energy release rate, specific heat, energy "
-        "that a crack can "
-        "release, density of a rigid body, E G_c/strength^2 over the body, times of loads beside the duration; and "
-        "what a run warns of: bodies that pass through each other, a coupling without energy, one point "
-        "in a cell, a face driven so fast that bonds beside it break, bonds that break behind the front of a "
-        "collision, "
-        "a crack faster than Rayleigh waves",
+        "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that "
+        "waves travel, particles across a body with a crack, density, yield stress over Young's modulus, number of "
+        "times that waves cross the body, thickness over width in plane stress, energy release rate, specific heat, "
+        "energy that a crack can release, density of a rigid body, E G_c/strength^2 over the body, times of loads "
+        "beside the duration; and what a run warns of: bodies that pass through each other, a coupling without "
+        "energy, one point in a cell, a face driven so fast that bonds beside it break, bonds that break behind the "
+        "front of a collision, a crack faster than Rayleigh waves",
         .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error of a figure, which pilot runs estimate",
