@@ -230,18 +230,26 @@ static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, 
     return sum;
 }
 
-/* Returns the strain energy of number k of the listed particles if it is a material point, else 0 [J]. context: a
- * struct strain_sum. */
-static real strain_term(const void *context, int64_t k)
+/* Adds the strain energies of numbers first .. end - 1 of the listed particles to *sum, as far as they are material
+ * points [J]. dim: a compile-time constant. */
+static ALWAYS_INLINE void strain_block_in(const struct strain_sum *s, int64_t first, int64_t end, real *sum,
+                                          const int dim)
+{
+    const struct particles *p = s->p;
+    for (int64_t k = first; k < end; k++) {
+        const int64_t i = s->list[k];
+        if (p->kind[i] == KIND_MPM) *sum += 0.5 * strain_density(s, i, dim) * p->volume[i] + out_of_plane_energy(s, i);
+    }
+}
+
+/* Adds the strain energies of numbers first .. end - 1 of the listed particles to sum[0], as far as they are material
+ * points [J]; a block function of reproducible_sums. context: a struct strain_sum. */
+static void strain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct strain_sum *s = context;
-    const struct particles *p = s->p;
-    const int64_t i = s->list[k];
-    if (p->kind[i] != KIND_MPM) return 0;
-    const real twice = p->dim == 1   ? strain_density(s, i, 1)
-                       : p->dim == 2 ? strain_density(s, i, 2)
-                                     : strain_density(s, i, 3);
-    return 0.5 * twice * p->volume[i] + out_of_plane_energy(s, i);
+    if (s->p->dim == 1) strain_block_in(s, first, end, sum, 1);
+    if (s->p->dim == 2) strain_block_in(s, first, end, sum, 2);
+    if (s->p->dim == 3) strain_block_in(s, first, end, sum, 3);
 }
 
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
@@ -253,7 +261,8 @@ real points_strain_energy_of_list(const struct particles *p, const struct materi
     struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
     s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
     for (int k = 0; k < materials; k++) material_compliance_matrix(&m[k], p->dim, s.compliance[k]);
-    real sum = reproducible_sum(n, strain_term, &s);
+    real sum;
+    reproducible_sums(n, 1, strain_block, &s, &sum);
     memory_free(s.compliance);
     return sum;
 }

@@ -95,15 +95,17 @@ struct pair_counts {
     real stretch, x;
 };
 
-/* Returns the distance of the points of a pair over that in the reference state [1]. middle: receives the position
- * between them [dim, m]; *axis: the axis along which they are farthest apart. */
+/* Returns the distance of the points of a pair over that in the reference state [1], or 0 below PARTED_LEAST, where
+ * nothing else is stored. middle[dim]: receives the position between them [m]; *axis: receives the axis along which
+ * they are farthest apart. */
 static real pair_stretch(const struct particles *p, const struct point_pair *pair, real *middle, int *axis)
 {
     const int32_t i = pair->a, j = pair->b;
     real now = 0, before = 0, most = -1;
+    for (int d = 0; d < p->dim; d++) now += square(p->x[d][j] - p->x[d][i]), before += square(p->X[d][j] - p->X[d][i]);
+    if (now < square(PARTED_LEAST) * before) return 0;
     for (int d = 0; d < p->dim; d++) {
         const real apart = square(p->x[d][j] - p->x[d][i]);
-        now += apart, before += square(p->X[d][j] - p->X[d][i]);
         middle[d] = 0.5 * (p->x[d][i] + p->x[d][j]);
         if (apart > most) most = apart, *axis = d;
     }
@@ -137,9 +139,10 @@ static bool in_tension(const struct particles *p, int64_t i)
 }
 
 /* Counts the pairs that are parted, and those pulled to `far` times their distance under tension. */
-static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct held_cells *held,
-                                      const struct particles *p, real far)
+static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct scene *s,
+                                      real far)
 {
+    struct held_cells held = {.key = NULL}; /* made for the first pair that may be parted: most samples have none */
     struct pair_counts c = {0};
     real pulled_most = 0, pulled_x = 0;
     for (int64_t k = 0; k < pairs->n; k++) {
@@ -150,11 +153,13 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
         const bool pulled = stretch >= far && in_tension(p, pairs->pair[k].a) && in_tension(p, pairs->pair[k].b);
         if (pulled && stretch > pulled_most) pulled_most = stretch, pulled_x = middle[0];
         c.pulled += pulled;
-        if (!gap_at(held, middle, axis)) continue;
+        if (!held.key) held_cells_make(&held, p, s);
+        if (!gap_at(&held, middle, axis)) continue;
         if (stretch > c.stretch) c.stretch = stretch, c.x = middle[0];
         c.parted++;
     }
     if (c.parted == 0) c.stretch = pulled_most, c.x = pulled_x;
+    memory_free(held.key);
     return c;
 }
 
@@ -187,16 +192,13 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
 bool parted_points_say(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                        const struct scene *s, real t, struct warnings *to)
 {
-    struct held_cells held;
     real most = 0;
     if (p->n_free == 0 || !p->plastic_strain || scene_silences_warning(s, ACCEPT_STRAIN)) return false;
     for (int64_t i = 0; i < p->n; i++) most = real_max(most, p->plastic_strain[i]);
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
-    held_cells_make(&held, p, s);
     const struct weak_shape *w = weak_shape_of(s->shape);
-    const struct pair_counts c = pairs_count(pairs, &held, p, w ? w->pulled : INFINITY);
-    memory_free(held.key);
+    const struct pair_counts c = pairs_count(pairs, p, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;
     warn_of_parted(s, &c, pairs->n, t, to);
