@@ -18,24 +18,26 @@ struct run_arguments {
  * message, unless it is a number from `least` to `most`. */
 status option_read_count(int *count, const char *option, const char *text, int least, int most);
 
-/* Checks that the option `option` is followed by a value. Returns OK if has_value is true, else REFUSED, with a message
- * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */
+/* Checks that a word follows the option `option` on the command line. has_value: true if one does. Returns OK if
+ * has_value is true. Otherwise returns REFUSED, with a message that names the option and shows the usage line "cleave "
+ * + `usage`. */
 status option_has_value(const char *option, bool has_value, const char *usage);
 
-/* Returns REFUSED for a word that follows the scene of a command: the message names -s if the word is KEY=VALUE, else
- * both scenes. */
+/* Refuses a surplus word of a command that reads one scene: always returns REFUSED. scene: the scene that was read
+ * before; word: the surplus word. The message suggests -s if the word has the form KEY=VALUE, else it names both
+ * words. */
 status arguments_refuse_second_scene(const char *scene, const char *word);
 
-/* Removes the word `option`, an option without a value that only one command has, from argv[*argc] and reduces *argc.
- * Returns true if argv contained it. */
+/* Removes the option `option`, which has no value, from the argument list argv and reduces *argc by one. Returns true
+ * if the option was in the list. For options that only one command has. */
 bool arguments_remove_option(int *argc, char **argv, const char *option);
 
-/* Reads the words argv[argc] of a command line into *a; argv[0] is the name of the command. Returns REFUSED, with a
- * message that contains the usage line `usage`, for malformed words. Release with arguments_free. */
+/* Reads the `argc` words argv of a command line into *a; argv[0] is the name of the command. Returns REFUSED for
+ * malformed words, with a message that shows the usage line `usage`. Release a with arguments_free. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
 
-/* Appends the override `text`, KEY=VALUE as after an option -s, to a->override, which must have memory for one more.
- * Returns REFUSED, with a message, if the text is malformed. */
+/* Appends the override `text` (KEY=VALUE, as after an option -s) to the list a->override. The caller must have
+ * allocated memory for one more entry. Returns REFUSED, with a message, if the text is malformed. */
 status arguments_add_override(struct run_arguments *a, const char *text);
 
 /* Releases the overrides in *a. */

@@ -81,7 +81,7 @@ static void say_contact_of_bonds(const struct scene *s)
 }
 
 /* Prints the share of contact in the time of the first steps, and by how much contact shortens the time step. Prints
- * nothing for load steps, or if no particle is near a face. c: cost that cost_measure_by_trial_steps has estimated. */
+ * nothing for load steps, or if no particle is near a face. c: cost of the run e, estimated from trial steps. */
 static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
@@ -140,9 +140,9 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Continues the printed line of the run time. Prints from which trial steps the run time was extrapolated (all steps
- * with larger particles, or the first steps alone), and what the run time would be if all particles were peridynamic.
- * c: estimated cost. */
+/* Continues the printed line of the run time. Prints from which trial steps the run time
+ * was extrapolated (all steps with larger particles, or the first steps alone), and what the run time would be if all
+ * particles were peridynamic. c: estimated cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -193,8 +193,8 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Prints a part of a sentence: the smallest and largest random factor on the strength over the particles of a material
- * [1]. material: index of the material. */
+/* Prints a part of a sentence: the smallest and largest random factor on the strength [1] over the particles of the
+ * material with the index `material`. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;
@@ -242,8 +242,8 @@ static bool texts_alike(const char *a, const char *b)
     return true;
 }
 
-/* Appends the warnings of the trial steps to *found. Omits those that differ from a warning in *found only by numbers,
- * such as the time. */
+/* Appends the warnings `trial`, which trial steps raised, to *found. Omits each that differs from a warning in *found
+ * only by its numbers, such as the time. */
 static void warnings_of_trial(struct warnings *found, const struct warnings *trial)
 {
     for (int k = 0; k < trial->n; k++) {
@@ -261,9 +261,10 @@ static void say_busy(double load, int threads)
     if (machine_describe_load(text, sizeof text, load, machine_cores(), threads)) printf("load           %s\n", text);
 }
 
-/* Estimates run time and memory by trial steps and prints both. threads: number of threads, which is printed; made:
- * processor time of the set-up [s]. The warnings of the trial steps are appended to *found. The run e cannot be used
- * afterwards. Returns FAILED if one of the first steps fails. */
+/* Estimates run time and memory of the run e by trial steps and prints both. a: arguments from which e was made, so
+ * that other scenes can be made for comparison; threads: number of threads, which is printed; made: processor time of
+ * the set-up of e [s]. Appends the warnings of the trial steps to *found. The run e cannot be used afterwards. Returns
+ * FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
@@ -319,7 +320,8 @@ static void say_verdict(const char *scene, int warnings, int remarks)
                remarks > 0 ? " and the remarks on accuracy" : "");
 }
 
-/* Prints the resolved settings of a scene: particles, shapes, materials, frames, pre-cracks, loads, steps, contact. */
+/* Prints the resolved settings of the scene of run e: particles, shapes, materials, frames, pre-cracks, loads, steps,
+ * contact. */
 static void say_settings(const struct run *e)
 {
     say_particles(e);
@@ -336,10 +338,10 @@ static void say_settings(const struct run *e)
     say_contact(e);
 }
 
-/* Sets up the scene and prints its resolved settings, remarks on its accuracy, the cost (only if `trial` is true),
- * hints, the warnings (on standard error), and the verdict. threads: number of threads; start: time on thread_cpu_clock
- * at which the reading of the scene began [s]. Changes settings of s. Returns REFUSED or FAILED if the set-up or a
- * trial step does. */
+/* Sets up a run of the scene s and prints its resolved settings, remarks on its accuracy, the cost (only if `trial` is
+ * true), hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads: number
+ * of threads; start: time on thread_cpu_clock at which the reading of the scene began [s]. Changes settings of s.
+ * Returns REFUSED or FAILED if the set-up or a trial step does. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};

@@ -79,9 +79,9 @@ static const struct {
 };
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
 
-/* Returns the largest relative errors of the stiffness of a peridynamic part that is `layers` particles thick: three
- * errors [%], indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending and tension) and OFF_TWISTED (3D in torsion).
- * surface: rule by which bonds near faces are corrected. */
+/* Returns the largest relative errors of the stiffness of a peridynamic part that is `layers` particles thick, with the
+ * model and horizon of scene s. The three errors [%] are indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending and
+ * tension) and OFF_TWISTED (3D in torsion). surface: rule by which bonds near faces are corrected. */
 static const int *stiffness_errors(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -261,8 +261,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
             shock.speed, shock.share, shock.remedy);
 }
 
-/* Writes a remark if the number of levels of coarse cells given by the scene makes cells too coarse for its loads or
- * its thin parts. */
+/* Writes a remark if the scene prescribes a number of levels of coarse cells, and the cells of the coarsest level are
+ * too large for the loads or for the thin parts of the body. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -312,8 +312,9 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * Measured (inputs/choosing.md, Yielding). */
 #define PARTS_AT_GRIP 1.3
 
-/* Writes to `out` a remark if supports pull metal bodies to `stretch` times their initial length and, with the shape
- * functions of scene s, the force is then too small or the points separate. */
+/* Writes to `out` up to two remarks for metal bodies that supports pull to `stretch` times their initial length. The
+ * first is written if the shape functions of scene s then give too small a force, the second if material points then
+ * lose their common grid nodes beside the driven points. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape *weak = weak_shape_of(s->shape);
@@ -331,9 +332,10 @@ static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
             stretch, PARTS_AT_GRIP, s->shape == SHAPE_CPGIMP ? "" : "; use mpm.shape: cpgimp");
 }
 
-/* Writes to `out` a remark if supports stretch the body so far that it separates without fracture. An elastic body
- * separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only points in the
- * current frame. l: loads and supports of the particles p. */
+/* Writes to `out` a remark if the supports in l stretch the body so far that it separates without fracture. An elastic
+ * body separates where neighbouring material points share no grid nodes, a metal body earlier. Concerns only material
+ * points whose shape functions follow their present positions, not their reference positions. p: particles on which l
+ * acts. */
 static void advise_separation(const struct scene *s, const struct loads *l, const struct particles *p, FILE *out)
 {
     bool yields = false;
@@ -397,7 +399,8 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Adds a hint for each body with material points in the current frame that could use the faster reference frame. */
+/* Adds a hint to *to for each body whose shape functions are evaluated at the present positions of its material points,
+ * if the faster evaluation at their reference positions would be possible. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);
@@ -450,7 +453,8 @@ static void hint_method(const struct run *e, struct warnings *to)
             reached, weakest, method);
 }
 
-/* Adds a hint with the planes about which the scene is symmetric, so that a part of the body can be run. */
+/* Adds a hint to *to that names the planes about which the scene is symmetric, so that a part of the body can be
+ * run. */
 static void hint_symmetry(const struct run *e, struct warnings *to)
 {
     static const char *const share[] = {"", "half", "a quarter", "an eighth"};

@@ -117,8 +117,8 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     return engine_make(e, s, NULL);
 }
 
-/* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails or the time exceeds PATIENCE
- * times SECONDS_WHOLE, or WALL_MOST. */
+/* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
+ * PATIENCE * SECONDS_WHOLE, or if the wall-clock time exceeds WALL_MOST. */
 static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock(), began = wall_clock();
@@ -156,9 +156,10 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the processor time of all steps of a scene over the time extrapolated from its first steps [1], measured in
- * the same scene with larger particles. Stores the factor on the spacing in c->coarser and the return value in
- * c->growth. first: extrapolated time of the scene s itself [s]. Returns NAN if the ratio cannot be measured. */
+/* Returns the ratio r of the processor time of all steps of a scene to the time extrapolated from its first steps [1].
+ * It is measured in the scene s with larger particles. Stores the factor by which the particles are larger in
+ * c->coarser, and r in c->growth. a: arguments from which s was read; first: extrapolated time of s itself [s]. Returns
+ * NAN if the ratio cannot be measured. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -195,9 +196,10 @@ static const struct {
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
 #define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
 
-/* Estimates the time of the whole run with set-up and output, c->run, and its bounds c->least and c->most [s]. Stores
- * in c->basis whether the time was measured, scaled or extrapolated. If the whole run was measured, its warnings
- * replace those in c->found. c->make, step, spread and output must be set. */
+/* Estimates the time c->run of the whole run with set-up and output, and its bounds c->least and c->most [s]. Stores in
+ * c->basis whether the time was measured, scaled or extrapolated. If the whole run was measured, its warnings replace
+ * those in c->found. The caller must have set c->make, c->step, c->spread and c->output. clock: number of steps; scene,
+ * a: scene, and arguments from which it was read. */
 static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
                      const struct run_arguments *a)
 {
@@ -260,8 +262,8 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
-/* Returns an estimate of the memory for writing output [byte]. Trial steps write nothing, so that their memory does not
- * include it. */
+/* Returns an estimate of the memory for writing output [byte]. It is added to the memory measured in trial steps, which
+ * write nothing. */
 static double output_bytes(const struct particles *part, const struct scene *scene)
 {
     /* per particle, by dimension: copy for the writer, the sort order, what goes to the particles file; measured */

@@ -18,9 +18,9 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
 }
 
-/* Returns true if the point X[dim] [m] is inside the piece p of a body or within `distance` [m] of it. Returns false if
- * p is the piece of the body's basic material: this piece is the remainder of the body outside its parts of other
- * materials. */
+/* Returns true if the point X[dim] [m] is inside the piece p of a body or within `distance` [m] of it. Always returns
+ * false for the piece of the body's basic material: this piece is what remains of the body outside its parts of other
+ * materials, so that it has no shape of its own. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -70,8 +70,8 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
-/* Returns true if a face of the piece seems to cross a cell: a neighbouring cell is filled by a particle and the cell
- * is not, or vice versa; or neither is filled and the piece is within half a cell diagonal. */
+/* Returns true if a face of the piece p seems to cross the cell number `cell` of c. This is so if exactly one of the
+ * cell and a neighbouring cell contains a particle, or if neither does and the piece is within half a cell diagonal. */
 static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
@@ -93,8 +93,9 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Returns true if several faces of the body can cross a cell: a filled cell without filled neighbours along some axis,
- * an empty cell between two filled ones, or any cell without filled neighbours. */
+/* Returns true if several faces of the body can cross the cell number `cell`. This is so for a cell with a particle if
+ * both neighbours along some axis have none, for a cell without a particle between two with particles, and for any cell
+ * without neighbours that contain particles. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
@@ -121,8 +122,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the share of a cell that is inside the shape [1]. X[dim]: centre of the cell [m]. The surface in the cell is
- * approximated by a plane, from the distance and the normal of the surface at X. */
+/* Returns the share of a cell of c that is inside `shape` [1]. X[dim]: centre of the cell [m]. The surface in the cell
+ * is approximated by a plane, from the distance and the normal of the surface at X. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
@@ -132,9 +133,9 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Returns the share of a cell that is inside the piece p [1]. plane: only one face crosses the cell, so that the face
- * is approximated by a plane; otherwise PLACES points in the cell are tested. The points form a Weyl sequence
- * (constants of Roberts) with a different start in each cell. */
+/* Returns the share of the cell number `cell` that is inside the piece p [1]. plane: true if only one face crosses the
+ * cell. The face is then approximated by a plane; otherwise PLACES points in the cell are tested. The points form a
+ * Weyl sequence (constants of Roberts) with a different start in each cell. */
 static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},

@@ -11,12 +11,12 @@ struct piece {
 };
 enum { ANY_MATERIAL = -1 };
 
-/* Returns true if the piece p (a body, or its part of one material) contains the point X (dim components [m]). The
- * shape of the body is enlarged by `tolerance` [m]. */
+/* Returns true if the piece p (a body, or its part of one material) contains the point X[dim] [m]. The shape of the
+ * body is enlarged by `tolerance` [m] for this test. */
 bool piece_contains(const struct piece *p, const real *X, real tolerance);
 
-/* Computes a bounding box of the piece p (a body, or its part of one material) between the corners `lower` and `upper`
- * [m]. Returns false if the piece is unbounded, or has no known point. */
+/* Computes a bounding box of the piece p (a body, or its part of one material). Stores its lower and upper corners [m]
+ * in `lower` and `upper`. Returns false if the piece is unbounded, or if no point inside it is known. */
 bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Lattice cells of the bounding box of a piece, one per particle position; x varies fastest. */
@@ -28,12 +28,13 @@ struct cover {
     uint8_t *filled;              /* [cells] true if a particle is in the cell */
 };
 
-/* Computes in c the share of each lattice cell that the piece (a body, or its part of one material) covers, and which
- * cells contain a particle position. Release with piece_cover_free. Returns false, with nothing to release, for bodies
- * in 1D or from a list, for unbounded pieces, and for more cells than can be computed quickly. */
+/* Initialises c with the lattice cells in the bounding box of a piece (a body, or its part of one material): the share
+ * of each cell that the piece covers, and whether the cell contains a particle. Release with piece_cover_free. Returns
+ * false, with nothing to release, for bodies in 1D or from a particle list, for unbounded pieces, and for more cells
+ * than can be computed quickly. */
 bool piece_cover_make(struct cover *c, const struct piece *piece);
 
-/* Computes the indices of cell number `cell` of c along the axes, index[DIM_MAX]. */
+/* Computes the indices index[DIM_MAX] of the cell number `cell` of c along the axes. */
 void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
 void piece_cover_free(struct cover *c);

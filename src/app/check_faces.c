@@ -35,8 +35,9 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* Creates the grid of column heights from the particles of face f of boundary b. Returns false, with nothing to
- * release, if the columns are too scattered for a table. Release c->height otherwise. */
+/* Creates in c a table of heights: for each column of particles along the axis b->face, the coordinate of its outermost
+ * particle, which is on the face f [spacings, positive outwards]. Returns false, with nothing to release, if the
+ * columns are too scattered for a table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {
@@ -66,9 +67,9 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Returns the slope of the column heights along axis c->axis[k] at the column with the index `place` [1], over AWAY
- * columns. Of the slopes on both sides of the column it is the smaller one, so that a single step does not count as a
- * slope. */
+/* Returns the absolute slope of the column heights c->height along the axis c->axis[k], at the column with the index
+ * `place` [1]. It is the difference over AWAY columns on one side. Of the slopes on both sides the smaller is returned,
+ * so that a single step does not count as a slope. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -80,8 +81,8 @@ static real slope_along(const struct ends *c, int64_t place, int k)
     return isnan(after) ? isnan(before) ? 0 : before : isnan(before) || after < before ? after : before;
 }
 
-/* Returns the cosine of the angle between the outward axis of face b and the surface normal at particle i [1]. Uses the
- * normal of the body's shape if c->height is NULL, else the slopes of the column heights. */
+/* Returns the cosine of the angle between the outward axis of the face of boundary b and the surface normal at particle
+ * i [1]. Uses the normal of the body's shape if c->height is NULL, else the slopes of the column heights c->height. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {
@@ -97,9 +98,10 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Returns the sums of the area of particles of face f, and separately of the area of those where the surface is
- * inclined to the axis by more than ELSEWHERE degrees. Includes particles whose inner end is at the coordinate `from`
- * along the axis (outward positive [m]) or further out; -INFINITY includes all. c: column heights (see cosine_at). */
+/* Returns two sums over the particles of face f: their area, and the area of those at which the surface is inclined to
+ * the axis by more than ELSEWHERE degrees. Includes only particles whose inner end is at the coordinate `from` along
+ * the axis (positive outwards [m]) or further out; -INFINITY includes all. b: boundary of the face; c: table of column
+ * heights, from which surface normals follow, or with c->height NULL. */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct exposed_face *f, const struct ends *c,
                                        real from)
@@ -118,9 +120,9 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Returns a coordinate along the axis of the face f of boundary b, outward positive [m]. A region that begins at this
+/* Returns a coordinate along the axis of the face f of boundary b [m, positive outwards]. A region that begins at this
  * coordinate excludes nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. c:
- * column heights of the face; all: areas of the whole face. */
+ * column heights of the face; all: area of the whole face and of its inclined part. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
                           const struct ends *c, const struct elsewhere *all)
 {

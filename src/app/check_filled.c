@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-/* Returns true if all solids of a shape are boxes along the axes. The volume of their particles follows from the
- * spacing, so that no comparison is needed. */
+/* Returns true if all solids of a shape are boxes along the axes. The volume of the particles of such a shape follows
+ * from the spacing and need not be compared with the volume of the shape. */
 static bool all_boxes(const struct region *shape)
 {
     bool boxes = true;
@@ -16,8 +16,8 @@ static bool all_boxes(const struct region *shape)
     return boxes;
 }
 
-/* Returns the number of particles of a body. If it is the only body, particles that are not created (in coarse cells)
- * are included. Bodies that are joined have the index of the first. */
+/* Returns the number of particles of the body with the index `body`. Joined bodies count as one body, with the index of
+ * the first. If the scene has only one body, particles that are not created (in coarse cells) are included. */
 static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {
     int64_t n = 0;

@@ -80,8 +80,8 @@ static bool scene_gives_all(const struct scene *s)
     return all;
 }
 
-/* Returns true if a row of the table idle_keys before row number `row` names the key and its condition is true for the
- * scene, so that the key has been reported already. */
+/* Returns true if an earlier row of the table idle_keys has reported the key: a row before number `row` that names it,
+ * and whose condition is true for the scene s. */
 static bool key_is_named_before(const struct scene *s, size_t row, const char *key)
 {
     bool named = false;

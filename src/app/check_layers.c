@@ -26,8 +26,9 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* Marks the lattice sites that the particles of a body fill, in the bounding box of these particles. Returns false,
- * with nothing to free, for more than CELLS_MOST sites. Release m->filled otherwise. */
+/* Finds which lattice sites are filled by particles of the body with the index `body`, among the sites in the bounding
+ * box of these particles. Sets m->filled of each site. Returns false, with nothing to release, for more than CELLS_MOST
+ * sites. Release m->filled otherwise. */
 static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;
@@ -57,9 +58,9 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive filled sites along an axis, at most RUNS_MOST. Counting begins next to site `from`
- * [dim, indices] in the direction `way` (1 or -1). Sets *mirrored to true if the filled sites end at a plane of
- * symmetry. */
+/* Returns the number of consecutive filled sites along `axis`, at most RUNS_MOST. Counting begins at the neighbour of
+ * the site with the indices from[dim] in the direction `way` (1 or -1). Sets *mirrored to true if the filled sites end
+ * at a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -77,8 +78,8 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
 }
 
 /* Returns the number of particle layers across the body at the site with the indices at[dim]: the smallest of the
- * counts along the axes. A count that ends at a plane of symmetry is doubled. Across slanting parts the number is up to
- * 1.4 times too large. */
+ * counts along the axes. A count that ends at a plane of symmetry is doubled. For parts that are slanted to the axes
+ * the number is up to 1.4 times too large. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
 {
     double least = RUNS_MOST;
@@ -91,9 +92,9 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across a body over those of its particles that have fewer than `most`
- * layers. Returns INFINITY if these are less than the share SHARE_LEAST of the particles, or if the body has too many
- * sites. */
+/* Returns the median number of particle layers across a body, taken over those of its particles at which it has fewer
+ * than `most` layers. Returns INFINITY if fewer than the share SHARE_LEAST of the particles are such, or if the
+ * bounding box of the body has more than CELLS_MOST lattice sites. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;

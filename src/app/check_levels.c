@@ -49,8 +49,8 @@ static const char *much_memory(double bytes, char text[static 32])
     return text;
 }
 
-/* Returns the number of material points in the coarse cells of all levels, including points that are not created. A
- * cell of level k has an edge of 2^(k+1) spacings. */
+/* Returns the number of material points in the cells of all coarse levels 1 to l->n of the mesh, including points that
+ * are not created. A cell of level k has an edge of 2^(k+1) spacings. */
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;

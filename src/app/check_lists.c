@@ -47,8 +47,9 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns the smallest number of layers L such that at least the share THIN_SHARE of the body's particles have L layers
- * or fewer across the body (see layers_at), at most LAYERS_MOST. Tests a sample of some LOOKED_AT particles. */
+/* Returns the smallest number of layers L, at most LAYERS_MOST, such that at least the share THIN_SHARE of the
+ * particles of a body have L or fewer layers of particles across the body. Tests a sample of some LOOKED_AT
+ * particles. */
 static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;

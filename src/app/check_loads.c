@@ -45,12 +45,12 @@ static real largest_factor_at(const struct time_function *f, real duration, real
 
 enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a load, at which formulas are evaluated */
 
-/* Type of functions that compute the force or displacement of the k-th particle of a load at time t [s] and store it in
- * vector[dim]. */
+/* Type of functions that compute a vector of the k-th particle of load l at time t [s], its force [N] or its
+ * displacement [m], and store it in vector[dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
-/* Returns the sum of the squared vectors of a load at time t, over a sample of its particles. vector: the function that
- * computes the vector of one particle, a force or a displacement. */
+/* Returns the sum of |a|^2 over a sample of the particles of load l at time t [s]. vector: function that computes a,
+ * the force or displacement of one particle. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -58,8 +58,9 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Returns the time [s] at which the vectors of a load are largest, among evenly spaced times and the times of its
- * table. Returns `duration`, the last time, unless they are larger at an earlier one. vector: see square_sum. */
+/* Returns the time in 0..duration [s] at which the vectors of load l are largest. Tests evenly spaced times and the
+ * times of the load's table. Returns `duration` unless they are larger at an earlier time. vector: function that
+ * computes the force or displacement of one particle. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -145,9 +146,9 @@ static bool has_distance(const struct scene *s, int body)
     return has;
 }
 
-/* Adds one face of a particle to the sums in *context, a struct faced: its area [m^2], its area projected on the
- * surface of the body's shape, and this projected area times its distance from the surface. i: particle; axis, side (1
- * or -1): outward normal of the face. Called by pressure_visit_faces. */
+/* Adds one face of particle i to the sums in *context, a struct faced: its area `area` [m^2], its area projected on the
+ * surface of the body's shape, and this projected area times its distance from the surface. axis, side (1 or -1):
+ * outward normal of the face. It is called by pressure_visit_faces for each face. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -164,11 +165,11 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area of the faces on which the pressure load number `which` acts, and the mean distance of these faces
- * from the surface of the body's shape. Steps of a slanting or curved surface have a larger area than the surface and
- * are on both sides of it. The mean distance is the volume between faces and surface over the area of the surface; a
- * bore of particles is wider than its shape by this distance. The distance is exact, because the flux of the shape's
- * normals through closed steps equals their flux through the surface. */
+/* Prints the area of the particle faces on which the pressure load number `which` acts, and their mean distance from
+ * the surface of the body's shape. Particle faces form steps along a slanting or curved surface. They have a larger
+ * area than the surface and are on both sides of it. The mean distance is the volume between faces and surface over the
+ * area of the surface. A bore of particles is wider than its shape by this distance. It is exact, because the flux of
+ * the shape's normals through closed steps equals their flux through the surface. */
 static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];

@@ -43,9 +43,9 @@ struct chord {
     real middle, width;
 };
 
-/* Returns true if the run of cells through `cell` continues to the next cell in the direction `way` (-1 or 1) along
- * k->axis. A run consists either of consecutive cells with particles, or of consecutive cells without particles that
- * the piece partly covers. */
+/* Returns true if the run through `cell` continues to the next cell in the direction `way` (-1 or 1) along k->axis. A
+ * run is a row of consecutive cells along k->axis that either all contain particles, or all contain none and are partly
+ * covered by the piece. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
     const struct cover *c = k->cover;
@@ -56,8 +56,8 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of the run whose first cell is `from`. A run is a row of alike cells along k->axis (see
- * run_goes_on). */
+/* Returns the number of cells of the run whose first cell is `from`. A run is a row of consecutive cells along k->axis
+ * that are alike: all with particles, or all without and partly covered by the piece. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -65,8 +65,8 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Returns true if a cell with a particle adjoins an end of a run of n cells along k->axis (see run_goes_on). from: the
- * first cell of the run. */
+/* Returns true if a cell with a particle adjoins an end of the row of n cells along k->axis that begins with the cell
+ * `from`. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -76,9 +76,10 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
 
-/* Sets k->rows[cells]. A run of n cells with particles along k->axis sets its cells to 1 + n, where n is at most
- * NARROW. A run of cells without particles that the piece partly covers sets its cells to 1, unless it adjoins a run
- * with particles. All other cells are set to 0. */
+/* Sets k->rows[cells]. Consecutive cells along k->axis form a run if they all contain particles, or if they contain
+ * none and the piece partly covers them. A run of n cells with particles sets its cells to 1 + n, where n is at most
+ * NARROW. A run without particles sets its cells to 1, unless it adjoins a run with particles. All other cells are set
+ * to 0. */
 static void rows_count(struct necks *k)
 {
     const struct cover *c = k->cover;
@@ -92,9 +93,9 @@ static void rows_count(struct necks *k)
     }
 }
 
-/* Searches the cells beside the run through `cell` (see run_goes_on): those next to it along the axis `across`, in the
- * direction `way` (-1 or 1). Returns the one of these cells whose own run has the most rows, or -1 if none of them is
- * in a run. */
+/* Searches the cells that adjoin a run of cells on one side. The run is the row of alike cells along k->axis through
+ * `cell`; the side is the direction `way` (-1 or 1) along the axis `across`. Returns the adjoining cell with the
+ * largest number of particle rows, k->rows, or -1 if k->rows is 0 in all of them. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;
@@ -110,7 +111,8 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
     return found;
 }
 
-/* Returns true if a plane of symmetry normal to the axis `across` adjoins a cell in the direction `way` (-1 or 1). */
+/* Returns true if a plane of symmetry normal to the axis `across` adjoins the cell number `cell` in the direction `way`
+ * (-1 or 1). */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct run *e = k->engine;
@@ -131,8 +133,8 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
-/* Measures the width of the piece along k->axis on the line through X [m], and stores its midpoint and length in
- * *chord. Returns false if X is outside the piece or on its surface. */
+/* Measures the width of the piece along k->axis on the line through X[dim] [m]. Stores the midpoint and the length of
+ * the line inside the piece in *chord. Returns false if X is outside the piece or on its surface. */
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
@@ -157,7 +159,8 @@ static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS
 
 /* Measures the widths of the piece on parallel lines, SAMPLES lines per spacing: first through p->X (chord 0), then on
  * both sides, each line through the midpoint of the previous chord. reach[2]: largest number of chords on the lower and
- * the upper side; a side ends earlier where a line misses the piece. Returns false if no chord is found near p->X. */
+ * on the upper side. A side ends earlier at a line that misses the piece. Returns false if the line through p->X misses
+ * the piece. k: the piece and the axis of the widths. */
 static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
 {
     real X[DIM_MAX];
@@ -184,8 +187,8 @@ static bool chords_measure(struct chords *p, const struct necks *k, const int *r
     return true;
 }
 
-/* Returns the number of the narrowest one of the chords from..to. If several chords have this width to within
- * `tolerance` [m], it returns the middle one. */
+/* Returns the number of the narrowest of the chords `from` to `to`. If several chords have this width to within
+ * `tolerance` [m], returns the middle one. */
 static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
 {
     int best = from, end;
@@ -208,10 +211,10 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece widens by GROWTH spacings on both sides of its chord `narrowest`, and the midline shifts
- * less than the width grows; bent strips of constant width fail the second condition. A side that ends at a plane of
- * symmetry counts as the mirror image of the other side. Sets *even to true if the width changes only in steps: every
- * change is below 0.001 or above 0.5 spacings. */
+/* Returns true if the piece is a neck: it widens by GROWTH spacings on both sides of its chord `narrowest`, and its
+ * midline shifts by less than its width grows. (Bent strips of constant width fail the second condition.) A side that
+ * ends at a plane of symmetry counts as the mirror image of the other side. Sets *even to true if the width changes
+ * only in steps: every change is below 0.001 or above 0.5 spacings. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -232,9 +235,9 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
     return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
 }
 
-/* Returns the relative error of the width that the particle rows of a neck represent [1]. narrowest: number of its
- * narrowest chord. Both widths are averaged over a length of the neck equal to its width, as 1/mean(1/width), which is
- * how the compliance of the neck depends on them. */
+/* Returns the relative error of the width of a neck: (number of its particle rows times the spacing)/(its width) - 1
+ * [1]. narrowest: number of its narrowest chord. Both widths are averaged over a length of the neck equal to its width,
+ * as 1/mean(1/width), since the compliance of the neck depends on this mean. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -247,8 +250,8 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the index of the grid cell that contains the centre u->at of a neck. Returns -1 if this cell is outside the
- * grid or belongs to none of the runs of cells that k->rows counts. */
+/* Returns the index of the grid cell that contains the centre u->at of a neck. Returns -1 if the cell is outside the
+ * grid, or if k->rows is 0 there. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -290,9 +293,9 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns position, width and error of a neck at its chord `narrowest`. If the chords on both sides are known, the
- * width is measured again at the minimum of the parabola through the three widths. rows: number of particle rows across
- * the neck. */
+/* Returns the description of a neck: its position, width and error at its chord number `narrowest`. If the chords on
+ * both sides are known, the width is taken at the minimum of the parabola through the three widths. rows: number of
+ * particle rows across the neck. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -314,9 +317,9 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Measures a neck, and adds it to the list if the width that its particle rows represent differs too much from its
- * width. cell: a cell of the first column of the neck; columns: number of consecutive columns of cells with the same
- * number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are set. */
+/* Measures a neck and adds it to the list if the number of its particle rows times the spacing differs too much from
+ * its width. cell: a cell of the first column of the neck; columns: number of consecutive columns of cells with the
+ * same number of rows. p: memory for the chords across the neck, in which p->across and p->mirrored are set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -338,8 +341,8 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_list_add(list, &u, false);
 }
 
-/* Sets k->seen of all cells that are connected to `cell` through cells with the same number of rows, so that their neck
- * is examined only once. */
+/* Sets k->seen of `cell` and of all cells that are connected to it through cells with the same number of particle rows
+ * k->rows, so that their neck is examined only once. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;
@@ -358,9 +361,9 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Follows the runs of equal length (see run_goes_on) along the axis `across`, starting at the run through `cell`. If
- * the runs before and after them are longer, or a plane of symmetry is there, they are a neck: it is measured and, if
- * its error is large, added to the list. */
+/* Searches a neck along the axis `across` that begins at `cell`. Follows the consecutive rows of cells (along k->axis)
+ * that have equal numbers of particles. If the rows before and after them are longer, or end at a plane of symmetry,
+ * they are a neck: it is measured and, if the error of its width is large, added to the list. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

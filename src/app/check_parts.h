@@ -40,8 +40,9 @@ struct cost {
     struct warnings found;  /* warnings of the trial steps of this scene */
 };
 
-/* Estimates the cost of a run by trial steps with the current team. a: arguments of the scene, by which other scenes
- * are made for comparison. The run cannot be used afterwards. Returns FAILED if one of the first steps fails. */
+/* Estimates the cost c of a run by trial steps, on the number of OpenMP threads that is set. a: arguments from which
+ * the scene was read, so that other scenes can be made for comparison. The run cannot be used afterwards. Returns
+ * FAILED if one of the first steps fails. */
 status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct run_arguments *a);
 
 /* ---- check_strength.c -------------------------------------------------------------------------------------------- */
@@ -50,8 +51,8 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct
  * horizon. Prints nothing for other materials. */
 void print_softening(const struct scene *s, const struct material *m);
 
-/* Prints the strength that brittle bonds of material m have at the horizon of the scene, as a clause; nothing where
- * bonds are not known to have one. */
+/* Prints, as a part of a sentence, the strength that brittle bonds of material m have at the horizon of the scene s.
+ * Prints nothing if no strength is known for these bonds. */
 void print_brittle_strength(const struct scene *s, const struct material *m);
 
 /* Size of a part or a crack below which its faces or tips affect each other [horizons]. */
@@ -63,12 +64,13 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
  * nothing. */
 void print_precracks(const struct run *e);
 
-/* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart. A crack with one tip
- * begins at a face or a plane of symmetry and counts as half of a crack of twice the length. */
+/* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart, so that they affect
+ * each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a crack of twice
+ * its length. */
 void advise_precracks(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
-/* Adds a hint to *to for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether they are cut.
- */
+/* Adds a hint to *to for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether it cuts
+ * them. */
 void hint_precrack_ends(const struct run *e, struct warnings *to);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
@@ -84,8 +86,8 @@ void print_load_step_advice(const struct run *e, FILE *out);
  * continued afterwards. Returns FAILED if no equilibrium is found. */
 status cost_load_steps(struct cost *c, struct run *run);
 
-/* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: result of
- * cost_load_steps. */
+/* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: the
+ * estimate for run e. */
 void print_load_steps_cost(const struct run *e, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
@@ -103,10 +105,10 @@ void print_separate_pieces(const struct run *e);
  * (check_advice.c). */
 real solid_smallest_edge(const struct run *e, const struct solid *a);
 
-/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it: of a single solid,
- * its smallest edge over the spacing, INFINITY unless this is less than `max_layers`; of other shapes a count, INFINITY
- * unless at least half of the particles have fewer layers than half of `max_layers`. Returns INFINITY if the body is
- * joined to one of a lower number. */
+/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. For a single solid
+ * this is its smallest edge over the spacing, INFINITY unless this is less than `max_layers`. For other shapes it is a
+ * count, INFINITY unless at least half of the particles have fewer layers than half of `max_layers`. Returns INFINITY
+ * for a body that is joined to one of a lower index. */
 double count_thin_layers(const struct run *e, int body, double max_layers);
 
 /* Writes a line to `out` for each nearly incompressible body whose particles or cells are too stiff. */
@@ -141,8 +143,9 @@ struct length_text length_with_unit(real length, int digits, real spacing);
 /* Prints a line for each load and support: particles, area, force and moment. */
 void print_loads(const struct run *e);
 
-/* Prints how much of the loaded or supported face of a boundary is not perpendicular to the axis of the boundary: its
- * share of the area, the mean angle between normal and axis, and a region that would exclude it (check_faces.c). */
+/* Prints how much of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary.
+ * Prints the share of this part in the area, the mean angle between its normal and the axis, and a region that would
+ * exclude it. */
 void print_face_off_axis(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
@@ -171,13 +174,12 @@ void print_accuracy_advice(const struct run *e, FILE *out);
  * are exactly on bonds. The run has taken no step. */
 void cost_hints_list(const struct run *e, struct warnings *to);
 
-/* Writes by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the
- * material: "about 2 % in bending and tension", in 3D also in twisting, from a table. surface: correction of bonds near
- * faces. */
+/* Writes to `out` by how much the stiffness of a part that is `layers` particle layers thick differs at most from that
+ * of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The values are from a
+ * table. surface: correction of bonds near faces. */
 void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out);
 
-/* Writes a line to `out` for each body from a particle list whose particles form no lattice and that has thin parts
- * (check_lists.c). */
+/* Writes a line to `out` for each body with thin parts whose particles are read from a list and form no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the scene equals its mirror image in the plane normal to axis `axis` through the middle of its

@@ -12,8 +12,8 @@
  * program */
 #define HORIZONS_LEAST 3
 
-/* Returns true if `end` [dim, m], an end of a pre-crack, is a crack tip inside the material and not at a face of the
- * body. */
+/* Returns true if `end` (coordinates [m]), an end of a pre-crack, is a crack tip inside the material and not at a face
+ * of the body. */
 static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
     const struct crack_tips *t = &fracture->tips;
@@ -22,7 +22,8 @@ static bool is_tip(const struct fracture_state *fracture, const real *end)
     return false;
 }
 
-/* Returns the share of the straight crack from..to [dim, m] that is inside bodies [1], from 1000 points on it. */
+/* Returns the share of the straight crack between the points `from` and `to` (coordinates [m]) that is inside bodies
+ * [1], from 1000 points on it. */
 static real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };

@@ -41,8 +41,9 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Creates the section of a slice that contains the cell `first`: all covered cells of the slice connected to it. Sums
- * the areas of the shape and of the particles. stack: work array with an element for each cell of a slice. */
+/* Creates a section: all covered cells of the slice number `slice` that are connected to the cell `first` within the
+ * slice. Adds up the areas of the shape and of the particles in it. A cell is covered if it contains a particle or is
+ * mostly inside the shape. stack: work array with an element for each cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;
@@ -71,9 +72,9 @@ static int32_t larger(const struct sections *s, int32_t a, int32_t b)
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
 }
 
-/* Finds the sections (connected sets of covered cells) of all slices normal to `axis`, and for each section the largest
- * one that it touches in the next and in the previous slice. named[cells]: marks of reported parts, which are borrowed
- * and kept for all axes. Release s with sections_free. */
+/* Finds the sections of all slices normal to `axis`, and for each section the largest one that it touches in the next
+ * and in the previous slice. A section is a connected set of cells in a slice that the body covers. named[cells]: marks
+ * of parts that have been reported; s keeps this pointer. Release s with sections_free. */
 static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
@@ -107,16 +108,17 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Returns true if section k exists, touches sections in the previous and next slice, and has the area `area` [cells] to
- * within the relative tolerance ALIKE. k is -1 for no section. */
+/* Returns true if section k exists (k >= 0), touches sections in the previous and next slice, and has the area `area`
+ * [cells] to within the relative tolerance ALIKE. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
            fabs(s->section[k].area - area) <= ALIKE * area;
 }
 
-/* Returns the mean width of a section along the axis s->across[k] [cells]: its area over the number of lines of cells
- * along this axis that it occupies. filled: uses the area of the particles in place of the area of the shape. */
+/* Returns the mean width [cells] of the section with the index `number`, along the axis s->across[k]: its area over the
+ * number of lines of cells along this axis that it occupies. filled: true for the area of the particles, false for the
+ * area of the shape. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
     const struct cover *c = s->cover;
@@ -134,8 +136,9 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Returns the description of a section with a wrong number of particle rows: its centre, and the widths of shape and
- * particles along the axis on which they differ most. off: relative error of the area [1]. */
+/* Returns the description of the section with the index `number`, whose number of particle rows is wrong: its centre,
+ * and the widths of shape and particles along the axis on which they differ most. off: relative error of its area
+ * [1]. */
 static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -171,8 +174,8 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
-/* Returns the sums over at most `most` consecutive sections, in ascending order of slices, that begin with section
- * `first` and have nearly its area. */
+/* Returns the sums over at most `most` consecutive sections of nearly equal area, beginning with section number `first`
+ * in ascending order of slices. */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -186,8 +189,9 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
-/* Marks the cells of a part as reported, in s->named. The part consists of section `from` and the sections that
- * continue it on both sides with nearly equal area. axis: axis along which the width of the part is wrong. */
+/* Sets s->named of the cells of a part, so that it counts as reported. The part consists of section `from` and the
+ * sections that continue it on both sides with nearly equal area. axis: axis along which the width of the part is
+ * wrong. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -203,9 +207,9 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the areas of shape and particles, summed over SLICES consecutive sections from section `first` on, or over
- * fewer if the part of the body is shorter. If the areas differ, sums over SLICES_SLANTING sections instead, because
- * errors from the steps of slanting faces average out. Adds the part to the list if the areas still differ too much. */
+/* Compares the areas of shape and particles, summed over SLICES consecutive sections from section `first` on. If these
+ * sections differ in their areas, the sum is over SLICES_SLANTING sections instead, because errors from the steps of
+ * slanting faces average out. Adds the part that the sections form to the list if the summed areas differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];
@@ -223,8 +227,9 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
     uneven_list_add(list, &u, known);
 }
 
-/* Examines the sections of a piece across each axis and adds to the list the narrow parts whose particles have a wrong
- * area. c: cells of the piece; named[cells]: marks the cells of listed parts. */
+/* Examines the sections of the piece list->piece across each axis and adds to the list the narrow parts whose particles
+ * have a wrong area. c: lattice cells of the piece; named[cells]: bit d is set for cells of a listed part whose width
+ * along axis d is wrong. */
 static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {

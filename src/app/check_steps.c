@@ -36,8 +36,8 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance over which bodies extend from a crack tip [m]. side: 1 for the distance ahead of the tip, -1 for
- * the distance back along the crack. Bodies from particle lists are ignored. */
+/* Returns the distance over which bodies extend from a crack tip in a straight line [m]. side: 1 for the distance ahead
+ * of the tip, -1 for the distance back along the crack. Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
     const real most = 2 * (particles_bounding_box_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
@@ -144,8 +144,8 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the width of a load along `axis` as a number of particle columns. Returns 0 if the load extends over the
- * whole width of the body. */
+/* Returns the extent of the particles of load l along `axis`, as a number of columns of particles. Returns 0 if the
+ * load extends over the whole width of the body. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -208,8 +208,9 @@ static double equilibria_of_advance(const struct run *e)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Returns an estimate of the number of crack increments in a run: the number of load steps if they are controlled by
- * energy, else the distance ahead of all tips over the length of an increment. Returns 0 if no bond can break. */
+/* Returns an estimate of the number of crack increments in run e: the number of load steps if the steps are controlled
+ * by the released energy, else the distance that all crack tips can grow over the length of an increment. Returns 0 if
+ * no bond can break. */
 static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -13,7 +13,7 @@
 
 #define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
 
-/* Returns the index of the only particle at the position X [dim, m], or -1. */
+/* Returns the index of the particle at the position X[dim] [m], or -1 if there is none or more than one. */
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
@@ -28,8 +28,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Returns true if the value a[i] of each particle i of n equals a[twin[i]], the value of its mirror image, or
- * -a[twin[i]] if `odd` is true. */
+/* Returns true if the value a[i] of each of n particles equals a[twin[i]], or -a[twin[i]] if `odd` is true. twin[i]:
+ * index of the mirror image of particle i. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -116,9 +116,9 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Stores in twin[n] the index of the mirror image of every particle in the plane normal to `axis` at the coordinate
- * `at` [m]. Returns false if a particle has no image, or is its own image: half of the scene would then cut a layer of
- * particles. */
+/* Stores in twin[i] the index of the mirror image of each particle i in the plane normal to `axis` at the coordinate
+ * `at` [m]. Returns false if a particle has no image, or is its own image. In the latter case half of the scene would
+ * cut a layer of particles. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;

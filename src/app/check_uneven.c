@@ -11,8 +11,9 @@
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
 /* Returns true if a part of a body whose particles have the relative error of width `error` may be added to the list.
- * The list must not be full, or |error| must exceed 0.9 times the smallest |off| in it. The factor 0.9 is used because
- * errors are estimated from samples, and errors of equal parts differ by up to a tenth. */
+ * The list must not be full, or |error| must exceed 0.9 times the error |off| of its last part, the smallest in the
+ * list. The factor is 0.9 because errors are estimated from samples, and errors of equal parts differ by up to a
+ * tenth. */
 bool uneven_list_accepts_error(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
@@ -25,8 +26,8 @@ static bool same_width(const struct uneven *a, const struct uneven *b)
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
 }
 
-/* Returns true if two parts have the same axis of the width and positions within SAME_PLACE spacings. They are then one
- * part that was found twice: in the whole body, and in its piece of one material. */
+/* Returns true if the narrow parts a and b have their widths along the same axis and positions within SAME_PLACE
+ * spacings. They are then one part that was found twice: in the whole body, and in its piece of one material. */
 static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
 {
     real r2 = 0;
@@ -104,9 +105,9 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Returns the number of lattice rows between the coordinates `low` and `high` along `axis` [m] that the piece p would
- * have if the spacing of the scene were `spacing` [m]. Returns -1 if the lattice of the body cannot be determined for
- * this spacing. */
+/* Returns the number of lattice rows of the piece p between the coordinates `low` and `high` [m] along `axis`, if the
+ * spacing of its scene were `spacing` [m]. Returns -1 if the lattice of the body cannot be determined for this
+ * spacing. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -174,8 +175,8 @@ static void say_place(const real *at, int dim, FILE *out)
     fprintf(out, dim > 1 ? "(%s) m" : "%s m", position_text(at, dim, 4).text);
 }
 
-/* Prints the beginning of a remark: the name of the body and, if the part u belongs to a piece of one material, the
- * material. */
+/* Prints the beginning of a remark on the narrow part u of piece p: the name of the body and, if the part was found in
+ * a piece of one material, the name of the material. */
 static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);

@@ -24,30 +24,32 @@ struct uneven_list {
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Returns true if a part whose cross-section has the relative error `error` [1] may belong to the list of the parts
- * with the largest errors: the list is not full, or |error| is larger than nine tenths of the smallest error in it
- * (errors of equal parts differ a little by sampling). */
+/* Returns true if a part whose cross-section has the relative error `error` [1] may be added to the list of the parts
+ * with the largest errors. The list must not be full, or |error| must exceed 0.9 times the smallest error in it (errors
+ * of equal parts differ a little by sampling). */
 bool uneven_list_accepts_error(const struct uneven_list *list, real error);
 
-/* Adds a narrow part of a body to the list, or counts it with a listed part of equal width. already_listed: true if
- * another section of this part has been added before; only the worst of them is kept. */
+/* Adds the narrow part `part` of a body to the list, which is sorted by error and has at most UNEVEN_MOST entries. If
+ * the list has a part of equal width, only the one with the larger error is kept, and its count `more` of equal parts
+ * is increased. already_listed: true if another cross-section of the same part was added before; `more` is then
+ * unchanged. */
 void uneven_list_add(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
-/* Returns the distance from X, along axis `axis`, to the point at which the line leaves the piece p (a body, or its
- * part of one material), by steps and bisection [m]; max_distance if it is larger. step: length of a step, whose sign
- * is the direction [m]. */
+/* Returns the distance [m] from the point X[dim] (inside the piece p) to the surface of p, along the axis `axis`, found
+ * by steps and bisection. p: a body, or its part of one material. step: length of a step, whose sign is the direction
+ * [m]. Returns max_distance [m] if the distance is larger. */
 real piece_distance_to_surface(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
-/* Prints a line to `out` for each part of the list whose width has been measured; if there is no such part, a line for
- * the section with the largest error. */
+/* Prints to `out` a line for each part of the list whose width was measured on a line through the part. If no width was
+ * measured, prints a line for the part with the largest error. */
 void print_uneven_parts(struct uneven_list *list, FILE *out);
 
-/* Adds the necks of the piece list->piece to the list: parts that widen on both sides, such as the ligament between a
- * hole and an edge (check_necks.c). cover: lattice cells of the piece; named[cells] excludes parts that are in the list
- * already: bit d is set for cells of a listed part whose width is measured along axis d. */
+/* Adds the necks of the piece list->piece to the list. A neck is a narrow part that widens on both sides, such as the
+ * ligament between a hole and an edge. cover: lattice cells of the piece. named[cells] excludes parts that are in the
+ * list already: bit d is set for cells of a listed part whose width is measured along axis d. */
 void uneven_add_necks(struct uneven_list *list, const struct run *run, const struct cover *cover, uint8_t *named);
 
-/* Adds the parts of a body in 1D whose length is no whole number of spacings to the list (check_necks.c). */
+/* Adds to the list the parts of the 1D body of list->piece whose length is no whole number of spacings. */
 void uneven_add_lengths(struct uneven_list *list);
 
 #endif

@@ -86,8 +86,8 @@ status manual_run_print(FILE *out);
 /* Prints the manual page cleave.1 (troff). */
 status manual_print(FILE *out);
 
-/* Finds the JSON schema of scenes of the program, installed or built, and writes its path to path[capacity]. Returns
- * false if there is none (schema_path.c). */
+/* Finds the JSON schema of scenes, in the installation or else in the build folder of the program, and writes its path
+ * to path[capacity]. Returns false if neither has one. */
 bool schema_path(char *path, size_t capacity);
 
 /* Prints the kinds of scenes that `cleave new` can write to `out`, separated by blanks. */

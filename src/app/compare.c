@@ -46,8 +46,8 @@ static void print_number(double a)
         printf(" %14.7g", a);
 }
 
-/* Prints a row of the table: label, unit, the values a and b of the runs A and B, and b - a. Prints nothing if both
- * values are NAN, a dash for one that is. */
+/* Prints a row of the table: label, unit, the values a and b of the runs A and B, and b - a. A value that is NAN is
+ * printed as a dash. Prints nothing if both are NAN. */
 static void compare_print_row(const char *label, const char *unit, double a, double b)
 {
     char text[KEY_LENGTH];
@@ -76,9 +76,9 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the latest frame of run A for which run B has a frame at the same time. Times are the same if they differ by at
- * most SAME_TIME times the time between frames. a, b: frames of the runs A and B. Stores the index of the frame of A in
- * *i and of B in *j. Returns false if there is no such pair. */
+/* Finds the latest frame of run A for which run B has a frame at the same time, that is, within SAME_TIME times the
+ * shorter of the mean intervals between frames of A and B. a, b: frames of A and B. Stores the index of the frame of A
+ * in *i and of B in *j. Returns false if there is no such pair. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -124,8 +124,9 @@ static struct difference field_difference(float *const *a, float *const *b, int 
     return d;
 }
 
-/* Prints a row of the table of fields: the label with the unit, the largest and root-mean-square difference, the scale
- * of the field, and the position of the largest difference. f: frame of run A with the reference positions. */
+/* Prints a row of the table of fields: the label with the unit, then from d the largest and the root-mean-square
+ * difference, the largest value of the field, and the reference position of the particle with the largest difference.
+ * f: frame of run A with the reference positions. */
 static void print_field(const char *label, const char *unit, const struct output_frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -184,7 +185,8 @@ static void print_time_apart(const struct pair *p, const struct output_frame *a,
                lammps[0] ? "B" : "A");
 }
 
-/* Compares two frames particle by particle and prints the differences. */
+/* Compares the frames a and b of the two runs particle by particle and prints the differences, or the reason why they
+ * cannot be compared. */
 static void compare_particles(struct pair *p, const struct output_frame *a, const struct output_frame *b)
 {
     const char *why = particles_differ(a, b);

@@ -57,8 +57,8 @@ struct check {
 
 static double check_at(const struct check *c, int64_t i, int column) { return c->h.value[i * c->h.columns + column]; }
 
-/* Sorts the n rows of check.csv by particle id, in a new array that replaces the old one. path: file name for messages.
- * FAILED unless all columns are present and the ids are 1..n. */
+/* Sorts the n rows of check.csv in c by particle id, in a new array that replaces the old one. path: file name for
+ * messages. Returns FAILED unless all columns are present and the ids are 1..n. */
 static status check_sort(struct check *c, int64_t n, const char *path)
 {
     const int id = history_find_column(&c->h, "id"), columns = c->h.columns;
