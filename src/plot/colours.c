@@ -116,8 +116,8 @@ struct colour colour_of_peridynamic_particle(double position)
 }
 struct colour colour_of_material_points(void) { return (struct colour){236, 233, 226, 255}; }
 
-/* Returns the colour of a fragment: light grey for fragment 0, the heaviest one; nine colours in turn for others;
- * nearly black for particles without bonds (-1). */
+/* Returns the colour of the fragment with the number `fragment`: light grey for number 0, the heaviest one; one of nine
+ * colours in turn for the others; nearly black for -1, which denotes particles without bonds. */
 struct colour fragment_colour(int32_t fragment)
 {
     static const struct colour turn[] = {{68, 119, 170, 255}, {238, 153, 51, 255},  {34, 136, 51, 255},

@@ -23,11 +23,13 @@ struct value_range {
     double low, high;
 };
 
-/* Returns the smallest and the largest finite value in the columns column[columns] of the history h. */
+/* Returns the smallest and the largest finite value in the columns of the history h whose indices are
+ * column[columns]. */
 struct value_range history_extent(const struct history *h, const int *column, int columns);
 
-/* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
- * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
+/* Writes the time and the columns with the indices column[columns] of the history s->h to gnuplot (the stream `to`) as
+ * the data block $data. Values of column[k] are divided by factor[k]. Long histories are reduced to a few thousand
+ * rows, the last one included. */
 void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
 
 /* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
@@ -39,22 +41,23 @@ struct curves_layout {
     bool key_below;
 };
 
-/* Lays out the picture that g draws. entries, longest: number of texts of the key, and number of letters of the longest
- * one; 0 entries: there is no key. second_axis: there is an axis on the right. The key is beside the panels; in narrow
- * pictures (gnuplot_is_narrow), or with a second axis, below them. */
+/* Returns the layout of the picture that g draws. entries: number of texts of the key (legend), 0 for a picture without
+ * key; longest: number of letters of the longest text; second_axis: true if there is a second vertical axis on the
+ * right. The key is beside the panels. In narrow pictures (gnuplot_is_narrow), or with a second axis, it is below
+ * them. */
 struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, size_t longest, bool second_axis);
 
 /* Returns the height between the upper edge of the first panel and the lower edge of the last one [pixel]. */
 double curves_layout_inner_height(const struct curves_layout *layout);
 
-/* Writes the gnuplot commands for the margins of a panel. from, end: its upper and lower edge, from the upper edge of
- * the first panel [pixel]. */
+/* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. from, end: distances of
+ * the upper and the lower edge of this panel from the upper edge of the first panel [pixel]. */
 void curves_write_panel(FILE *to, const struct curves_layout *layout, double from, double end);
 
 /* Writes the gnuplot command for the position of the key (legend) in the layout. */
 void curves_write_key(FILE *to, const struct curves_layout *layout);
 
-/* Writes the gnuplot commands for margins and key of a picture with one panel. */
+/* Writes the gnuplot commands for the margins and the key (legend) of a picture with one panel. */
 void curves_write_margins(FILE *to, const struct curves_layout *layout);
 
 /* Edges of two panels, one above the other, measured from the upper edge of the first one [pixel]. The lower panel has
@@ -64,8 +67,8 @@ struct two_panels {
 };
 struct two_panels curves_two_panels(const struct curves_layout *layout);
 
-/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` that is drawn on
- * `pixels` pixels. Tics are at least `apart` pixels apart, and there are at most about ten. */
+/* Returns the distance of tics, 1, 2 or 5 times a power of ten, for an axis whose values extend over `range` and that
+ * is `pixels` pixels long. Tics are at least `apart` pixels apart, and there are at most about ten. */
 double tic_distance(double range, double pixels, double apart);
 
 /* Writes the gnuplot command for the tics of the vertical axis "y" or "y2" of a panel of the given height [pixel],
@@ -76,11 +79,12 @@ void curves_write_tics(FILE *to, const char *axis, double low, double high, doub
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
+/* Writes the gnuplot commands for a heading above the picture. The heading is `title`, followed by `what` if `title`
+ * ends in a space. */
 void curves_write_title(const struct gnuplot *g, const char *title, const char *what);
 
-/* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.
- */
+/* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
+ * range and label. s: history that is drawn. */
 void curves_write_time_axis(FILE *to, const struct series *s);
 
 /* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
@@ -96,18 +100,18 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws the force over the displacement of each support and rigid body that bears a force, with its peak marked, to the
- * file `sheet`. title: heading of the picture; h: history of the run; in_steps: the run has load steps. If no support
- * or body carries a force or moves, prints that instead of drawing, and which probe would record it. Returns FAILED if
- * gnuplot fails. */
+/* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
+ * marked, to the file `sheet`. title: heading of the picture; h: history of the run; in_steps: true for a run with load
+ * steps. If no support or body carries a force or moves, prints this instead of drawing, and names the probe that would
+ * record it. Returns FAILED if gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
 
-/* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
- * fracture energy G_c of the materials, to the file `sheet`. folder: folder of the run; title: heading of the picture;
- * h: history of the run. If no crack has grown, prints that instead. Returns FAILED if gnuplot fails. */
+/* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve) to the file `sheet`, with
+ * lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture; h:
+ * history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
 
-/* Draws all pictures of history.csv of the run r->folder into r->pictures: crack, energy, sif, path and
+/* Draws all pictures of the history of the run in r->folder into the folder r->pictures: crack, energy, sif, path and
  * load_displacement, for load steps also r_curve (names in output/pictures.h). title: heading of each picture. Returns
  * FAILED if history.csv cannot be read or gnuplot fails. */
 status history_curves_draw(const struct plot_request *r, const char *title);
@@ -122,8 +126,8 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct output_frame *frame, int frames);
 
-/* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
- * stores its name in `name`. Returns false if there is none. */
+/* Finds an EXACT probe, which compares a bar with a closed-form solution, by its profiles in the folder of a run.
+ * Stores the name of the probe in `name`. Returns false if there is none. */
 bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with

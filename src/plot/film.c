@@ -24,8 +24,8 @@ struct ffmpeg {
     FILE *complaints; /* standard error of ffmpeg */
 };
 
-/* Runs in the child process: executes ffmpeg with the arguments word[]. from: descriptor of its standard input, -1:
- * none; complaints: descriptor of the file for its output and errors, -1: these are discarded. Does not return. */
+/* Replaces the child process by ffmpeg with the arguments word[]. from: descriptor that becomes its standard input, -1
+ * for none; complaints: descriptor of the file for its output and errors, -1 to discard them. Does not return. */
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
@@ -50,8 +50,8 @@ status film_check_encoder(void)
                                        "or take --format png");
 }
 
-/* Creates a pipe, ends[2], whose descriptors are closed in programs that are started later. Returns false and sets
- * errno if that fails. */
+/* Creates a pipe and stores its descriptors in ends[2]. They are closed in programs that are started later. Returns
+ * false and sets errno if the pipe cannot be created. */
 static bool pipe_make(int *ends)
 {
     if (pipe(ends) != 0) return false;
@@ -59,8 +59,8 @@ static bool pipe_make(int *ends)
     return true;
 }
 
-/* Starts ffmpeg for the film sheet.path, which it writes under a temporary name. The film is in H.264 with even numbers
- * of pixels, which most players support, or a GIF with a palette of its own. fps: frames per second; 0: the default.
+/* Starts ffmpeg, which writes the film sheet.path under a temporary name. The film is in H.264 with even numbers of
+ * pixels, which most players require, or a GIF with a palette of its own. fps: frames per second; 0: the default.
  * Returns FAILED if ffmpeg cannot be started. */
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {

@@ -34,8 +34,8 @@ void gnuplot_quote(FILE *to, const char *text)
     putc('\'', to);
 }
 
-/* Runs in the child process: executes gnuplot with standard input from the pipe pipe_ends[2]. complaints: descriptor of
- * the file for its output and errors. Does not return. */
+/* Replaces the child process by gnuplot, with standard input from the pipe pipe_ends[2]. complaints: descriptor of the
+ * file for its output and errors. Does not return. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
     interrupt_cleanup_prepare_child();
@@ -195,7 +195,7 @@ bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }
 enum { TITLE_LARGE = 16, TITLE_NARROW = 14, TITLE_ONE_LINE = 11, TITLE_SMALL = 7 };
 static const double LETTER_WIDE = 0.58;
 
-/* Returns the number of characters of n bytes of UTF-8. */
+/* Returns the number of characters in the first n bytes of `text`, which is in UTF-8. */
 static int letters_of(const char *text, size_t n)
 {
     int letters = 0;

@@ -51,9 +51,9 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
     return has;
 }
 
-/* Draws, for each frame of a run, the maps of damage, kinds of particles and the chosen field. A map is omitted if the
- * selected frames do not contain its quantity. has: contents of the selected frames. FAILED if a frame cannot be read
- * or gnuplot fails. */
+/* Draws, for each of the frames of a run, the maps of damage, kinds of particles and the chosen field. A map is omitted
+ * if the selected frames do not contain its quantity. view: shown rectangle and colours; has: contents of the selected
+ * frames. Returns FAILED if a frame cannot be read or gnuplot fails. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {
@@ -77,10 +77,10 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments. A map is omitted if the
- * frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected frames. If r->every is set,
- * also draws these maps for every frame of the run. REFUSED if the request does not suit the field; FAILED if a frame
- * cannot be read or gnuplot fails. */
+/* Draws the maps of damage, of the chosen field, of the kinds of particles and of fragments of a plane body or a slice.
+ * A map is omitted if the frames do not contain its quantity. cloud[frames->shown]: drawn particles of the selected
+ * frames. If r->every is set, also draws these maps for every frame of the run. Returns REFUSED if the request does not
+ * suit the field, FAILED if a frame cannot be read or gnuplot fails. */
 static status draw_flat(const struct plot_request *r, const struct run_frames *frames,
                         const struct plotted_particles *cloud)
 {
@@ -105,9 +105,9 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
 
-/* Draws an outside view of a three-dimensional run: the map of the chosen field, and the map of its cracks.
- * cloud[frames->shown]: drawn particles of the selected frames. REFUSED if the request does not suit the field; FAILED
- * if gnuplot fails. */
+/* Draws two maps of a three-dimensional run as seen from outside the body: the chosen field and the cracks.
+ * cloud[frames->shown]: drawn particles of the selected frames. Returns REFUSED if the request does not suit the field,
+ * FAILED if gnuplot fails. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames,
                            const struct plotted_particles *cloud)
 {

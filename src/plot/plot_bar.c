@@ -36,7 +36,7 @@ static status profile_read(struct history *h, const char *folder, const char *pr
 }
 
 /* Returns true if `file` in `folder` is the profile of a probe at the first frame and has the columns of a closed-form
- * solution. Stores the name of the probe in name[]. */
+ * solution. Stores the name of the probe in `name`. */
 static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_LENGTH])
 {
     const char ending[] = "_000000.csv";
@@ -51,8 +51,8 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* Stores in name[] the name of the first EXACT probe, in alphabetical order, of which a profile is in the folder of a
- * run. Returns false if there is none. */
+/* Finds the first EXACT probe, in alphabetical order, of which a profile is in the folder of a run, and stores its name
+ * in `name`. Returns false if there is none. */
 bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
@@ -78,7 +78,8 @@ struct scale {
     char label[64];
 };
 
-/* Extends the range s->low..high by the finite values in a column of h. column: its name; NULL: adds nothing. */
+/* Extends the range s->low..s->high by the finite values in the column of h with the name `column`. Adds nothing if
+ * `column` is NULL. */
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
     int at = column ? history_find_column(h, column) : -1;
@@ -97,9 +98,9 @@ static void power_text(char *text, size_t capacity, int power)
              raised[size % 10]);
 }
 
-/* Returns range, unit and label of the vertical axis of panel q, for its values in the profiles h[frames] of all
- * frames. The range has a margin at both ends. The unit of strains is a power of ten, that of other quantities has an
- * SI prefix. */
+/* Returns range, unit and label of the vertical axis of panel q (a row of the table `quantity`), for the values of this
+ * quantity in h[frames], the profiles of all frames. The range has a margin at both ends. The unit of strains is a
+ * power of ten, that of other quantities has an SI prefix. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};
@@ -137,8 +138,9 @@ static void send_number(FILE *to, double a)
         fputs(" NaN", to);
 }
 
-/* Sends the profile h of the k-th drawn frame as the data block $fK: x, then computed and exact values of every panel.
- * metre: unit of x [m]; scale[QUANTITIES]: units of the panels. */
+/* Sends the profile h of the k-th drawn frame to gnuplot as the data block $fK (K is the number k): the columns are x,
+ * then the computed and the exact value of every panel. metre: unit of x [m]; scale[QUANTITIES]: units of the
+ * panels. */
 static void send_frame(FILE *to, const struct history *h, int k, double metre, const struct scale *scale)
 {
     fprintf(to, "$f%d << EOD\n", k);

@@ -28,9 +28,10 @@ struct cube {
     double half[3], F[3][3], inverse[3][3], towards[3];
 };
 
-/* Intersects a line of sight of the camera `eye` with the cube b. at[2]: point of the line in the picture plane
- * relative to the cube's centre [m]. Returns the axis of the face through which the line leaves the cube towards the
- * viewer, and stores the depth of that point [m]. Returns -1 if the line misses the cube. */
+/* Intersects a line of sight of the camera `eye` with the deformed cube b. at[2]: distances of the line from the cube's
+ * centre in the picture plane, along eye->right and eye->up [m]. Returns the axis of the face through which the line
+ * leaves the cube towards the viewer, and stores in *depth the distance of that point from the picture plane [m].
+ * Returns -1 if the line misses the cube. */
 static int leaves_cube(const struct camera *eye, const struct cube *b, const double *at, double *depth)
 {
     double enters = -INFINITY, leaves = INFINITY;
@@ -66,7 +67,7 @@ static void cube_of(const struct scene_canvas *v, const struct plotted_particles
     }
 }
 
-/* Returns half the extent of a cube along the unit vector `direction` [m]. */
+/* Returns half the extent of the deformed cube b along the unit vector direction[3] [m]. */
 static double cube_reach(const struct cube *b, const double *direction)
 {
     double reach = 0;
@@ -78,8 +79,9 @@ static double cube_reach(const struct cube *b, const double *direction)
     return reach;
 }
 
-/* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the axes, weighted by the squared
- * components of the normal. Returns 1 if the view is along the normal. towards: direction to the viewer. */
+/* Returns the brightness of a face of a cube, 0..1: the mean of the brightnesses of the three axes, weighted by the
+ * squared components of the normal. It is 1 if the view is along the normal. face: axis of the face; towards[3]:
+ * direction to the viewer. */
 static double face_brightness(const struct cube *b, int face, const double *towards)
 {
     double length = 0, facing = 0, shade = 0;

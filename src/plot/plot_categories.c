@@ -31,16 +31,16 @@ static void category_name(char *name, size_t capacity, const char *field, int va
         snprintf(name, capacity, "%s %d", field, value);
 }
 
-/* Returns the value of particle i as a whole number from -1 to 2^24, also if the file that it was read from is
- * damaged. */
+/* Returns the value of particle i as a whole number. Values outside -1..2^24 and values that are no number, as in a
+ * damaged file, are replaced by one in this range. */
 static int category_value(const struct plotted_particles *c, int64_t i)
 {
     static const float MOST = 1 << 24;
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Returns an allocated array in which seen[1 + value] is true for each value that occurs in cloud[clouds]. Stores the
- * largest value in *last. The caller releases the array with memory_free. */
+/* Finds the values that occur in cloud[clouds]. Returns an allocated array in which seen[1 + value] is true for each of
+ * them, and stores the largest value in *last. The caller releases the array with memory_free. */
 static bool *values_seen(int *last, const struct plotted_particles *cloud, int clouds)
 {
     *last = -1;

@@ -22,8 +22,8 @@ static int64_t sample_count(int64_t n)
     return samples < n ? samples : n;
 }
 
-/* Returns the mean distance of the `dim` nearest neighbours of particle i [m]: even the corner of a lattice has `dim`
- * neighbours at one spacing. */
+/* Returns the mean distance of particle i of frame f from its f->dim nearest neighbours [m]. On a lattice this is the
+ * spacing, because even a particle at a corner has as many neighbours at this distance. */
 static double near_distance(const struct output_frame *f, int64_t i)
 {
     double nearest[DIM_MAX];
@@ -64,7 +64,7 @@ double frame_spacing(const struct output_frame *f)
 }
 
 /* Returns true if the direction from particle i to its nearest neighbour is within 8 degrees of an axis of the map.
- * X[2][n]: reference positions along the axes of the map [m]. */
+ * X[2][n]: reference positions of n particles along the axes of the map [m]. */
 static bool lies_along(float *const *X, int64_t n, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
@@ -114,7 +114,7 @@ static int thinnest_direction(const struct output_frame *f)
     return normal;
 }
 
-/* Returns the coordinate along the axis `normal` of the particle whose coordinate is nearest to `wanted` [m]. */
+/* Returns the coordinate along the axis `normal` [m] of the particle whose coordinate is nearest to `wanted` [m]. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
     double best = INFINITY, at = wanted;
@@ -191,7 +191,8 @@ struct camera camera_along_axis(int axis, int side)
     return c;
 }
 
-/* Computes the drawn position x = X + magnify u of particle i [3, m]; components that the space lacks are 0. */
+/* Computes the drawn position x[3] = X + magnify u of particle i [m]; components that the run lacks are 0. magnify:
+ * factor on displacements [1]. */
 static void place_now(const struct output_frame *f, int64_t i, double magnify, double *x)
 {
     for (int d = 0; d < 3; d++) x[d] = d < f->dim ? (double)f->X[d][i] + magnify * f->u[d][i] : 0;

@@ -174,8 +174,8 @@ static double coarse_tic_distance(double top)
 /* Position of the label of the balance error, whose numbers may be wide, and in narrow pictures [pixel]. */
 static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 
-/* Plots the balance error below the energies. l: layout of the picture; largest: largest magnitude of the error
- * [1]. */
+/* Plots the relative error of the energy balance over time in a panel below the energies. l: layout of the picture;
+ * largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
     const struct two_panels two = curves_two_panels(l);
@@ -302,9 +302,9 @@ static void profile_range(FILE *to, const struct output_frame *frame, int frames
     if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
 }
 
-/* Sends the frame f as the data block $fK of the k-th curve: position, velocity, stress and damage of the particles
- * from left to right. An empty line interrupts the curve where the bar has separated: neighbours are more than 1.5
- * `spacing` [m] apart. unit[3]: units of position, velocity and stress. */
+/* Sends the frame f to gnuplot as the data block $fK of the k-th curve: position, velocity, stress and damage of the
+ * particles from left to right. An empty line interrupts the curve where the bar has separated, that is, where
+ * neighbours are more than 1.5 `spacing` [m] apart. unit[3]: units of position, velocity and stress. */
 static void send_profile(FILE *to, const struct output_frame *f, int k, double spacing, const struct unit *unit)
 {
     struct station *s = NEW("plot.profile", f->n, struct station);
@@ -368,7 +368,8 @@ static void plot_profile(FILE *to, const struct output_frame *frame, int frames,
     putc('\n', to);
 }
 
-/* Returns the number of panels of a profile: the last one, damage, is left out if damage is zero in all frames. */
+/* Returns the number of panels of a picture of profiles. The last panel, damage, is left out if damage is zero in all
+ * of frame[frames]. */
 static int profile_panels(const struct output_frame *frame, int frames)
 {
     double damage = 0;
@@ -411,9 +412,9 @@ status bar_profiles_draw(struct sheet sheet, const char *title, const struct out
     return gnuplot_close(&g);
 }
 
-/* Sends the frame f as the data block $fK of the k-th curve: position and value[f->n] of a field from left to right. An
- * empty line interrupts the curve where the bar has separated: neighbours are more than 1.5 `spacing` [m] apart.
- * factor: units of position and value. */
+/* Sends the frame f to gnuplot as the data block $fK of the k-th curve: position and value[f->n] of a field from left
+ * to right. An empty line interrupts the curve where the bar has separated, that is, where neighbours are more than 1.5
+ * `spacing` [m] apart. factor[2]: units of position and value over the SI units. */
 static void send_field(FILE *to, const struct output_frame *f, int k, const float *value, double spacing,
                        const double factor[2])
 {

@@ -47,22 +47,23 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
     return sqrt(now / first) - 1;
 }
 
-/* Returns true if the particles i and j belong to one body, none of them is rubble, and no pre-crack separates them. */
+/* Returns true if the particles i and j belong to one body, none of them has lost more than the share LOOSE of its
+ * bonds, and no pre-crack separates them. */
 static bool same_side(const struct pairs *p, int64_t i, int64_t j)
 {
     return p->f->body[i] == p->f->body[j] && fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE &&
            !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
-/* Returns true if the neighbours i and j are certainly connected: they are on one side of all pre-cracks, and at least
- * one of them has all its bonds. */
+/* Returns true if the neighbours i and j are certainly connected: no pre-crack separates them, they belong to one body,
+ * and at least one of them has all its bonds. */
 static bool surely_connected(const struct pairs *p, int64_t i, int64_t j)
 {
     return same_side(p, i, j) && (p->f->damage[i] <= 0 || p->f->damage[j] <= 0);
 }
 
-/* Returns the largest elongation for which a pair of particle i and a particle near it counts as connected [1]: JUMP
- * plus JUMP_TIMES the median elongation of its pairs. near: particles near i. */
+/* Returns the largest elongation |x_j - x_i|/|X_j - X_i| - 1 for which a particle j near particle i counts as connected
+ * to it: JUMP + JUMP_TIMES * (median elongation of the pairs of i). near: particles near i. */
 static double jump_of(const struct pairs *p, const struct neighbour_list *near, int64_t i)
 {
     double all[NEAR_MOST];
@@ -72,8 +73,8 @@ static double jump_of(const struct pairs *p, const struct neighbour_list *near, 
     return n > 0 ? JUMP + JUMP_TIMES * fmax(median_by_sorting(all, n), 0) : JUMP;
 }
 
-/* Returns true if the neighbours i and j are drawn as connected. jump: largest elongation for which a pair of particle
- * i counts as connected (jump_of). */
+/* Returns true if the neighbours i and j are drawn as connected. jump: largest elongation |x_j - x_i|/|X_j - X_i| - 1
+ * for which a neighbour of particle i counts as connected. */
 static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
 {
     const double longer = elongation(p->f, i, j);
@@ -82,7 +83,9 @@ static bool connected(const struct pairs *p, int64_t i, int64_t j, double jump)
     return longer <= most && same_side(p, i, j);
 }
 
-/* Returns the elongation above which two neighbours that have both lost bonds are drawn apart [1]. */
+/* Returns the elongation |x_j - x_i|/|X_j - X_i| - 1 above which two neighbours i and j that have both lost bonds are
+ * drawn apart. It is PARTED_MORE times the 99th percentile of the elongations of neighbours that are certainly
+ * connected, and at least PARTED/p->magnify. */
 static double parted_limit(const struct pairs *p)
 {
     struct neighbour_list near = {0};
@@ -103,8 +106,8 @@ static double parted_limit(const struct pairs *p)
 }
 
 /* Computes the deformation gradient F[9] of particle i, rows along x, y, z, as the least-squares fit to its connected
- * neighbours (Silling et al. 2007 with unit weights). In directions that the neighbours do not span, F is the identity.
- * near: work list for neighbours. */
+ * neighbours (Silling et al. 2007 with unit weights). Displacements are magnified by p->magnify. In directions that the
+ * neighbours do not span, F is the identity. near: work list for neighbours. */
 static void gradient_of(const struct pairs *p, struct neighbour_list *near, int64_t i, float *F)
 {
     const struct output_frame *f = p->f;

@@ -55,8 +55,8 @@ static void say_categories(const struct categories *k)
     putchar('\n');
 }
 
-/* Prints which field was drawn to which file, with the numbers of frames and particles and the range of the colours in
- * SI units. Returns FAILED if standard output cannot be written. */
+/* Prints which field was drawn to the file `path`, with the number of frames, the number of particles and the range of
+ * the colours in SI units. Returns FAILED if standard output cannot be written. */
 static status say_field(const char *path, const struct view *view, const struct plot_request *r, int frames,
                         int64_t particles)
 {
@@ -134,8 +134,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     return s;
 }
 
-/* Checks that slice or outside view suit the dimension of a run. REFUSED if the request has a slice or an outside view
- * for a run in one or two dimensions. */
+/* Checks that the slice or the outside view of the request suits a run in `dim` dimensions. Returns REFUSED if the
+ * request has one of them and the run has one or two dimensions. */
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;

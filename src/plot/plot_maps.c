@@ -32,8 +32,8 @@ enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
 enum { KEY_LINE = 22 };                  /* distance of lines of the key [pixel] */
 static const double SHAPE_WANTED = 0.72; /* height over width of the picture */
 
-/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
- * panel; margins: layout with the margins of the panels. */
+/* Returns the layout of a picture with `panels` panels in `columns` columns. aspect: height over width of a panel;
+ * margins: layout in which the margins of the panels are set. */
 static struct layout layout_of(int columns, int panels, double aspect, const struct layout *margins)
 {
     struct layout l = *margins;
@@ -57,7 +57,8 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
 }
 
 /* Returns the layout of `panels` panels with the best compromise between large panels, a picture of the shape
- * SHAPE_WANTED and few empty positions. aspect, margins: as for layout_of. */
+ * SHAPE_WANTED (height over width) and few empty positions. aspect: height over width of a panel; margins: layout in
+ * which the margins of the panels are set. */
 static struct layout layout_choose(int panels, double aspect, const struct layout *margins)
 {
     struct layout best = layout_of(1, panels, aspect, margins);
@@ -75,8 +76,8 @@ static struct layout layout_choose(int panels, double aspect, const struct layou
     return best;
 }
 
-/* Writes the gnuplot margins of a box of the given width and height. left, above: its upper left corner. All lengths
- * are in pixels. */
+/* Writes the gnuplot commands that place a plot in a box of the picture. left, above: upper left corner of the box;
+ * width, height: its size. All lengths are in pixels. */
 static void set_box(FILE *to, const struct layout *l, double left, double above, double width, double height)
 {
     fprintf(to, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left / l->width, (left + width) / l->width);
@@ -99,7 +100,8 @@ void panel_write_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* Returns the width of the longest of the numbers at tics between `low` and `high` [pixel]. */
+/* Returns the width of the longest number at the tics of an axis from `low` to `high` [pixel]. tics: distance of the
+ * tics; format: printf format of the numbers. */
 static double numbers_width(double low, double high, double tics, const char *format)
 {
     int longest = 0;
@@ -111,11 +113,12 @@ static double numbers_width(double low, double high, double tics, const char *fo
     return (gnuplot_is_narrow() ? 7.4 : 9) * longest;
 }
 
-/* Returns the number of multiples of `tics` between `low` and `high`. */
+/* Returns the number of multiples of `tics` from `low` to `high`. */
 static double tics_within(double low, double high, double tics) { return floor(high / tics) - ceil(low / tics) + 1; }
 
-/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
- * that there are two at least: a single one gives no scale. */
+/* Returns the distance of tics of a horizontal axis from `low` to `high` that is `pixels` pixels long. The numbers at
+ * the tics do not touch, unless the axis is too short for two tics: it always has at least two, since a single one
+ * gives no scale. */
 static double tics_across(double low, double high, double pixels)
 {
     double apart = 20, tics = tic_distance(high - low, pixels, apart);
@@ -166,9 +169,9 @@ void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view
         metre->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
 }
 
-/* Draws the panel number `place`, counted row by row from 0: the map of the particles c of one frame, with axes and
- * title. second: unit of the time in the title; lowest: no panel is below this one, so that its horizontal axis has
- * labels. */
+/* Draws panel number `place`, counted row by row from 0: the map `map` of the particles c of one frame, with axes and
+ * title. second: unit of the time in the title; lowest: true if no panel is below this one, so that its horizontal axis
+ * has labels. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view,
                                  const struct plotted_particles *c, enum map map, const struct unit *second, int place,
                                  bool lowest)
@@ -230,8 +233,8 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     return s;
 }
 
-/* Prints at the ends of a colour bar, `height` pixels high, which share of the particles has values beyond them.
- * particles: number of particles of a frame. */
+/* Prints at the ends of the colour bar which share of the particles has values beyond them. particles: number of
+ * particles of a frame; height: height of the bar [pixel]. */
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int height)
 {
     for (int end = 0; end < 2; end++) {
@@ -343,8 +346,9 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
     if (k->more > 0) key_entry(to, l, x, l->above + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Returns a layout in which only the margins of the panels are set. The right margin holds the colour bar, or the key
- * of named values. outside: the map is an outside view, whose axes are in the lower margin. */
+/* Returns a layout in which only the margins of the panels are set. The right margin has space for the colour bar or
+ * for the key of named values. outside: true for a view of a 3D body from outside, whose axes are drawn in the lower
+ * margin. */
 static struct layout margins_of(const struct view *view, enum map map, bool outside)
 {
     const bool narrow = gnuplot_is_narrow(), key = map == MAP_KIND || map == MAP_FRAGMENT;

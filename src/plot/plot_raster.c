@@ -51,9 +51,9 @@ static double outline_reach(const struct outline *s, int k)
     return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));
 }
 
-/* Returns the distance [m] from the centre of a particle to the material point that is drawn at `off` [2, m] from the
- * centre, measured before the deformation. Returns INFINITY if the point is outside the particle enlarged by `beside`
- * [m]. */
+/* Returns the distance [m] between the centre of a particle and one of its points before the deformation. off[2]: drawn
+ * position of this point relative to the centre [m]. Returns INFINITY if the point is outside the particle enlarged by
+ * `beside` [m]. */
 static double distance_within(const struct outline *s, const double *off, double beside)
 {
     double xi[2];
@@ -67,8 +67,8 @@ static double distance_within(const struct outline *s, const double *off, double
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
 static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
 
-/* Returns the pre-crack within the distance `reach` [m] of the reference position of particle i. Returns NULL if there
- * is none, or if the map does not show pre-cracks. */
+/* Returns the pre-crack of the view that is within the distance `reach` [m] of the reference position of particle i.
+ * Returns NULL if there is none, or if maps of the kind `map` do not show pre-cracks. */
 static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
                                    enum map map)
 {
@@ -80,8 +80,9 @@ static const struct crack *face_at(const struct view *view, const struct plotted
     return NULL;
 }
 
-/* Returns true if a material point is within `half` [m] of the pre-crack `face` (may be NULL) in the reference state.
- * off: drawn position of the point from the centre of particle i [2, m]; s: shape of the particle. */
+/* Returns true if a point of particle i is within `half` [m] of the pre-crack `face` in the reference state. off[2]:
+ * drawn position of the point relative to the centre of the particle [m]; s: shape of the particle. Returns false if
+ * `face` is NULL. */
 static bool on_crack_face(const struct crack *face, const struct plotted_particles *c, int64_t i,
                           const struct outline *s, const double *off, double half)
 {
@@ -90,9 +91,9 @@ static bool on_crack_face(const struct crack *face, const struct plotted_particl
     return face && segment_distance(face->corner[0], face->corner[1], X, 2) < half;
 }
 
-/* Paints particle i on all pixels that it covers, except those with a particle of better rank. The rank is better the
- * nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the more damaged the
- * particle is. */
+/* Paints particle i on all pixels that it covers, except those on which a particle of higher rank is painted. The rank
+ * is higher the nearer the centre of the particle is to the pixel. If pixels are larger than particles, it is higher
+ * the more damaged the particle is. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
                            enum map map)
 {

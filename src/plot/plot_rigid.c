@@ -40,7 +40,7 @@ void plotted_particles_add_rigids(struct plotted_particles *c, const struct outp
 }
 
 /* Returns the level set of a rigid body at the present position x[3] [m]: the distance from its surface [m], negative
- * inside. dim: dimension of the run; cut: an unbounded body is cut to its box. */
+ * inside. dim: dimension of the run; cut: true to cut an unbounded body to its box r->low..r->high. */
 static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};
@@ -53,7 +53,7 @@ static double level_at(const struct rigid_shown *r, int dim, const double *x, bo
     return level;
 }
 
-/* Returns the present coordinate along the direction axis[dim] [m] of corner k of the box of a rigid body. Bit d of k
+/* Returns the present coordinate of corner k of the box of a rigid body along the unit vector axis[dim] [m]. Bit d of k
  * selects the upper end of the box along axis d. */
 static double corner_along(const struct rigid_shown *r, int dim, int k, const double *axis)
 {
@@ -80,8 +80,8 @@ void view_show_rigids(struct view *v, const struct plotted_particles *c)
             }
 }
 
-/* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels, at the depth `depth` towards the
- * viewer [m]. */
+/* Computes the position x[3] [m] of pixel q of a picture of size[0] x size[1] pixels. Pixels are counted row by row
+ * from the lower left corner. depth: distance of x from the picture plane towards the viewer [m]. */
 static void pixel_position(const struct plotted_particles *c, const struct view *v, const int *size, int64_t q,
                            double depth, double *x)
 {
@@ -119,9 +119,9 @@ void rigids_paint_flat(struct colour *pixel, int width, int height, const struct
         }
 }
 
-/* Returns the brightness of the surface of a rigid body at x[3] [m], from its normal: the brightnesses of the axes,
- * weighted by the squared components of the normal, and less where the surface turns away. towards: direction to the
- * viewer; step: distance for differences of the level set [m]. */
+/* Returns the brightness of the surface of the rigid body r at x[3] [m]. It is the mean of the brightnesses of the
+ * axes, weighted by the squared components of the normal, and is reduced where the surface turns away from the viewer.
+ * towards[3]: direction to the viewer; step: distance for finite differences of the level set [m]. */
 static double brightness_at(const struct rigid_shown *r, const double *x, const double *towards, double step)
 {
     double normal[3], length = 0, shade = 0, facing = 0;

@@ -10,8 +10,8 @@
 /* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, LEAST_ROWS = 3 };
 
-/* Finds the columns of the history whose names end in `quantity`, for example ".K_I". Stores the parts of the names
- * before it, the names of the probes, in name[most]. Returns their number, at most `most`. */
+/* Finds the columns of the history whose names are the name of a probe followed by `quantity`, for example ".K_I".
+ * Stores the names of the first `most` probes in name[]. Returns their number. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);
@@ -42,8 +42,8 @@ struct factors {
     struct unit unit;
 };
 
-/* Finds the columns of K_I, K_II and contour_spread of the first PROBES_SHOWN probes of stress-intensity factors, and a
- * unit for the largest factor. */
+/* Finds the columns of K_I, K_II and contour_spread (relative difference between integration contours) of the first
+ * PROBES_SHOWN probes of stress-intensity factors, and a unit for the largest factor. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
@@ -73,8 +73,8 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Plots the relative differences between the integration contours of each probe. More than 1/2 indicates waves or a
- * kink of the crack within the contours. */
+/* Plots the relative differences of K between the integration contours of each probe. Values above 1/2 indicate waves,
+ * or a kink of the crack, within the contours. l: layout of the picture; f: columns of the probes. */
 static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
     const struct two_panels two = curves_two_panels(l);
@@ -185,9 +185,9 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
     fputs("EOD\n", to);
 }
 
-/* Computes the end of the line that shows the crack angle of an experiment, end[2] [m]. The line begins at the start of
- * the path w, is as long as the path has grown, and is on the side to which the path has turned. Returns false if the
- * path has no experiment. */
+/* Computes the end point end[2] [m] of a line at the crack angle that an experiment measured. The line begins at the
+ * start of the path w, is as long as the crack has grown, and is on the side to which the path has turned. Returns
+ * false if the scene states no experiment for this path. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -200,8 +200,8 @@ static bool ray_of(const struct tip_path *w, double end[2])
 /* Size of the picture of paths, and least width of its panel [pixel]. */
 enum { PATH_WIDE = 940, PATH_HIGH = 760, PATH_LOW = 200 };
 
-/* Computes the rectangle low[2]..high[2] [m] that contains the ends of the n paths w and the lines of experiments, with
- * a margin. Each of its sides is at least a quarter of the longest one. */
+/* Computes the corners low[2] and high[2] [m] of a rectangle that contains the ends of the n paths w and of the lines
+ * at experimental angles, with a margin. Each of its sides is at least a quarter of the longest one. */
 static void paths_extent(const struct tip_path *w, int n, double *low, double *high)
 {
     double end[2], longer = 0;

@@ -42,7 +42,8 @@ struct components {
 };
 
 /* Returns the columns of the components of a vector quantity of a probe or rigid body; n = 0 if there are none. The
- * name of a column is `probe`, `by` and `quantity` followed by the axis, for example NAME.force_x. */
+ * name of such a column is `probe`, `by` and `quantity` joined, followed by the axis: for example NAME.force_x for the
+ * probe NAME, "." and "force_". */
 static struct components components_of(const struct history *h, const char *probe, const char *by, const char *quantity)
 {
     struct components c = {0};
@@ -92,8 +93,8 @@ static int64_t peak_of(const struct history *h, const struct components *force)
     return at;
 }
 
-/* Finds the first column, from column `from` on, whose name ends in `quantity`. Returns its index and stores the part
- * of its name before `quantity`, the name of the probe, in name[]. Returns -1 if there is none. */
+/* Finds the first column, from column `from` on, whose name is the name of a probe followed by `quantity`. Returns its
+ * index and stores the name of the probe in `name`. Returns -1 if there is none. */
 static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
 {
     const size_t tail = strlen(quantity);
@@ -107,8 +108,9 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Appends to the curves of r the rigid bodies that carry a force and move, and if `resting` is true also those that
- * carry a force at rest. Returns true if one of them moves. */
+/* Appends to r the curves of force over displacement of the rigid bodies that carry a force and move. If `resting` is
+ * true, also appends those of bodies that carry a force and do not move. Returns true if one of the appended bodies
+ * moves. */
 static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
 {
     char name[NAME_MAX_LENGTH];
@@ -175,8 +177,8 @@ static bool curves_coincide(const struct reactions *r, const struct history *h, 
     return true;
 }
 
-/* Makes one curve with both names of each two that coincide: a support is also measured by a probe, or by the opposite
- * one. */
+/* Merges curves that coincide into one that has the names of both. Curves coincide, for example, if two probes measure
+ * the same support or opposite supports. */
 static void reactions_join(struct reactions *r, const struct history *h)
 {
     int kept = 0;
@@ -207,8 +209,8 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Plots the curves of force over displacement, each with a ring at its largest force. newton, metre: units of the
- * axes. */
+/* Plots the curves r of force over displacement, each with a ring at its largest force. newton, metre: units of the
+ * vertical and the horizontal axis. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
 {
@@ -227,9 +229,9 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints why the picture `path` of load over displacement is not drawn. Prints nothing for a run in time (in_steps
- * false) without support and without a rigid body that carries a load. Returns FAILED if standard output cannot be
- * written. */
+/* Prints why the picture `path` of load over displacement is not drawn. r: the curves found. in_steps: true for a run
+ * with load steps. Prints nothing for a run in time that has neither a support nor a rigid body that carries a load.
+ * Returns FAILED if standard output cannot be written. */
 static status say_missing_load(const char *path, const struct reactions *r, bool in_steps)
 {
     if (r->n > 0)
@@ -291,8 +293,8 @@ static struct unit unit_for_area(double largest)
     return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
 }
 
-/* Sends the data block $data: crack area and energy release rate of each load step in which the crack has grown.
- * area, rate: columns of the history; square: unit of area; factor: unit of the rate. */
+/* Sends the data block $data to gnuplot: crack area and energy release rate of each load step in which the crack has
+ * grown. area, rate: columns of the history h; square: unit of area; factor: unit of the rate [J/m^2]. */
 static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
 {
     double before = 0;

@@ -14,8 +14,8 @@ static int plot_view_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Copies the finite ones of value[n], at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST] in
- * ascending order. Returns their number. */
+/* Copies the finite values among value[n], at most SAMPLE_MOST of them evenly spaced by index, into sample[SAMPLE_MOST]
+ * and sorts them in ascending order. Returns their number. */
 static int64_t sample_sorted(float *sample, const float *value, int64_t n)
 {
     const int64_t stride = n / SAMPLE_MOST + 1;
@@ -30,8 +30,8 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of value[n] without the lowest and the highest values. At each end it leaves out the share `share`
- * of the values, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an
+/* Returns the range of value[n] without the lowest and the highest values. The share `share` of the values is left out
+ * at each end, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an
  * empty range if no value is finite. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
@@ -47,9 +47,9 @@ static struct span values_extent(const float *value, int64_t n)
     return s;
 }
 
-/* Returns the range to be shown along axis k of the map [m]. It contains the initial body and, for each of
- * cloud[clouds], all particles but 1 % at each end, extended by 20 % of their range. It is not larger than the extent
- * of all particles. */
+/* Returns the range to be shown along axis k of the map [m]. It contains the initial body. For each of cloud[clouds] it
+ * contains the range of the particles without the outermost 1 % at each end, extended by 20 % at both ends. It is
+ * limited to the extent of all particles. */
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -105,8 +105,9 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
     return v;
 }
 
-/* Returns the smallest range that contains the range without extremes of the values of each of cloud[clouds]. Of each
- * cloud it leaves out at each end the share `share` of the values, or `few` values if these are more. */
+/* Returns the range of the values of all particles without extremes. It is the smallest range that contains the reduced
+ * ranges of all of cloud[clouds]: of each cloud the share `share` of the values is left out at each end, or `few`
+ * values if these are more. */
 static struct span values_bulk(const struct plotted_particles *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
@@ -129,8 +130,8 @@ void view_set_field(struct view *v, const struct plot_field *field, const struct
     if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
 }
 
-/* Reads an end of the colour scale of a field into *value from a text with a unit of the field. REFUSED for other
- * texts. */
+/* Reads one end of the colour scale of a field from `text`, a number with a unit of the field, into *value. Returns
+ * REFUSED for other texts. */
 static status range_end_read(real *value, const char *text, const struct plot_field *field)
 {
     char what[256];
@@ -154,8 +155,8 @@ static void count_beyond(struct view *v, const struct plotted_particles *cloud, 
     }
 }
 
-/* Sets the rectangle of a view, and the ends and table of its colours, to the options of the request. REFUSED if an end
- * of the colours is no number with a unit of the field, or if the ends are in the wrong order. */
+/* Sets the rectangle of the view v, and the ends and the table of its colours, to the options of the request r. Returns
+ * REFUSED if an end of the colours is no number with a unit of the field, or if the ends are in the wrong order. */
 static status view_set_options(struct view *v, const struct plot_request *r)
 {
     v->table = r->table;
@@ -173,8 +174,8 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     return OK;
 }
 
-/* Returns true if the rectangle of a view holds something of one of cloud[clouds]: a particle, up to two spacings
- * beside it, or a part of a rigid body. */
+/* Returns true if the rectangle of a view shows a part of one of cloud[clouds]: a particle in the rectangle or within
+ * two spacings of it, or a part of a rigid body. */
 static bool view_shows_any(const struct view *v, const struct plotted_particles *cloud, int clouds)
 {
     bool any = false;
@@ -186,8 +187,8 @@ static bool view_shows_any(const struct view *v, const struct plotted_particles 
     return any;
 }
 
-/* Returns REFUSED if a view is cropped to a rectangle beside all that there is to draw. around: the view of all of it.
- */
+/* Returns REFUSED if the view v is cropped to a rectangle in which there is nothing to draw, else OK. around: view of
+ * everything, whose rectangle the message states. */
 static status view_check_crop(const struct view *v, const struct view *around, const struct plot_request *r,
                               const struct plotted_particles *cloud, int clouds)
 {

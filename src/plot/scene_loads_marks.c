@@ -18,8 +18,8 @@ static int add_words(char *text, int length, const char *words)
     return length + more < TEXT ? length + more : TEXT - 1;
 }
 
-/* Appends a value with its unit to text[TEXT], for example ` 12 MPa`, and returns the new length. length: of the text
- * before; unit: without prefix. */
+/* Appends a value with its unit to text[TEXT], for example ` 12 MPa`, and returns the new length. length: present
+ * length of the text; unit: unit of the value without SI prefix, which is chosen here. */
 static int add_value(char *text, int length, double value, const char *unit)
 {
     char words[64];
@@ -60,16 +60,17 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary condition of the scene that the load l represents. Static solvers replace the boundaries of the
- * scene, so that l->boundary may have velocities in place of prescribed displacements. */
+/* Returns the boundary condition of the scene from which the load l was made. It is not always l->boundary, since
+ * static solvers replace prescribed displacements in it by velocities. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
     return number < e->scene->boundaries ? &e->scene->boundary[number] : l->boundary;
 }
 
-/* Computes vector[dim], the vector of a load at its k-th particle and time t [s], and returns its magnitude, both in
- * the unit of unit_of_value. */
+/* Computes vector[dim], the force density, displacement or velocity that the load l prescribes for its k-th particle at
+ * time t [s], in the unit in which loads of this kind are given (such as Pa). Returns its magnitude in this unit. For a
+ * pressure the vector has the direction of the force. */
 static double vector_at(const struct run *e, const struct load *l, int64_t k, double t, real *vector)
 {
     const struct particles *p = &e->part;
@@ -98,7 +99,8 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
 }
 
 /* Returns the largest magnitude of load l at time t [s] and the number of particles on which it is not 0. Only every
- * `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included; NULL: all particles are. */
+ * `every`-th particle of the load is evaluated. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all
+ * particles are included. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -116,8 +118,8 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
     return a;
 }
 
-/* Sets the mark of a particle that has a face under pressure. context: uint8_t marks of all particles. Called by
- * pressure_visit_faces. */
+/* Sets the mark of particle `particle`, which has a face under pressure, to 1. context: uint8_t array with a mark for
+ * each particle. It is called by pressure_visit_faces for each face. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
@@ -140,7 +142,8 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 }
 
 /* Returns the state of load l at the time at which its magnitude is largest, among evenly spaced times and the
- * characteristic times of its time function. on[i]: 1 if particle i is included; NULL: all particles are. */
+ * characteristic times of its time function. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles
+ * are included. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
@@ -164,8 +167,8 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
     return most;
 }
 
-/* Writes the description of a boundary condition for the key into text[TEXT]: name, kind, largest value, components or
- * face, and number of particles. acting: state of the load at its largest magnitude. */
+/* Writes the line that describes boundary condition b in the key into text[TEXT]: name, kind, largest value, components
+ * or face, and number of particles. acting: state of the load at its largest magnitude. */
 static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
 {
     char face[16], many[64];
@@ -208,7 +211,8 @@ struct chosen {
     int64_t layers[DIM_MAX], every;
 };
 
-/* Returns true if particle i is on a layer that is drawn along every axis. */
+/* Returns true if the arrow of particle i is drawn: along every axis the particle is on one of the lattice layers that
+ * the selection c draws. */
 static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
 {
     real X[DIM_MAX];
@@ -229,8 +233,8 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
     return n;
 }
 
-/* Returns the selection of particles of a load with the smallest distance between drawn layers for which at most `most`
- * particles are drawn. */
+/* Selects the particles of load l whose arrows are drawn. Along each axis they are on every n-th layer of the lattice,
+ * with the smallest n for which at most `most` particles are selected. Returns the selection. */
 static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
 {
     const struct particles *p = &m->engine->part;
@@ -251,8 +255,8 @@ static struct chosen choose_particles(const struct marks *m, const struct load *
 }
 
 /* Draws the arrows of load l at its particles. An arrow of tension begins at the particle, an arrow of compression ends
- * there. on[i]: 1 if particle i is included; NULL: all particles are. acting: time for which the arrows are drawn, and
- * largest magnitude of the load at this time, whose arrow has full length. */
+ * at it. on[i]: 1 if particle i is included, else 0; if `on` is NULL, all particles are included. acting: time for
+ * which the arrows are drawn, and largest magnitude of the load at this time, which is drawn with full length. */
 static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t *on, const struct acting *acting)
 {
     const struct particles *p = &m->engine->part;

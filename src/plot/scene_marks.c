@@ -132,7 +132,7 @@ static void tip_marks(struct marks *m)
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position, line or region of probe k, with `text` as its entry in the key (empty: none). A probe without a
+/* Draws the position, line or region of probe number k. text: its entry in the key, "" for none. A probe without a
  * position is listed in the key only. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {

@@ -17,16 +17,16 @@ struct marks {
     int keys, letters;            /* number of lines of the key so far, and of letters of the longest one */
 };
 
-/* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with
- * marks_add_point and end it with marks_end_block. */
+/* Begins a gnuplot data block, which contains the points or arrows of one kind of symbol. Add its lines with
+ * marks_add_point and end the block with marks_end_block. */
 void marks_begin_block(struct marks *m);
 
-/* Adds a line to the data block: the point X [m], projected onto the picture, and the projection of `vector` [m], NULL
- * for none. */
+/* Adds a line to the current data block: the point X (coordinates [m]), projected onto the picture, and the projection
+ * of the arrow `vector` [m]. vector: NULL for a point without an arrow. */
 void marks_add_point(struct marks *m, const real *X, const double *vector);
 
-/* Ends the data block and adds the element that draws it to the plot command. style: style in that element; key_text:
- * line of the key, "" for none. */
+/* Ends the current data block and adds the element that draws it to the plot command. style: text of this element after
+ * the name of the block, such as "using 1:2 with points"; key_text: its line in the key, "" for none. */
 void marks_end_block(struct marks *m, const char *style, const char *key_text);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */

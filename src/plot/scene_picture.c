@@ -53,9 +53,10 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
-/* Appends the particles p to the cloud c, coloured by material or body. part: all particles of the run. spacing[p->n]:
- * edges of the points of coarse cells [m]; NULL: the particles have the spacing of the scene, and peridynamic ones are
- * darker if there are both kinds. */
+/* Appends the particles p to the cloud c, coloured by material or body. part: all particles of the run. spacing: NULL
+ * if p are the particles of the run. These have the spacing of the scene s, and peridynamic ones are darker if both
+ * kinds occur. Otherwise p are points that represent coarse cells, and spacing[p->n] are the edges of the points
+ * [m]. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -69,9 +70,9 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
     }
 }
 
-/* Computes a lattice of sites in the bounding box of a rigid body, or in the box around the particles if the body is
- * unbounded. Stores its lower corner from[] [m], the number of sites along each axis count[] and their distance *step
- * [m]. Returns the number of sites. */
+/* Computes a lattice of sites in the bounding box of a rigid body. For an unbounded body the box is that of the
+ * particles, enlarged at each side. shape: shape of the body. Stores the lower corner of the lattice in from[dim] [m],
+ * the number of sites along each axis in count[dim] and their distance in *step [m]. Returns the number of sites. */
 static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
                            int64_t *count, double *step)
 {
@@ -204,7 +205,7 @@ static double arrow_length(const struct plotted_particles *c)
 }
 
 /* Returns the layout of a picture with the view v and a key of `lines` lines. If panel and key do not fit into the size
- * that the user has chosen (picture_size_set), returns the layout of a larger picture of the same shape. */
+ * that the user has chosen (picture_size_set), the picture is larger and has the same shape. */
 static struct layout scene_layout(const struct view *v, int lines)
 {
     const bool narrow = gnuplot_is_narrow();
@@ -266,8 +267,8 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
 }
 
-/* Sends the image of the particles, then the marks, in one plot command. marks: plot arguments of the marks; metre:
- * unit of the axes. */
+/* Writes one gnuplot plot command that draws the image of the particles c, and the marks over it. marks: elements of
+ * the plot command for the marks; metre: unit of the axes. */
 static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
                        const struct unit *metre, const char *marks)
 {
