@@ -10,14 +10,15 @@
 static const real WEIGHT_NEAR = 1e-6;
 
 /* Returns the share beta(r) of the volume of a neighbour at distance r [m] in the LAMMPS styles peri/pmb and peri/lps:
- * beta = 1/2 + (cutoff - r)/lattice within half a lattice constant of the cutoff, and 1 closer to the particle. */
+ * beta = 1/2 + (x->cutoff - r)/x->lattice within half a lattice constant of the cutoff, and 1 closer to the
+ * particle. */
 static real lammps_share(const struct exported *x, real r)
 {
     return fabs(r - x->cutoff) <= 0.5 * x->lattice ? 0.5 + (x->cutoff - r) / x->lattice : 1;
 }
 
-/* Returns the squared distance of the particles i and j at rest as LAMMPS computes it [m^2]. In 2D all particles are at
- * z = 0. */
+/* Returns the squared reference distance of the particles i and j [m^2], with the same rounding as in LAMMPS. In 2D all
+ * particles are at z = 0. */
 static real distance2(const struct particles *p, int64_t i, int64_t j)
 {
     real sum = 0;
@@ -25,8 +26,8 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
     return sum;
 }
 
-/* Returns the micro-modulus of a bond between the materials a and b over the one of material 0 [1]. The two halves of
- * the bond act as springs in series: c = 2 c_a c_b/(c_a + c_b). */
+/* Returns the ratio c/c_0 of the micro-modulus c of a bond between the materials a and b to that of material 0 [1]. The
+ * two halves of the bond act as springs in series: c = 2 c_a c_b/(c_a + c_b). */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -56,8 +57,8 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
 }
 
 /* Sets bonded[j] = i + 1 for each neighbour j of particle i to which the scene has a bond, and stores the number of
- * these bonds in *n. REFUSED if a bond is longer than the cutoff of LAMMPS by round-off, as can happen to bonds of
- * exactly the length of the horizon, or if its weight differs from the one in LAMMPS. */
+ * these bonds in *n. Returns REFUSED if LAMMPS would give a bond another weight, or if a bond is longer than the cutoff
+ * of LAMMPS by round-off. The latter can occur for bonds as long as the horizon. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -75,7 +76,7 @@ static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int
     return OK;
 }
 
-/* Finds the particles to which LAMMPS would bond particle i, those within its cutoff. Stores their indices in
+/* Finds the particles to which LAMMPS would bond particle i: those within its cutoff. Stores their indices in
  * found[capacity] and returns their number. */
 static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int capacity)
 {
@@ -103,9 +104,9 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo 2 m +
- * 1 spacings along each axis, where bonds reach m spacings far. The positions of two neighbours modulo 2 m + 1 thus
- * determine the vector between them. */
+/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo p = 2
+ * m + 1 spacings along each axis, where m is the reach of bonds [spacings]. Two neighbours are at most m spacings apart
+ * along each axis, so that the vector between them follows from their positions modulo p. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -136,7 +137,7 @@ struct search {
 
 /* Sets a->number[i] to 1 for each particle i with at least one cut bond, else to 0. Cut bonds are pairs within the
  * cutoff of LAMMPS that have no bond in the scene. Stores the number of bonds of the scene in *bonds and of cut bonds
- * in *cut. REFUSED if LAMMPS cannot represent a bond. */
+ * in *cut. Returns REFUSED if LAMMPS cannot represent a bond of the scene. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
@@ -151,8 +152,9 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
     return OK;
 }
 
-/* Lists in t the touched particles, those at a cut bond that are marked in a->number, and allocates their keys.
- * Replaces a->number[i] by the index of particle i in this list, or -1 for other particles. */
+/* Lists in t the particles for which a->number is 1, those with a cut bond (a pair that LAMMPS would bond and the scene
+ * does not). Allocates their keys t->key. Replaces a->number[i] by the index of particle i in the list, or -1 for other
+ * particles. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
@@ -166,9 +168,9 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* Lists the neighbours in LAMMPS of each touched particle (at a cut bond), with the kind of each pair: bonded or cut.
- * Computes the key of each touched particle as the sum of key_of, a hash of its material, loads and position, and of
- * the hashes of the offsets of its cut bonds. */
+/* For each particle listed in t, those with a cut bond, lists the neighbours to which LAMMPS would bond it and the kind
+ * of each pair: bonded or cut in the scene. Computes the key t->key of the particle: the sum of a hash of its material,
+ * loads and lattice position and of hashes of the lattice vectors to the neighbours at its cut bonds. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

@@ -62,7 +62,8 @@ static status carries_materials(const struct scene *s, bool bond_style)
     return OK;
 }
 
-/* ---- keys -------------------------------------------------------------------------------------------------------- */
+/* Appends to the list a key of the scene that the export must change, if `differs` is true. value: new value of the
+ * key; effect: how this changes results, in words. The texts are kept by reference. */
 
 /* Appends a key that the export has to change, if `differs` is true. value: new value of the key; effect: how results
  * change, as a text. The texts are kept by reference. */
@@ -72,8 +73,9 @@ static void settings_add(struct lammps_settings *to, bool differs, const char *k
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Appends the settings of contact that an export needs; none if the scene has no contact. own: the pair style of LAMMPS
- * includes a contact law, and the settings must follow its rules. If own is false, contact is switched off. */
+/* Appends to the list the settings of contact that an export of the scene s needs; none if s has no contact. own: true
+ * if the pair style of LAMMPS includes a contact law, whose rules the settings must follow. If `own` is false, contact
+ * is switched off. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";
@@ -91,8 +93,8 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
 
 bool lammps_normalisation_differs(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
 
-/* Appends the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect of changing
- * them. bond_style: the export is for bond_style bpm/peri. */
+/* Appends to the list the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect
+ * of changing them. bond_style: true for an export for bond_style bpm/peri, false for a pair_style. */
 static void pd_settings(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;

@@ -32,8 +32,9 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Returns true if particle k can have colour c: the pair of c with the colour of each coloured neighbour is unused so
- * far, or stands for the same kind of pair, bonded or cut. */
+/* Returns true if the k-th listed particle can have colour c. Every pair of colours is reserved for one kind of
+ * particle pairs, bonded or cut. The pairs of c with the colours of the particle's neighbours must be unused so far, or
+ * be reserved for the kind that is needed here. */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
@@ -44,8 +45,8 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to particle k. Records the kind, bonded or cut, of the pairs that colour c forms with the colours of
- * neighbours of k. Returns false if one pair of colours would need both kinds. */
+/* Assigns colour c to the k-th listed particle. Records in a->pair the kind, bonded or cut, of the pairs of c with the
+ * colours of its neighbours. Returns false if a pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;
@@ -59,9 +60,9 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns a colour to all touched particles (at cut bonds). It is the first colour of the particle's key for which
- * every pair with a coloured neighbour has one kind, bonded or cut, else a new colour. Returns false if more than
- * COLOURS_MOST colours are needed or a pair of colours needs both kinds. */
+/* Assigns a colour to each particle listed in a->t (particles with cut bonds). It is the first colour of particles with
+ * the same key for which every pair with the colour of a neighbour has one kind, bonded or cut; if there is none, a new
+ * colour. Returns false if more than COLOURS_MOST colours are needed, or if a pair of colours needs both kinds. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

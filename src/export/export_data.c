@@ -4,8 +4,8 @@
 
 #include "export_parts.h"
 
-/* Returns the number of the LAMMPS bond type between the materials a and b, from 1: each unordered pair of the
- * `materials` materials has one. */
+/* Returns the number, from 1, of the LAMMPS bond type for bonds between the materials a and b of `materials` materials.
+ * Each unordered pair of materials has its own type. */
 static int bond_type(int materials, int a, int b)
 {
     const int low = a < b ? a : b, high = a < b ? b : a;

@@ -25,8 +25,8 @@ struct variable {
     int field, component;
 };
 
-/* Fields of frames that are exported, if the run has them. nodal: the field is a vector, which is stored at nodes;
- * other fields are stored as numbers of elements. */
+/* Fields of frames that are exported, if the run has them. nodal: true for vectors, which are stored at nodes; the
+ * others are stored as values of elements. */
 static const struct exported_field {
     const char *name;
     bool nodal;
@@ -104,8 +104,9 @@ static status frame_check(const struct exodus_export *x, const struct output_fra
                       printable_name(x->folder).text, f->t, (long long)f->n, (long long)x->mesh.n);
 }
 
-/* Writes the variables of frame k as a record of the file, in the order of variables_define. FAILED or REFUSED if the
- * frame cannot be read or has other particles or components. */
+/* Writes the variables of the k-th listed frame as one record of the file, in the order in which the arrays were
+ * defined. Returns FAILED or REFUSED if the frame cannot be read, or has other particles or components than the first
+ * one. */
 static status exodus_frame_write(struct exodus_export *x, int k)
 {
     const struct export_mesh *m = &x->mesh;
@@ -151,8 +152,8 @@ struct shared {
     int records, dim, nodes, blocks, sets, name, line, rows;
 };
 
-/* Defines the arrays of the element blocks, one block for each material. Stores in over[materials] the dimension of the
- * number of elements of each block. */
+/* Defines the arrays of the element blocks, one block for each material. d: dimensions that arrays share. Stores in
+ * over[materials] the index of the dimension of each block, whose length is its number of elements. */
 static void blocks_define(struct exodus_export *x, const struct shared *d, int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -185,8 +186,9 @@ static void sets_define(struct exodus_export *x, const struct shared *d)
     }
 }
 
-/* Defines the arrays with names and values of variables. Arrays over time are the last ones, in the order in which
- * exodus_frame_write writes them. over[materials]: dimension of the number of elements of each block. */
+/* Defines the arrays with names and values of variables. The arrays over time are the last ones, in the order in which
+ * records are written. d: dimensions that arrays share; over[materials]: index of the dimension of each element block,
+ * whose length is its number of elements. */
 static void variables_define(struct exodus_export *x, const struct shared *d, const int *over)
 {
     struct netcdf_writer *w = &x->w;
@@ -210,8 +212,8 @@ static void variables_define(struct exodus_export *x, const struct shared *d, co
         }
 }
 
-/* Defines all dimensions, arrays and attributes of the file, in the order in which exodus_put and exodus_frame_write
- * write their contents. attribute[attributes]: attributes of the file, kept by reference. */
+/* Defines all dimensions, arrays and attributes of the file, in the order in which their contents are written.
+ * attribute[attributes]: attributes of the file, kept by reference. */
 static void all_define(struct exodus_export *x, const struct netcdf_attribute *attribute, int attributes)
 {
     static const char *const axes[] = {"coordx", "coordy", "coordz"};
@@ -272,8 +274,8 @@ static void coordinates_write(struct exodus_export *x)
     memory_free(numbers);
 }
 
-/* Writes the block of one material: the nodes of its elements, and the attributes radius and volume of their
- * spheres. */
+/* Writes the element block of the material with the index `material`: the nodes of its elements, and the attributes
+ * radius and volume of the spheres that represent the particles. */
 static void block_write(struct exodus_export *x, int material)
 {
     const int64_t first = x->mesh.first[material], n = block_size(&x->mesh, material);
@@ -331,8 +333,8 @@ static void sets_write(struct exodus_export *x)
     }
 }
 
-/* Writes the whole Exodus file to `to`. context: struct exodus_export. Returns FAILED or REFUSED if a frame cannot be
- * written. Called by export_write_file. */
+/* Writes the whole Exodus file to `to`. context: pointer to a struct exodus_export. Returns FAILED or REFUSED if a
+ * frame cannot be written. It is passed to export_write_file, which calls it. */
 static status exodus_put(FILE *to, void *context)
 {
     struct exodus_export *x = context;
@@ -383,8 +385,8 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
     return export_write_file(x->request->folder, exodus_put, x);
 }
 
-/* Prints which file was written with which contents, and what it lacks of the scene: rigid bodies, and pre-cracks,
- * which the damage of a run shows. */
+/* Prints which file was written with which contents, and what of the scene the file does not contain: rigid bodies, and
+ * pre-cracks (the damage of a run shows them). */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;

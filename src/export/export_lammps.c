@@ -29,8 +29,8 @@ static status scene_make(struct scene *s, const struct export_request *r, const 
     return read;
 }
 
-/* Returns REFUSED with a message that lists all keys of the scene that the export would have to change, with the new
- * values. Without such keys the message states the difference that no key removes. */
+/* Returns REFUSED with a message that lists all keys of the scene s that the export would have to change, and their new
+ * values. If there are no such keys, the message states the difference in results that no key removes. */
 static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
 {
     char list[1024] = "";
@@ -165,8 +165,8 @@ static const struct export_file files[] = {{"plate.data", put_data},
                                            {"check.csv", put_check},
                                            {"in.lammps", put_script}};
 
-/* Writes and syncs a file of the export under its temporary name. t: types of the particles. FAILED, with the file
- * removed, if it cannot be written completely. */
+/* Writes the file f of the export under its temporary name and synchronises it with the disk. t: types of the
+ * particles. Returns FAILED, with the file removed, if it cannot be written completely. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
     const struct path path = path_join(x->request->folder, f->name), aside = file_begin_temporary(path.text);
@@ -200,8 +200,8 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* Checks that the folder of the request may be written to. REFUSED if it holds other files, an older export without
- * --overwrite, or an input of this export. */
+/* Checks that the folder of the request may be written to. Returns REFUSED if it contains files that belong to no
+ * export, an older export and --overwrite is not given, or an input of this export. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
@@ -213,9 +213,10 @@ static status export_guard(const struct export_request *r)
     return OK;
 }
 
-/* Writes the files of an export into its locked folder. All are first written under temporary names, so that an older
- * export stays complete if one fails. Then the older script is removed and the new files are renamed, the script last,
- * because a folder without script is not recognised as an export. FAILED if a file cannot be written. */
+/* Writes the files of an export into its folder, which the caller has locked. All are first written under temporary
+ * names, so that an older export stays complete if one fails. Then the older script is removed and the new files are
+ * renamed, the script last, because a folder without a script is not recognised as an export. t: types of the
+ * particles. Returns FAILED if a file cannot be written. */
 static status files_write_locked(struct exported *x, const struct lammps_types *t)
 {
     const char *folder = x->request->folder;

@@ -120,8 +120,9 @@ static bool is_displaced(const struct particles *p)
     return false;
 }
 
-/* Adds a per-particle column to x->column for each component of a force that varies over the particles of its load, and
- * for each component of displacement if particles are displaced at the start. */
+/* Adds an entry to x->column, the list of per-particle columns of plate.data, for each component of a force that varies
+ * over the particles of its load. Also adds one for each component of displacement if particles are displaced at the
+ * start. */
 static void columns_make(struct exported *x)
 {
     const struct loads *l = &x->e->loads;
@@ -188,8 +189,8 @@ static void put(FILE *to, real value)
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Writes a formula: the template `text`, in which each % is replaced by the next element of number[], and each letter t
- * by the name of the time variable `t`. */
+/* Writes a formula for a LAMMPS script. It is the template `text`, in which each % is replaced by the next element of
+ * number[], and each letter t by the name `t` of the time variable. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)
@@ -248,8 +249,9 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Returns component d of the force of load k as an argument of a LAMMPS command: a number, or the name of a variable if
- * the force depends on time or on the particle. The definition of the variable is written to `to` before. */
+/* Returns component d of the force of load k as an argument of a LAMMPS command. It is a number, or the name of a
+ * variable if the force depends on time or on the particle. In the latter case the definition of the variable is
+ * written to `to` first. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -269,8 +271,9 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes the commands for the force of load k. Its time function is the mean of the values at the beginning and at the
- * end of the velocity update in which the force acts. Such an update ends half a step later than the step. */
+/* Writes the commands for the force of load k. LAMMPS applies it in a velocity update that extends from half a step
+ * before to half a step after the time of a step. The time function is therefore taken as the mean of its values at the
+ * beginning and at the end of the update. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -286,8 +289,9 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes the variable with component d of the force on the particles of load k, which have a prescribed displacement.
- * The force changes their velocity such that they are at the prescribed position at the end of the step. */
+/* Writes the definition of a variable: component d of the force on the particles of load k, which have a prescribed
+ * displacement. This force changes their velocity such that they reach the prescribed position at the end of the
+ * step. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -298,8 +302,9 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the commands for the particles of load k with a prescribed velocity or displacement. The force on them changes
- * their velocity from the middle of the previous step to the prescribed one in the middle of this step. */
+/* Writes the commands for the particles of load k, whose velocity or displacement is prescribed. A force on them
+ * changes their velocity, from its value in the middle of the previous step to the prescribed one in the middle of this
+ * step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

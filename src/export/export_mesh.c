@@ -9,8 +9,8 @@
 #include "output/output_files.h"
 #include "scene/scene_read.h"
 
-/* Reads the scene of the request into m->scene. For methods with material points, sets mpm.fill=all, so that all
- * particles of the bodies are created. REFUSED or FAILED if it cannot be read. */
+/* Reads the scene of the request r into m->scene. For methods with material points, sets mpm.fill=all, so that all
+ * particles of the bodies are created. Returns REFUSED or FAILED if the scene cannot be read. */
 static status scene_make_whole(struct export_mesh *m, const struct export_request *r)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1, struct scene_override);
@@ -25,7 +25,8 @@ static status scene_make_whole(struct export_mesh *m, const struct export_reques
     return s;
 }
 
-/* Compares two keys int64_t[3] of material, id and index for qsort, first by material and then by id. */
+/* Compares two keys a and b for qsort, each of type int64_t[3] with material, id and index: first by material, then by
+ * id. */
 static int mesh_key_order(const void *a, const void *b)
 {
     const int64_t *p = a, *q = b;

@@ -16,8 +16,8 @@ struct export_mesh {
     int64_t first[258]; /* first position of material m; [materials]: n */
 };
 
-/* Reads the scene of the request with its overrides, all particles of the body made, and sorts them. Returns REFUSED if
- * the scene is faulty. Release *m with export_mesh_free, also after a failure. */
+/* Reads the scene of the request with its overrides, creates all particles of its bodies and sorts them by material and
+ * id. Returns REFUSED if the scene is faulty. Release *m with export_mesh_free, also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
 /* Name of a set of nodes, returned by value. */
@@ -25,22 +25,23 @@ struct set_name {
     char text[NAME_MAX_LENGTH];
 };
 
-/* Returns the name of the set of load k: that of its boundary, or nodelist_N (N = k + 1) if an earlier load has it. */
+/* Returns the name of the node set of load k: the name of its boundary condition, or nodelist_N with N = k + 1 if it
+ * has no name or an earlier load has the same one. */
 struct set_name export_set_name(const struct export_mesh *m, int k);
 
-/* Returns a new array of the positions in m of the particles of load k, counted from 1, ascending; it has as many
- * entries as the load has particles. The caller releases it with memory_free. */
+/* Returns a new array with the numbers of the particles of load k: positions in the order of m, counted from 1,
+ * ascending. Its length is the number of particles of the load. The caller releases it with memory_free. */
 int32_t *export_set_nodes(const struct export_mesh *m, int k);
 
 /* Releases the memory of *m. */
 void export_mesh_free(struct export_mesh *m);
 
-/* Checks that the file `path` may be written: it is new, or an export that `overwrite` may replace. sign: a text in the
- * first bytes of exports of this kind. Returns REFUSED otherwise. */
+/* Checks that the file `path` may be written. It may be new, or an export of Cleave if `overwrite` is true. sign: text
+ * in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED otherwise. */
 status export_check_file(const char *path, const char *sign, bool overwrite);
 
-/* Writes a file under a temporary name by write(to, context), syncs and renames it. Returns FAILED, and leaves no file,
- * if it cannot be written. */
+/* Writes the file `path`: calls write(to, context) with a file of a temporary name, synchronises it with the disk and
+ * renames it. Returns FAILED, and leaves no file, if it cannot be written. */
 status export_write_file(const char *path, status (*write)(FILE *to, void *context), void *context);
 
 #endif

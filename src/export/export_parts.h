@@ -54,14 +54,16 @@ enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 /* Releases the arrays of *t. */
 void touched_free(struct touched *t);
 
-/* Assigns a colour, a number from 0 on, to each particle of `touched`, such that no pair of colours has both pairs of
- * particles with a bond and pairs whose bond must be cut. Particles with equal keys share a colour where possible.
- * Stores the colours in colour[touched->n]. Returns the number of colours; 0 if more than COLOURS_MOST are needed. */
+/* Assigns a colour, a number from 0 on, to each particle of the list `touched`. For any two colours, the neighbouring
+ * particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with equal keys
+ * share a colour where possible. Stores the colours in colour[touched->n]. Returns the number of colours, or 0 if more
+ * than COLOURS_MOST are needed. */
 int particle_colours_assign(int32_t *colour, const struct touched *touched);
 
-/* Returns an allocated array [colours * colours] with the state of each pair of colours (PAIR_UNKNOWN, PAIR_BONDED,
- * PAIR_CUT), computed from the particles of `touched` and their colours colour[touched->n]; the caller releases it with
- * memory_free. Returns NULL if a pair of colours has both bonded and cut pairs of particles. */
+/* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
+ * colour[touched->n]: colours of the listed particles. Returns an allocated array state[a * colours + b] of
+ * PAIR_BONDED, PAIR_CUT or PAIR_UNKNOWN (no such neighbours), which the caller releases with memory_free. Returns NULL
+ * if a pair of colours has both bonded and cut neighbours. */
 uint8_t *particle_colours_pair_states(const int32_t *colour, int colours, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
@@ -88,9 +90,10 @@ struct exported {
     int64_t bonds, cut; /* pairs bonded in the scene; pairs that LAMMPS would bond in addition */
 };
 
-/* Compares the bonds that LAMMPS would create with those of the scene, stores the numbers of bonds in exported->bonds
- * and exported->cut, and lists in *t the particles of the bonds that must be cut in LAMMPS. Returns REFUSED if LAMMPS
- * would lack a bond of the scene or give it another weight. Release *t with touched_free. */
+/* Compares the bonds that LAMMPS would create with those of the scene. Stores their numbers in exported->bonds (bonds
+ * of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *t the particles at bonds that
+ * must be cut. Returns REFUSED if LAMMPS would lack a bond of the scene or give it another weight. Release *t with
+ * touched_free. */
 status lammps_find_cut_bonds(struct touched *t, struct exported *exported);
 
 /* Types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs of
@@ -103,9 +106,9 @@ struct lammps_types {
     int32_t (*pair)[2]; /* [pairs] pairs of types excluded while bonds are created */
 };
 
-/* Assigns a LAMMPS type to each particle, such that particles of one type have the same material and loads, and pairs
- * of types can be excluded where bonds must be cut. Returns REFUSED if too many types are needed. Release with
- * lammps_types_free. */
+/* Assigns a LAMMPS type to each particle. Particles of one type have the same material and loads. Where bonds must be
+ * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Returns REFUSED if too
+ * many types are needed. Release t with lammps_types_free. */
 status lammps_types_make(struct lammps_types *t, struct exported *exported);
 
 /* Releases the arrays of *t. */
@@ -113,24 +116,26 @@ void lammps_types_free(struct lammps_types *t);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
-/* Allocates x->loads and stores in it which loads act on each particle, and lists the columns of plate.data that loads
- * need. Returns REFUSED if LAMMPS has no command for a load, or not enough groups for all loads. */
+/* Finds which loads act on each particle and stores them as bits in x->loads, which it allocates. Lists in x->column
+ * the per-particle columns of plate.data that the loads need. Returns REFUSED if LAMMPS has no command for a load, or
+ * not enough groups for all loads. */
 status lammps_loads_make(struct exported *x);
 
-/* Computes the velocity v[] with which particle i starts in LAMMPS [m/s]: its initial velocity, in the components that
- * a boundary drives the prescribed velocity at half a time step. */
+/* Computes the velocity v[] with which particle i starts in LAMMPS [m/s]. In components that a boundary drives it is
+ * the prescribed velocity at half a time step, in others the initial velocity of the scene. */
 void lammps_initial_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 
-/* Writes the names of all columns of `exported` to the file `to`, as arguments of the LAMMPS command `fix
- * property/atom`. */
+/* Writes the names of all per-particle columns x->column to the file `to`, as arguments of the LAMMPS command `fix
+ * property/atom`. exported: the export x. */
 void lammps_write_column_names(FILE *to, const struct exported *exported);
 
-/* Writes one LAMMPS command `compute property/atom` for each column of `exported` to the file `to`; variables of the
- * script read the columns through them. */
+/* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export to the file `to`.
+ * Variables of the script read the columns through these commands. */
 void lammps_write_compute_commands(FILE *to, const struct exported *exported);
 
-/* Returns the value of the column with index `column` at particle i: a component of the initial displacement [m], or
- * of the force of a load on the particle [N], 0 if the load does not act on it. */
+/* Returns the value of the per-particle column number `column` at particle i: a component of its initial displacement
+ * [m], or of the force of a load on it, 0 if the load does not act on it. For pair styles the force is per volume
+ * [N/m^3], for bond styles it is in [N]. */
 real lammps_column_value(const struct exported *x, int column, int64_t i);
 
 /* Writes the LAMMPS commands of all loads and supports to the file `to`. t: types of the particles. */
@@ -151,8 +156,8 @@ void lammps_cost_write(FILE *to, const struct exported *exported);
  * of a shorter run. */
 int64_t lammps_check_step_count(const struct exported *x);
 
-/* Makes lammps_check_step_count time steps in Cleave and writes the positions of the particles and the broken share of
- * their bonds to the file `to`, the contents of check.csv (export_check.c). Returns FAILED if a step fails. */
+/* Makes lammps_check_step_count time steps in Cleave and writes the contents of check.csv to the file `to`: the
+ * positions of the particles, and which share of their bonds is broken. Returns FAILED if a step fails. */
 status lammps_check_write(FILE *to, struct exported *exported);
 
 #endif

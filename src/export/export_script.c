@@ -24,8 +24,9 @@ static real modulus_of(const struct exported *x, int a, int b)
     return first == second ? first : 2 * first * second / (first + second);
 }
 
-/* Writes the coefficients of the law between the materials a and b for pair_coeff or bond_coeff. In 2D, G_L = 8 G/15
- * and K_L = 4 (lambda + G)/9 turn the 3D law of LAMMPS into the 2D law. */
+/* Writes the coefficients of the material law for bonds between the materials a and b, as arguments of pair_coeff or
+ * bond_coeff. In 2D, the shear and bulk moduli G_L = 8 G/15 and K_L = 4 (lambda + G)/9 turn the 3D law of LAMMPS into
+ * the 2D law. */
 static void law_write(FILE *to, const struct exported *x, int a, int b)
 {
     const struct material *m = &x->s->material[a];
@@ -38,7 +39,8 @@ static void law_write(FILE *to, const struct exported *x, int a, int b)
     fprintf(to, " %.17g %.17g 0.0\n", x->cutoff, stretch_of(x, a, b));
 }
 
-/* Writes the particle types of a material as a range FIRST*LAST. They are numbered consecutively. */
+/* Writes the particle types of the material with the index `material` as a range FIRST*LAST; they are numbered
+ * consecutively. t: types of the particles. */
 static void types_of(FILE *to, const struct lammps_types *t, int material)
 {
     int first = 0, last = 0;
@@ -47,7 +49,8 @@ static void types_of(FILE *to, const struct lammps_types *t, int material)
     fprintf(to, " %d*%d", first, last);
 }
 
-/* Returns true if a particle type, and hence a particle, of a material exists. */
+/* Returns true if a particle of the material with the index `material` exists, found by the types t of the
+ * particles. */
 static bool is_there(const struct lammps_types *t, int material)
 {
     bool there = false;

@@ -21,8 +21,9 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
            (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
 }
 
-/* Returns the index of the class of particle i: particles with the same material, the same loads and, for bond styles,
- * the same mass. Adds a new class if there is none yet. Returns -1 if there would be more than CLASSES_MOST. */
+/* Returns the index of the class of particle i. Particles of one class have the same material, the same loads and, for
+ * bond styles, the same mass. Adds a class to c if there is none for particle i. Returns -1 if there would be more than
+ * CLASSES_MOST classes. */
 static int class_of(struct classes *c, const struct exported *x, int64_t i)
 {
     for (int k = c->n; k-- > 0;)
@@ -33,9 +34,9 @@ static int class_of(struct classes *c, const struct exported *x, int64_t i)
     return c->n++;
 }
 
-/* Numbers the n future types of particles from 1, such that the types of one material are consecutive. any[n]: index of
- * a particle of each type, in the old order of types. Stores the number of each type in number[n], and allocates and
- * fills t->material and t->any, in the order of the numbers. */
+/* Numbers n types of particles from 1, such that the types of one material are consecutive. any[k]: index of a particle
+ * of type k before the renumbering; number[k]: receives the new number of type k. Allocates t->material and t->any and
+ * fills them in the order of the new numbers. */
 static void types_number(struct lammps_types *t, const struct exported *x, int32_t *number, const int32_t *any, int n)
 {
     t->material = NEW("types.material", n + 1, int32_t);
@@ -48,8 +49,8 @@ static void types_number(struct lammps_types *t, const struct exported *x, int32
             }
 }
 
-/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds: those whose colours are a pair of
- * kind `cut`. pair[colours][colours]: kind of each pair of colours; number[colours]: type of each colour. */
+/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds. These are the pairs of colours a and
+ * b with pair[a * colours + b] == PAIR_CUT. number[a]: type of the particles with colour a. */
 static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -64,7 +65,8 @@ static void types_exclude(struct lammps_types *t, const int32_t *number, const u
     }
 }
 
-/* Finds the class of every particle and stores it in t->of. REFUSED if there are more than CLASSES_MOST classes. */
+/* Finds the class of every particle (particles with the same material, loads and, for bond styles, mass) and stores it
+ * in t->of. Returns REFUSED if there are more than CLASSES_MOST classes. */
 static status classes_find(struct classes *c, struct lammps_types *t, const struct exported *x)
 {
     t->of = NEW("types.of", x->e->part.n, int32_t);
@@ -77,9 +79,11 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     return OK;
 }
 
-/* Sets the type t->of[i] of every particle i from its class or, if it is touched (at a cut bond), from its colour.
- * Lists the excluded pairs of types. colour[touched->n]: colour of each touched particle; pair[colours][colours]: kind,
- * bonded or cut, of each pair of colours; NULL if no bond is cut. REFUSED if the particles have too many classes. */
+/* Sets the LAMMPS type t->of[i] of every particle i. It follows from the class of the particle (its material, loads
+ * and, for bond styles, mass) or, if the particle is in the list `touched` of particles with cut bonds, from its
+ * colour. Lists the excluded pairs of types. colour[touched->n]: colours of the listed particles; pair[a * colours +
+ * b]: kind of the colours a and b, bonded or cut, or `pair` is NULL if no bond is cut. Returns REFUSED if the particles
+ * have too many classes. */
 static status types_give(struct lammps_types *t, struct exported *x, const struct touched *touched,
                          const int32_t *colour, int colours, const uint8_t *pair)
 {

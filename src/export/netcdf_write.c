@@ -43,7 +43,8 @@ static bool is_over_records(const struct netcdf_writer *w, const struct netcdf_a
     return w->dimension[a->dimension[0]].length == 0;
 }
 
-/* Returns the size of an array [byte], or of one record of an array over records, rounded up to a multiple of four. */
+/* Returns the size of the array a [byte], rounded up to a multiple of four. For an array over records it is the size of
+ * its part in one record. */
 static int64_t array_size(const struct netcdf_writer *w, const struct netcdf_array *a)
 {
     int64_t size = type_size(a->type);
@@ -76,7 +77,7 @@ static void put_text(struct netcdf_writer *w, const char *text)
     put_bytes(w, zeros, (4 - n % 4) % 4);
 }
 
-/* Appends to the header the tag and the length n of a list; an empty list has two zeros. */
+/* Appends to the header the tag `tag` and the length n of a list. For an empty list two zeros are appended. */
 static void put_list_head(struct netcdf_writer *w, int tag, int n)
 {
     put_number(w, n > 0 ? (uint64_t)tag : 0, 4);

@@ -45,13 +45,14 @@ struct netcdf_writer {
     int64_t pending; /* bytes of the array that is written */
 };
 
-/* Defines a dimension of `length` entries (0: the dimension of records) that is called `name` followed by `number` (0:
- * without a number). Returns its index, for netcdf_define_array. */
+/* Defines a dimension with `length` entries; `length` 0 defines the dimension of records, which grows while the file is
+ * written. It is called `name` followed by `number`, or only `name` if `number` is 0. Returns its index, for
+ * netcdf_define_array. */
 int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length);
 
-/* Defines an array of numbers of type `type` that is called `name` followed by `number` (0: without a number).
- * dimension: [ranks] indices of its dimensions; attribute, text: name and text of its only attribute, kept by
- * reference, NULL for none. */
+/* Defines an array of numbers of type `type`. It is called `name` followed by `number`, or only `name` if `number` is
+ * 0. dimension[ranks]: indices of its dimensions; attribute, text: name and text of its only attribute, kept by
+ * reference, or NULL for none. */
 void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
                          const int *dimension, const char *attribute, const char *text);
 
@@ -59,17 +60,17 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, 
  * before the arrays are written. */
 void netcdf_write_header(struct netcdf_writer *w);
 
-/* Writes the next n numbers value[n] of the present array; netcdf_write_reals for arrays of reals,
- * netcdf_write_integers for whole numbers. */
+/* Writes the next n numbers value[n] of the array that is being written; netcdf_write_reals is for arrays of reals,
+ * netcdf_write_integers for arrays of whole numbers. */
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
-/* Writes `text` as the next row of the present array, an array of letters with rows of `width` bytes; the text is cut
- * or filled up to that length. */
+/* Writes `text` as the next row of the array that is being written, an array of letters with rows of `width` bytes. The
+ * text is cut or padded to this length. */
 void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width);
 
-/* Ends the present array, or its part of one record, by the padding that the format requires; the next numbers belong
- * to the next array. */
+/* Ends the array that is being written, or its part in one record, with the padding that the format requires. The next
+ * numbers belong to the next array. */
 void netcdf_end_array(struct netcdf_writer *w);
 
 /* Releases the memory of *w. */
