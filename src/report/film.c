@@ -61,8 +61,8 @@ static void set_free(struct film_set *s)
     memory_free(s->hidden);
 }
 
-/* Sets s->busy[i] to true for each particle i of the set s that is damaged or has yielded in a frame. Also updates
- * s->history[i], a hash of the kinds and fragments that particle i has in all frames. path: file of the frame. */
+/* Sets s->busy[i] to true for each particle i of the particle set s that is damaged or has yielded in a frame. Also
+ * updates s->history[i], a hash of the kinds and fragments of particle i in all frames. path: file of the frame. */
 static void set_mark(struct film_set *s, const struct output_frame *frame, const char *path)
 {
     int columns = 0;
@@ -141,15 +141,15 @@ static void frames_use(struct film *f, int most)
     for (int k = 0; k < f->used; k++) f->frame[spread(k, f->frames, f->used)].used = true;
 }
 
-/* Divides the particles of all particle sets of the film into groups, each of which is shown as one particle. f->levels
- * determines the sizes of the cells whose particles are merged, f->every the stride with which particles are left out.
- */
+/* Divides the particles of all particle sets of the film into groups, each of which is shown as one particle. A group
+ * is a particle or a cubic cell of particles; f->levels limits the size of the cells. If f->every > 1, only every
+ * f->every-th group is shown; groups with damaged or yielded particles are exempt unless f->thins_busy is true. */
 static void film_group(struct film *f)
 {
     for (int k = 0; k < f->sets; k++) film_set_form_groups(&f->set[k], f);
 }
 
-/* Returns true if the film, with its present frames, fields and groups, takes at most `budget` bytes. */
+/* Returns true if the film, with the frames, fields and groups that are selected now, takes at most `budget` bytes. */
 static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_fields_bytes(f), once = 2 * f->dim + 6;
@@ -159,8 +159,8 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Uses the part of the budget that the film does not need yet: first for the extra fields, then for more frames.
- * budget: largest size of the film in the page [byte]. */
+/* Uses the part of the budget that the selected contents of the film do not need: first for the extra fields, then for
+ * more frames. budget: largest size of the film in the page [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
     const int used = f->used;
@@ -214,8 +214,9 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements of a frame along axis d for the shown groups of a particle set: the mean of u[s->n] [m] over
- * the particles of each group, over the largest displacement f->reach[d], as signed 16-bit numbers. */
+/* Writes the displacements of a frame along axis d for the shown groups of the particle set s. A value is the mean of u
+ * over the particles of a group, divided by the largest displacement f->reach[d], as a signed 16-bit number. u[s->n]:
+ * displacements of the particles [m]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);

@@ -66,8 +66,9 @@ static int float_compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Chooses the range of values that a field is stored with: without a few extreme values, extended to zero or symmetric
- * about zero as the colour scale of the field requires. Sets field->used to false if all values are equal. */
+/* Chooses the range of values with which a field is stored. It omits a few extreme values and is extended to zero, or
+ * made symmetric about zero, as the colour scale of the field requires. Damage has the range 0..1. Sets field->used to
+ * false if all values are equal. */
 static void field_settle(struct film_field *field)
 {
     const bool damage = strcmp(field->of->name, "damage") == 0;
@@ -105,9 +106,9 @@ int film_fields_bytes(const struct film *f)
     return bytes;
 }
 
-/* Returns the mean of value[s->n] over group g of the particle set s as a stored number: 0..254 over the range of the
- * field, 255 for no value. Categories, such as materials, are stored unchanged; fragments are stored in 16 bits.
- * Categories and fragments are those of one particle of the group. */
+/* Returns the value of a field for group g of the particle set s as a stored number. It is the mean of value[s->n] over
+ * the group, as 0..254 over the range of the field, or 255 for no value. Categories such as materials are stored
+ * unchanged, fragments in 16 bits; both are those of one particle of the group. */
 static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
 {
     double sum = 0;

@@ -46,9 +46,9 @@ static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Merges particles into cubic cells with an edge of 2^level spacings: sets s->level to `level` for all particles of a
- * cell if they fill the cell and have equal material, body and history of kinds and fragments. from[dim]: lower corner
- * of the lattice [m]. */
+/* Merges particles of the set s into cubic cells with an edge of 2^level spacings. Sets s->level to `level` for the
+ * particles of a cell if they fill it and have equal material, body and history of kinds and fragments. from[dim]:
+ * lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);
@@ -68,8 +68,8 @@ static void merge_cells(struct film_set *s, const struct film *f, const double *
     memory_free(m);
 }
 
-/* Sets s->groups, s->first and s->member, the lists of particles of each group, from the levels of the particles.
- * from[dim]: lower corner of the lattice [m]. */
+/* Sets the lists of particles of each group, s->groups, s->first and s->member. Particles with s->level > 0 in the same
+ * cell of this level form a group. from[dim]: lower corner of the lattice [m]. */
 static void film_groups_fill(struct film_set *s, const struct film *f, const double *from)
 {
     struct member *m = BARE("report.members", s->n, struct member);

@@ -8,7 +8,8 @@
 /* Returns the number of rigid bodies that a page shows: none in one dimension or without the scene. */
 static int rigids_of(const struct film *f) { return f->scene && f->dim > 1 ? f->scene->rigids : 0; }
 
-/* Computes the box of the particles at the start between low[dim] and high[dim] [m]. */
+/* Computes the bounding box of the particles in the first frame. low[dim], high[dim]: receive its lower and upper
+ * corner [m]. */
 static void particles_box(const struct film *f, real *low, real *high)
 {
     const struct film_set *s = &f->set[0];
@@ -18,8 +19,8 @@ static void particles_box(const struct film *f, real *low, real *high)
     }
 }
 
-/* Writes value[n] as an array of the JSON of the page. key: name of the array; NULL: the array is an element of a list
- * and has no name. */
+/* Writes the numbers value[n] as an array to the JSON of the page. key: name of the array; NULL if the array is an
+ * element of a list and has no name. */
 static void write_vector(struct page *p, const char *key, const real *value, int n)
 {
     json_open(&p->json, key, '[');
@@ -27,8 +28,8 @@ static void write_vector(struct page *p, const char *key, const real *value, int
     json_close(&p->json, ']');
 }
 
-/* Writes a surface in `dim` dimensions: its points [points][dim] and its faces [faces][corners] as arrays in single
- * precision. The indices of points in the faces are exact in single precision. */
+/* Writes a surface in `dim` dimensions to the page: its points [points][dim] and its faces [faces][corners], indices of
+ * points, as arrays in single precision, in which the indices are exact. */
 static void write_surface(struct page *p, const struct rigid_surface *s, int dim)
 {
     const int64_t corners = s->faces * s->corners;

@@ -26,12 +26,12 @@ struct page {
  * no memory for it. Release with page_release. */
 status page_make(struct page *p);
 
-/* Adds an array of `n` elements of the given type from `values` on to the page, and a reference {array, type, length}
- * to it to the JSON. key: name of the reference; NULL in a list. */
+/* Adds the array values[n], with elements of type `type`, to the page, and a reference {array, type, length} to it to
+ * the JSON. key: name of the reference; NULL if it is an element of a list. */
 void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t n);
 
-/* Adds the picture in the PNG file `path` to the page as page_add_array does. Returns FAILED if the file cannot be
- * read. */
+/* Adds the PNG picture in the file `path` to the page as an array of bytes, and a reference to it to the JSON. key:
+ * name of the reference; NULL if it is an element of a list. Returns FAILED if the file cannot be read. */
 status page_add_picture(struct page *p, const char *key, const char *path);
 
 /* Adds a time to the JSON as text, in UTC to the minute. key: name of the entry. Adds nothing for a time that no

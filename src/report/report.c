@@ -12,7 +12,7 @@
 #include "plot/plot.h"
 #include "report_parts.h"
 
-/* Checks that `folder` holds a run or a study. REFUSED otherwise. */
+/* Checks that `folder` contains a run or a study. Returns REFUSED otherwise. */
 static status folder_check_kind(const char *folder)
 {
     const struct printable_name shown = printable_name(folder);
@@ -30,8 +30,8 @@ static status folder_check_kind(const char *folder)
 }
 
 /* Determines the path of the page: the option -o, or report.html in the folder. Creates the folder of -o if its name
- * ends in /. REFUSED if the name is empty or too long, or if the page would replace a file that is no page of Cleave
- * without --overwrite. */
+ * ends in /. Returns REFUSED if the name is empty or too long. Without --overwrite, also returns REFUSED if the page
+ * would replace a file that is no page of Cleave. */
 static status page_destination(struct path *path, const struct report_request *r)
 {
     const char *out = r->out ? r->out : r->folder;

@@ -28,8 +28,8 @@ struct units {
     const char *header;
 };
 
-/* Writes the unit of the figure `key`, a number in summary.json, to the page if the figure has a unit. context: struct
- * units; value: of the figure, not used. Called for each figure. */
+/* Writes the unit of the figure `key`, a number in summary.json, to the page if the figure has a unit. context: pointer
+ * to a struct units; value: value of the figure, not used. It is called once for each figure. */
 static void write_unit(void *context, const char *key, double value)
 {
     const struct units *u = context;
@@ -130,8 +130,8 @@ static status write_picture(struct page *p, const char *scene, const char *path)
     return s;
 }
 
-/* Writes the names and pre-cracks of the scene s of the run in `folder`, and its picture. particles: of the first
- * frame; path: of the page. */
+/* Writes the names and pre-cracks of the scene s to the page, and its picture. folder: folder of the run; particles:
+ * number of particles in the first frame; path: file of the page. */
 static void write_scene(struct page *p, const char *folder, const struct scene *s, int64_t particles, const char *path)
 {
     json_write_text(&p->json, "name", s->name);

@@ -19,8 +19,8 @@ enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
 
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
-/* Stores the names of the entries of a folder, except hidden ones, in alphabetical order in an allocated array *name.
- * Returns their number. Release names and array with folder_names_free. */
+/* Lists the names of the entries of a folder, except hidden ones, in alphabetical order. Stores an allocated array of
+ * them in *name and returns their number. Release names and array with folder_names_free. */
 static int folder_names_read(char ***name, const char *folder)
 {
     int n = 0;
