@@ -25,9 +25,9 @@ double student_t_quantile_975(int degrees_of_freedom)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the mean, the scatter and the mean spacing of the runs at spacing level k, and stores them in *l.
- * spacing[n], value[n], level[n]: spacing [m], figure and level of each of the n runs of the study; runs whose value is
- * not finite are left out. The scatter is NAN for a single run. */
+/* Computes the mean, the scatter and the mean spacing of the runs at spacing level k, and stores them in *l. Run i of
+ * the n runs of the study has the spacing spacing[i] [m], the figure value[i] and the level level[i]. Runs whose figure
+ * is not finite are left out. The scatter is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
@@ -45,9 +45,9 @@ static void level_find(struct level_figures *l, const double *spacing, const dou
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
 }
 
-/* Computes the error of the mean of each level, half of its 95 % interval, from the scatter of its runs (Student's t
- * distribution). A level with a single run uses the pooled scatter of the other levels. resolution[levels]: further
- * error of each level, added in quadrature; NULL: none. */
+/* Computes the error of the mean of each spacing level, half of its 95 % interval, from the scatter of its runs
+ * (Student's t distribution). A level with a single run uses the pooled scatter of the other levels.
+ * resolution[levels]: further error of each level, added in quadrature; NULL if there is none. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -69,8 +69,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of the three finest levels l[3] (0 the finest) if the
- * error is proportional to h^p, with the spacing h. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a figure at the three finest spacing levels l[3]
+ * (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -78,8 +78,9 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p for which the means m of the three finest levels l[3] (0 the finest) are linear in h^p, with the
- * spacing h. It is found by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 - m0). */
+/* Returns the order p for which the means m of a figure at the three finest spacing levels l[3] (l[0] the finest) are
+ * linear in h^p, with the spacing h. It is found by bisection between -10 and 20. ratio: measured (m2 - m1)/(m1 -
+ * m0). */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;
@@ -99,8 +100,9 @@ struct orders {
     double low, seen, high;
 };
 
-/* Computes the observed order of convergence of the three finest levels l[3] (0 the finest), and the range of orders
- * that the errors of their means allow. Returns false if the means oscillate by more than their errors. */
+/* Computes the observed order of convergence of a figure from its means at the three finest spacing levels l[3] (l[0]
+ * the finest), and the range of orders that the errors of the means allow. Returns false if the means oscillate by more
+ * than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -115,8 +117,8 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Sets verdict, observed order and grid convergence index (Roache 1998) of a figure from its three finest levels. Order
- * and index are NAN if they have no meaning. The figure is a number in summary.json of the runs. */
+/* Sets verdict, observed order and grid convergence index (Roache 1998) of a figure from its three finest spacing
+ * levels. Order and index are NAN if they have no meaning. A figure is a number in summary.json of the runs. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

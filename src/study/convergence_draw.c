@@ -39,9 +39,10 @@ static struct unit figure_unit(const struct scalar_result_study *f)
     return unit_with_allowed_prefix(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }
 
-/* Sends three data blocks to gnuplot for the figure f, a number in summary.json, with `panel` in their names. $r:
- * spacing [mm] and value of every run. $m: spacing [mm], mean and half-width of the 95 % interval of every level. $e:
- * spacing 0, the extrapolated value, and mean and half-width of the finest level. */
+/* Sends three data blocks to gnuplot for the figure f, a number in summary.json. Their names are $r, $m and $e followed
+ * by the number `panel`. $r: spacing [mm] and figure of every run. $m: spacing [mm], mean and half-width of the 95 %
+ * interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and half-width of the finest
+ * level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_find_result(&s->table, f->name);
@@ -82,8 +83,8 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Returns a round distance of tics of an axis, 1, 2 or 5 times a power of ten, that places three to seven tics between
- * 0 and `most`. */
+/* Returns the distance of tics of an axis, 1, 2 or 5 times a power of ten, with which three to seven tics are between 0
+ * and `most`. */
 static double tics_apart(double most)
 {
     const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
@@ -129,9 +130,10 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the crack tip at sample i. It is the index of the tip at the nearest earlier position from which
- * the tip can have moved by the growth of its crack, to within FLICKER spacings. If there is no such position, it is a
- * new index. spacing: of the run [m]. */
+/* Returns the index of the crack tip whose position is the i-th one of *l. A tip can have moved from position k to
+ * position i if their distance is at most 2 (l->grown[i] - l->grown[k]) + FLICKER * spacing. The index is that of the
+ * tip whose last position is nearest among those from which this is possible, or a new index. spacing: spacing of the
+ * run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -174,8 +176,8 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Sends the paths of the longest crack tips of run k as the data block $wK [mm], each path as a separate line, and
- * extends the bounding box *e by them [m]. Returns false if the run has no path. */
+/* Sends the paths of the longest crack tips of run k to gnuplot as the data block $wK (K is the number k) [mm], each
+ * path as a separate line. Extends the bounding box *e [m] by them. Returns false if the run has no path. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
     struct history h;
@@ -229,8 +231,8 @@ struct path_plots {
     int drawn;
 };
 
-/* Sends the paths of all runs of a study to `to`, and appends the arguments that plot them to *p. Extends the bounding
- * box *e by the paths. */
+/* Sends the crack paths of all runs of a study to the stream `to`, and appends the gnuplot arguments that plot them to
+ * *p. Extends the bounding box *e by the paths. */
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};

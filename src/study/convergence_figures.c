@@ -24,9 +24,10 @@ enum { PRINTED_MOST = 24 };
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* Returns the change of a figure (a number in summary.json) if the time step is 10 % longer. It follows from the slope
- * of a least-squares fit, over the runs of all levels, of the deviation from the mean of the level over the logarithm
- * of the step. value[k]: figure of run k. Returns NAN if the runs do not vary the time step. */
+/* Returns the change of a figure (a number in summary.json) if the time step is 10 % longer. It is b log(1.1), where b
+ * is the slope of a least-squares line through the runs of all spacing levels: deviation of the figure from the mean of
+ * its level over log(time step). c: means of the levels; value[k]: figure of run k. Returns NAN if the runs do not vary
+ * the time step. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -40,9 +41,9 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
-/* Returns the change of a figure if the horizon is one spacing longer. It is the value in the run at level -1, which
- * has the longer horizon, minus the value in the first run of level 1, which has the same spacing. value[k]: figure of
- * run k. Returns NAN if the study has no run at level -1. */
+/* Returns the change of a figure (a number in summary.json) if the horizon is one spacing longer. It is the figure of
+ * the run with the longer horizon, which has level -1, minus that of the first run of level 1, which has the same
+ * spacing. value[k]: figure of run k. Returns NAN if the study has no run with a longer horizon. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -56,9 +57,9 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes half the step in which the figure called `name` can change, resolution[levels], at each spacing level. It is
- * half a spacing for positions and crack lengths [m], and for angles the rotation of the crack by half a spacing
- * [degree]. Returns false for figures that change continuously. */
+/* Computes resolution[levels] at each spacing level: half the step in which the figure called `name` changes because
+ * cracks grow from particle to particle. It is half a spacing for positions and crack lengths [m], and for angles the
+ * rotation of the crack by half a spacing [degree]. Returns false for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -77,8 +78,8 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
-/* Evaluates the convergence of figure number `at` of the table s->table, and its sensitivity to time step, spacing and
- * horizon. Returns false if a level has no value. */
+/* Evaluates the convergence of the figure in column `at` of the table s->table, and its sensitivity to time step,
+ * spacing and horizon. Stores both in *f. Returns false if a spacing level has no value. */
 static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -136,7 +137,8 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Returns the rank of a figure in the output by its name: 0 for cracks, 1 for others such as probes, 2 for energies. */
+/* Returns the position of the figure called `name` in the order of output: 0 for figures of cracks, 1 for others such
+ * as probes, 2 for energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
 static bool is_wanted(const struct convergence_study *s, const char *name, const char *const *wanted, int wanteds)
@@ -275,7 +277,7 @@ static bool limit_is_impossible(const struct scalar_result_study *f)
 }
 
 /* Prints the orders of convergence of a figure, and its limit at spacing 0, as part of a sentence. Prints nothing if
- * the means of its levels oscillate or diverge. */
+ * the means of its spacing levels oscillate or diverge. */
 static void order_print(const struct scalar_result_study *f)
 {
     const struct convergence *c = &f->c;

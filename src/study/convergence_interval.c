@@ -31,8 +31,8 @@ struct mixture {
 
 /* ---- the mixture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale S of the means of a figure: sqrt(range^2 + (error/2)^2), with the range of the means of all levels
- * and their largest error. */
+/* Returns the scale S of the means of a figure at all spacing levels: S = sqrt(range^2 + (error/2)^2), where range is
+ * the largest minus the smallest mean and error the largest error of a mean. */
 static double range_scale(const struct convergence *c)
 {
     double least = INFINITY, most = -INFINITY, error = 0;
@@ -43,9 +43,10 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Fits the value v at spacing 0 and the slope a of m_k = v + a (h_k/h_0)^p to the means of the levels by least squares.
- * p: order; t: misfit, the standard deviation of the means over `scale`. Stores mean (*centre) and standard deviation
- * (*deviation) of the posterior of v, as (v - m_0)/scale. Returns the logarithm of the likelihood of the means. */
+/* Fits the value v at spacing 0 and the slope a of m_k = v + a (h_k/h_0)^p to the means m_k of the spacing levels k
+ * with spacings h_k by least squares (level 0 is the finest). p: order of convergence; t: misfit, the standard
+ * deviation of the means over `scale`. Stores the mean of the posterior of (v - m_0)/scale in *centre and its standard
+ * deviation in *deviation. Returns the logarithm of the likelihood of the means. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -65,8 +66,9 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* Computes the mixture of normal distributions of the value at spacing 0 over all orders and misfits, with weights of
- * sum 1. scale: range of the means (range_scale). Returns false if it is 0: all means are equal and have no error. */
+/* Computes in m the distribution of the value of a figure at spacing 0. It is a mixture of normal distributions, one
+ * for each pair of an order of convergence and a misfit of the means, with weights of sum 1. scale: scale of the means
+ * of the figure. Returns false if it is 0, that is, if all means are equal and have no error. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {
     double most = -INFINITY, sum = 0;
@@ -92,7 +94,8 @@ static bool mixture_make(struct mixture *m, const struct convergence *c, double 
 /* Returns the probability that a standard normal variable is below z. */
 static double normal_below(double z) { return 0.5 * erfc(-z * 0.70710678118654752); }
 
-/* Returns the probability that a variable with the mixture distribution is within half_width of `about`. */
+/* Returns the probability that a variable with the mixture distribution m is between about - half_width and about +
+ * half_width. */
 static double mixture_within(const struct mixture *m, double about, double half_width)
 {
     double sum = 0;
@@ -103,8 +106,8 @@ static double mixture_within(const struct mixture *m, double about, double half_
     return sum;
 }
 
-/* Returns the half-width of the interval around `about` that contains a variable with the mixture distribution with the
- * probability `share`. Found by bisection. */
+/* Returns the half-width w of an interval about - w .. about + w that contains a variable with the mixture distribution
+ * m with the probability `share`. It is found by bisection. */
 static double mixture_half_width(const struct mixture *m, double about, double share)
 {
     double low = 0, high = 4 * VAGUE;
@@ -118,8 +121,8 @@ static double mixture_half_width(const struct mixture *m, double about, double s
     return high;
 }
 
-/* Returns the half-width of the interval that contains the share `share` of a normal distribution of mean 0 whose 95 %
- * interval has half-width 1. */
+/* Returns the half-width of the interval around 0 that contains a normal variable of mean 0 with the probability
+ * `share`. The standard deviation is such that the interval of 95 % has half-width 1. */
 static double normal_half_width(double share)
 {
     double low = 0, high = 10;

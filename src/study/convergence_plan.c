@@ -23,8 +23,8 @@ struct places {
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Appends a distance [m] to *p if it is a whole number of spacings, or of spacings plus one half, at the spacing of the
- * scene [m]. Ignores other distances, distances below one spacing and duplicates. */
+/* Appends the absolute value of `distance` [m] to *p if it is n or n + 1/2 times `spacing` [m], the spacing of the
+ * scene, with a whole number n. Ignores other distances, distances below one spacing and duplicates. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -36,8 +36,8 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
-/* Appends to *p the distances of faces and cracks from the lower corner of their body that are whole or half numbers of
- * spacings (place_add). */
+/* Appends to *p the distances of the faces and cracks of each body from its lower corner, as far as they are n or n +
+ * 1/2 spacings of the scene with a whole number n. */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -59,8 +59,9 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Returns the largest deviation from the lattice [spacings] that the distances p have at another spacing [m]. Each of
- * them should be a whole number of spacings, or of spacings plus one half, as at the spacing of the scene. */
+/* Returns the largest deviation from the lattice [spacings] that the distances p would have with the spacing `spacing`
+ * [m]. A distance deviates if it is not a whole number of spacings, or of spacings plus one half if it is so at the
+ * spacing of the scene. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;
@@ -73,8 +74,9 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the spacing [m] within wanted (1 +- reach) at which faces and cracks fit the lattice best; of equally good
- * ones the nearest to `wanted`. Excludes the spacings taken[n]. Returns 0 if there is none. */
+/* Returns the spacing [m] between wanted (1 - reach) and wanted (1 + reach) at which the distances p of faces and
+ * cracks fit the lattice best. Of equally good spacings it is the nearest to `wanted` [m]. Excludes the spacings
+ * taken[n] [m]. Returns 0 if there is none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {
     double longest = 0, best = 0, least = INFINITY;

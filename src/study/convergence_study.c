@@ -19,9 +19,9 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the time step for run number `run` of the `runs` runs of a level. Run 0 has the time step of
- * the scene. The others alternate between shorter and longer steps, the most different ones first. Steps that would be
- * unstable are excluded. */
+/* Returns the factor on the time step for run number `run` of the `runs` runs of a spacing level. Run 0 has the time
+ * step of the scene. The others have alternately shorter and longer steps, beginning with the largest deviations. Steps
+ * that would be unstable are excluded. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -31,8 +31,8 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing of run number `run` of a level [m]: run 0 has the first spacing of the level, and further runs
- * use its spacings in turn. */
+/* Returns the spacing of run number `run` of a level [m]. A level has several spacings that differ by a few per cent.
+ * Run 0 has the first of them, and further runs use them in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -40,16 +40,16 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Returns the horizon of runs with the given spacing [m], as a number of spacings. It is the horizon of the scene, or
- * if the horizon is fixed, the length that it has at the coarsest level. */
+/* Returns the horizon of runs with the spacing `spacing` [m], as a number of spacings. It is the number of the scene.
+ * If s->fixed_horizon is true, it instead keeps the length [m] that the horizon has at the coarsest level. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
     return s->scene.horizon * (s->fixed_horizon ? coarsest / spacing : 1);
 }
 
-/* Appends the override key = number to o[], with its text in value[*n], and increments *n. The override refers to both
- * texts. */
+/* Appends the override KEY=NUMBER to the list o, which has *n entries, and increments *n. The text of the number is
+ * stored in value[*n]. The override refers to this text and to `key`, which must outlive it. */
 static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
 {
     snprintf(value[*n], VALUE_ROOM, "%.15g", number);
@@ -96,9 +96,9 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the predicted duration of a run with the given spacing [s]. The duration of the first run is scaled by the
- * number of particles and the number of time steps, and if the horizon is a fixed length, also by the number of bonds
- * per particle. */
+/* Returns the predicted duration of a run with the spacing `spacing` [m], in seconds. It is the duration of the first
+ * run, scaled by the number of particles and of time steps. If the horizon is a fixed length, it is also scaled by the
+ * number of bonds per particle. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -118,9 +118,9 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of the finest level to `finest` and of the other levels to `runs`. If neither random
- * particles nor varied time steps distinguish runs, a level has at most as many runs as spacings, since further runs
- * would be equal. */
+/* Sets the number of runs of the finest spacing level to `finest` and of the other levels to `runs`. The runs of a
+ * level differ in their random particles, time steps or spacings. If neither of the first two varies, a level has at
+ * most as many runs as spacings, since further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -131,9 +131,9 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Chooses the largest number of runs per level, at most `runs`, with which the study takes no longer than `left` [s]
- * with `jobs` runs at a time. If the time does not suffice, plans one run at the finest level. Returns false if this
- * takes too long as well. Stores the predicted time in s->expected. */
+/* Chooses the largest number of runs per spacing level, at most `runs`, with which the study takes no longer than
+ * `left` [s] with `jobs` runs at a time. If the time suffices for none, plans a single run at the finest level. Returns
+ * false if this takes too long as well. Stores the predicted time in s->expected. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -146,8 +146,8 @@ static bool runs_fit(struct convergence_study *s, int runs, int jobs, double lef
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason why the convergence of scene s cannot be studied as the request w demands, as text for a message;
- * NULL if it can. */
+/* Returns the reason why the convergence of scene s cannot be studied as the request w demands, as a text for a
+ * message. Returns NULL if it can be studied. */
 static const char *study_refusal(const struct scene *s, const struct convergence_request *w)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -157,9 +157,10 @@ static const char *study_refusal(const struct scene *s, const struct convergence
     return NULL;
 }
 
-/* Makes the first run of the study, at the coarsest level. Stores its duration in s->spent; the durations of the other
- * runs are predicted from it. Sets *refused to true if the scene is invalid at this spacing, for example because the
- * integration rings of probes become too narrow. Returns REFUSED if the run exceeds the budget, FAILED if it fails. */
+/* Makes the first run of the study, at the coarsest spacing level, and stores its duration in s->spent. The durations
+ * of the other runs are predicted from it. Sets *refused to true if the scene is invalid at this spacing, for example
+ * because the integration rings of probes become too narrow. Returns REFUSED if the run exceeds the budget, FAILED if
+ * it fails. */
 static status first_run(struct convergence_study *s, const struct convergence_request *w, bool *refused)
 {
     struct study_options options = w->options;
@@ -194,9 +195,9 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
                     printable_name(folder.text).text);
 }
 
-/* Makes the first run of a study at the coarsest level. While the scene is invalid at that spacing, refines all levels
- * and tries again, at most FINER_MOST times. Stores the largest refused spacing in s->refused. Returns the status of
- * the last try. */
+/* Makes the first run of a study at the coarsest spacing level. If the scene is invalid at that spacing, refines all
+ * levels and tries again, at most FINER_MOST times. Stores the largest spacing that was invalid in s->refused. Returns
+ * the status of the last try. */
 static status first_run_sound(struct convergence_study *s, const struct convergence_request *w)
 {
     bool refused = false;
@@ -212,8 +213,8 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans the spacing levels of a study, the finest with the spacing of the scene times 2^(shift/2), without spacings at
- * which the scene is invalid. Returns false if no valid plan results. */
+/* Plans the spacing levels of a study as the request w demands. The finest level has the spacing of the scene times
+ * 2^(shift/2). Omits levels at which the scene is invalid. Returns false if no valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -226,8 +227,8 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
     return s->spacings.at[levels - 1][0] < 0.999 * s->refused;
 }
 
-/* Chooses spacing levels and numbers of runs that fit into the budget: while the finest level is too expensive, all
- * levels are coarsened. jobs: number of runs at a time. REFUSED if no plan fits. */
+/* Chooses spacing levels and numbers of runs with which the study fits into its budget. Levels are coarsened until the
+ * finest one is not too expensive. w: request; jobs: number of runs at a time. Returns REFUSED if no plan fits. */
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
@@ -256,8 +257,8 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
                       s->budget, need + s->spent);
 }
 
-/* Adds all planned runs to the study, first one run of each level, so that there are results even if the budget ends
- * early. The last run, at level -1, has a longer horizon. */
+/* Adds all planned runs to the study. The first ones are one run of each spacing level, so that there are results even
+ * if the budget ends early. The last run, marked by level -1, has a longer horizon. */
 static void runs_add_all(struct convergence_study *s)
 {
     const int first = s->point[s->first].level;

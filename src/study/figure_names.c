@@ -84,8 +84,8 @@ struct nearest {
     int distance;
 };
 
-/* Offers the name group.leaf to a search for the most similar name. It replaces the name found so far if it is more
- * similar to n->to. */
+/* Proposes the name group.leaf to the search n for the name that is most similar to the text n->to. It replaces the
+ * name found so far if it is more similar. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];
@@ -94,8 +94,8 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf` is in the list `leaves`, whose names are separated by blanks. Also offers each name of the
- * list, joined to `group`, to the search n for the most similar name. */
+/* Returns true if `leaf`, the last part of the name of a figure, is in the list `leaves`, whose names are separated by
+ * blanks. Also proposes each name group.LEAF, with LEAF from the list, to the search n for the most similar name. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -122,8 +122,8 @@ static void numbers_hidden(char *to, size_t capacity, const char *name)
     to[n] = '\0';
 }
 
-/* Returns true if `group` is a probe of the scene (probes.NAME) whose kind has the figure `leaf`. Also offers the names
- * of the figures of all probes to the search n for the most similar name. */
+/* Returns true if `group` is the name probes.NAME of a probe of the scene whose kind has the figure `leaf`. Also
+ * proposes the names of the figures of all probes to the search n for the most similar name. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
     char own[NAME_ROOM];
@@ -136,8 +136,8 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* Returns the kind of space that a figure needs and the scene does not have, as a phrase for a message; NULL if the
- * scene has it. It follows from axes at the end of `leaf`, the last part of the figure's name, such as velocity_y or
+/* Returns the kind of space that a figure requires and the scene lacks, as a phrase for a message, or NULL if the scene
+ * has it. It follows from the axes in `leaf`, the last part of the figure's name, such as velocity_y or
  * stress_zx_max. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
@@ -154,9 +154,9 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* Returns the solver that a figure needs and the scene does not have, as a phrase for a message; NULL if the scene
- * has it. leaf: end of the figure's name. Times and speeds of cracks need a run in time, numbers of steps need load
- * steps. */
+/* Returns the kind of solver that a figure requires and the scene lacks, as a phrase for a message, or NULL if the
+ * scene has it. leaf: last part of the figure's name. Times and speeds of cracks require a run in time, numbers of
+ * steps require load steps. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -165,9 +165,9 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* Returns what a figure with a known name needs and the scene does not have, as a phrase for a message; NULL if runs of
- * the scene have the figure. name: name of the figure; group: the part before its last point, with # for numbers; leaf:
- * the part after it. */
+/* Returns what a figure with a known name requires and the scene lacks, as a phrase for a message, or NULL if runs of
+ * the scene have the figure. name: name of the figure; group: its part before the last point, with # in place of
+ * numbers; leaf: its part after the last point. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

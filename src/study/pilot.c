@@ -22,7 +22,7 @@ enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at wh
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Appends a key and its value, which are copied, to the chosen keys of *to, and increments *n. */
+/* Copies a key and its value to to->key[*n] and to->value[*n], the keys chosen by pilot runs, and increments *n. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -85,8 +85,8 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 /* Returns the time of the budget of pilot runs that is left [s], at least 0. */
 static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
 
-/* Returns the candidate method with the shortest predicted duration of a run at the spacing that the method requires;
- * NULL if no method has a prediction. */
+/* Returns the candidate method with the shortest predicted duration of a run at the spacing that it requires for the
+ * requested accuracy. Returns NULL if no method has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
 {
     struct pilot_candidate *best = NULL;
@@ -95,9 +95,9 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
-/* Makes one convergence study of every candidate method. The studies share the part PILOT_FIRST_SHARE of the time
- * equally. If the scene is invalid at the spacing of a study, the study is repeated at finer spacings. Returns
- * INTERRUPTED after a stop signal, or the error if the runs lack the requested figure. */
+/* Makes one convergence study of every candidate method. The studies together take the share PILOT_FIRST_SHARE of the
+ * time that is left, in equal parts. If the scene is invalid at the spacing of a study, the study is repeated at finer
+ * spacings. Returns INTERRUPTED after a stop signal, or the error if the runs lack the requested figure. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -118,8 +118,8 @@ static status search_first(struct pilot_search *p)
 }
 
 /* Repeats the study of the method *c at finer spacings, as fine as its prediction requires and the remaining time
- * allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study yields nothing
- * new, or if it is interrupted. Only in the last case *done is set to INTERRUPTED. */
+ * allows. Replaces *c by the outcome and returns true. Returns false if no time is left, if the study has no better
+ * outcome, or if it is interrupted. *done is INTERRUPTED in the last case, else OK. */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -187,8 +187,9 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
-/* Writes the overrides for the chosen method *best and its spacing to *to, and prints both. best: NULL if there is
- * none. REFUSED if it is not accurate enough within the budget, or if two methods converge to different values. */
+/* Prints the chosen method *best and its spacing, and stores the overrides for them in *to. best: NULL if there is
+ * none. Returns REFUSED if `best` is NULL or not accurate enough within the budget, or if two methods converge to
+ * different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)
@@ -231,8 +232,9 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     return pilot_store_choice(to, p, best);
 }
 
-/* Chooses the overrides of a scene with `method: auto`: reads a stored choice for the same scene, or makes pilot runs
- * in a folder beside `folder`, the folder of the run (NULL: default). REFUSED if no method is suitable. */
+/* Chooses the overrides *to of a scene with `method: auto`. Reads a stored choice for the same scene if there is one,
+ * else makes pilot runs in a folder beside `folder`, the folder of the run (NULL for the default). p: state of the
+ * choice. Returns REFUSED if no method is suitable. */
 static status pilot_choose(struct pilot *to, struct pilot_search *p, const char *folder)
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];

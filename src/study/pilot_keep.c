@@ -30,8 +30,8 @@ void pilot_free(struct pilot *to)
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
-/* Returns the text by which a stored choice is recognised: the scene file, and the overrides of the user as comments.
- * NULL if the scene cannot be read. Release it with free. */
+/* Returns the text by which a stored choice is recognised: the contents of the scene file, followed by the overrides of
+ * the user as comments. Returns NULL if the scene file cannot be read. The caller releases the text with free. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
@@ -60,8 +60,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* Stores two files in the folder of the pilot runs: the scene with the chosen overrides, and the table with the error
- * bars of the chosen method *best. FAILED if a file cannot be read or written. */
+/* Stores two files in the folder of the pilot runs: the scene with the chosen overrides *to, and the table converge.csv
+ * with the error bars of the chosen method *best. Returns FAILED if a file cannot be read or written. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
@@ -93,7 +93,7 @@ status pilot_store_choice(const struct pilot *to, const struct pilot_search *p, 
     return put;
 }
 
-/* Reads the lines key=value of a stored choice from `text`, and copies the keys to to->key and the values to to->value,
+/* Reads the lines KEY=VALUE of a stored choice from `text`, and copies the keys to to->key and the values to to->value,
  * at most CHOSEN_MOST of each. Returns their number. Modifies `text`. */
 static int answer_read(struct pilot *to, char *text)
 {

@@ -47,12 +47,13 @@ struct pilot_search {
  * has the requested figure. */
 status pilot_plan(struct pilot_search *p);
 
-/* Returns the name of the figure (scalar result) whose accuracy the scene requests; if it names none, a description of
- * the default figure. The text belongs to *p or is static. */
+/* Returns the name of the figure (scalar result) whose accuracy the scene requests, or a description of the default
+ * figure if it names none. The text belongs to *p or is static. */
 const char *pilot_result_name(const struct pilot_search *p);
 
-/* Allocates to->override and fills it with the overrides override[overrides] of the user, followed by n chosen keys
- * and values from to->key and to->value (pilot_keep.c). An earlier array is freed. */
+/* Allocates the array to->override, after releasing an earlier one, and fills it. The first entries are the overrides
+ * of the user, override[overrides]. They are followed by n keys that pilot runs have chosen, with the texts to->key[k]
+ * and to->value[k]. */
 void pilot_set_overrides(struct pilot *to, const struct scene_override *override, int overrides, int n);
 
 /* Determines, from the convergence study s of the method `candidate`, the particle spacing that the method requires for
@@ -64,14 +65,14 @@ status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *can
 /* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected time of the run. */
 void pilot_print(const struct pilot_search *p, const struct pilot_candidate *candidate);
 
-/* Stores the choice *to, the scene and overrides for which it was made, and the error bars of the chosen method *best
- * as files in the folder of the pilot runs (pilot_keep.c). Returns FAILED if the scene cannot be read or a file cannot
- * be written. */
+/* Stores the choice *to as files in the folder of the pilot runs, with the scene and the overrides for which it was
+ * made and the error bars of the chosen method *best. search: state of the choice. Returns FAILED if the scene cannot
+ * be read or a file cannot be written. */
 status pilot_store_choice(const struct pilot *to, const struct pilot_search *search,
                           const struct pilot_candidate *best);
 
-/* Reads the choice that an earlier pilot_store_choice stored for the same scene and overrides into *to. Returns false
- * if there is none. */
+/* Reads the choice that earlier pilot runs of the same scene with the same overrides have stored, into *to. search: the
+ * scene, its overrides and the folder of the pilot runs. Returns false if there is none. */
 bool pilot_read_stored(struct pilot *to, const struct pilot_search *search);
 
 #endif

@@ -23,8 +23,9 @@ void study_compose_default_folder(char *folder, size_t capacity, const struct sc
     snprintf(folder, capacity, "results/%s_%s", scene->name, kind);
 }
 
-/* Reads the scene file `path` and writes the default folder of a study of it, results/NAME_KIND with KIND = kind, into
- * to[capacity]. Returns REFUSED or FAILED if the scene cannot be read. */
+/* Reads the scene file `path` and writes the path of the default folder of a study of this scene into to[capacity]:
+ * results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED or FAILED if the scene cannot be
+ * read. */
 static status place_read(char *to, size_t capacity, const char *path, const char *kind)
 {
     struct scene scene;
@@ -50,8 +51,9 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 
 /* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
-/* Composes the text that identifies a study whose scene cannot be read without the varied keys: the scene file `path`,
- * and the overrides as comments. The caller releases *text with memory_free. FAILED if the file cannot be read. */
+/* Composes the text that identifies a study if its scene cannot be read without the varied keys: the contents of the
+ * file `path`, and override[overrides] as comments. The caller releases *text with memory_free. Returns FAILED if the
+ * file cannot be read. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -101,9 +103,9 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
 /* First line of the file STUDY_SCENE, by which Cleave recognises it. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Returns the text of the scene in the file `path` of a study, without the lines of mark and options. Studies of an
- * earlier format have no such lines; their scene begins as every scene that Cleave writes. Returns NULL if there is no
- * such file or it begins otherwise. The caller releases the text with memory_free. */
+/* Reads the text of the scene in the file `path` of a study, without the lines that mark the file and store options.
+ * Studies of an earlier format have no such lines; their scene begins as every scene that Cleave writes. Returns NULL
+ * if there is no such file or it begins otherwise. The caller releases the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;
@@ -273,7 +275,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
 /* Reads how the run in `folder` ended, such as "done" or "failed", from its summary into ended[capacity]. Stores "" if
- * the folder has no finished run, or if the scene of the run is not scene_text. */
+ * the folder contains no finished run, or a run of another scene than scene_text. */
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
@@ -289,8 +291,8 @@ struct scenes_seen {
     uint64_t *hash;
 };
 
-/* Sets *same to true if the run `other` has the scene `text`, by comparing the texts, since equal hashes do not
- * suffice. REFUSED or FAILED if the scene of the run cannot be read. */
+/* Sets *same to true if the run `other` of the study has the scene `text`. The texts of the scenes are compared, since
+ * different scenes can have equal hashes. Returns REFUSED or FAILED if the scene of the run cannot be read. */
 static status case_same(bool *same, const struct study *s, const struct study_case *other, const char *text)
 {
     struct scene scene;
@@ -300,9 +302,9 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
     return OK;
 }
 
-/* Looks up the scene of run `number` in the hash table of scenes. If an earlier run has the same scene, sets the state
- * of this run to CASE_SAME; otherwise enters the scene into the table. text: the scene of the run. REFUSED or FAILED if
- * the scene of an earlier run cannot be read. */
+/* Marks run `number` if an earlier run of the study has the same scene: looks up `text`, the scene of the run, in the
+ * hash table `seen`. Sets the state of the run to CASE_SAME if it is found, else enters it. Returns REFUSED or FAILED
+ * if the scene of an earlier run cannot be read. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -322,9 +324,9 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
-/* Reads the scene of run `number`, and sets the state of the run if it is equal to an earlier run or if its folder has
- * its results already. collect: runs that have failed before are marked as failed; otherwise they are run again.
- * Returns REFUSED if the scene is invalid. */
+/* Reads the scene of run `number`, and sets the state of the run if it equals an earlier run or if its folder contains
+ * its results already. collect: true if runs that failed before are marked as failed; false if they are to be run
+ * again. seen: scenes of the runs checked before. Returns REFUSED if the scene is invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

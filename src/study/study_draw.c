@@ -85,7 +85,7 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_find_result(t, "loop_seconds"));
 }
 
-/* Chooses the figures with the names of[asked] for the panels. REFUSED if a name is not in the table. */
+/* Chooses the figures with the names of[asked] for the panels. REFUSED if one is not in the table of the study. */
 static status panels_of(struct study_picture *p, const char *const *of, int asked)
 {
     const struct study_table *t = p->table;
@@ -107,8 +107,8 @@ static bool key_is_chance(const char *key)
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 for another value. The
- * caller frees each value_at[k]. */
+/* Stores in value_at[k][r] which value key[k] has in run r of a study: its index, or -1 if the value is not in the list
+ * of the key. Allocates the value_at[k]; the caller releases them. */
 static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
 {
     for (int k = 0; k < keys; k++) {
@@ -126,8 +126,8 @@ static void values_find(int **value_at, const struct study *s, const struct vari
     }
 }
 
-/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
- * while there are at most lines_most lines. Of further keys only the first value is shown. */
+/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, while there are
+ * at most lines_most lines. Further keys are shown with their first value only. */
 static void roles_choose(struct study_picture *p, int lines_most)
 {
     p->lines = 1;
@@ -146,8 +146,8 @@ static void roles_choose(struct study_picture *p, int lines_most)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the line to which a run belongs, by its values of the ROLE_LINES keys; -1 if the run is not in
- * the picture. */
+/* Returns the index of the line to which a run belongs, computed from its values of the keys that distinguish lines.
+ * Returns -1 if the run is not in the picture. */
 static int line_of(const struct study_picture *p, int run)
 {
     int line = 0;
@@ -159,8 +159,8 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Returns the points of a figure, an allocated array [lines][values of the key along the axis]. The caller releases it
- * with memory_free. figure: its index in the table. */
+/* Returns the points of a panel, an array [lines][values of the key along the axis] of mean and scatter of a figure.
+ * The caller releases it with memory_free. figure: column of the figure in the table. */
 static struct point_of *means_find(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];
@@ -188,7 +188,7 @@ static struct point_of *means_find(const struct study_picture *p, int figure)
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
-/* Writes the title of a line, composed of the values of its keys, as `60GPa, 1mm`, into text[capacity]. */
+/* Writes the title of line number `line`, its values of the keys that distinguish lines, as `60GPa, 1mm`. */
 static void line_title(char *text, size_t capacity, const struct study_picture *p, int line)
 {
     size_t used = 0;
@@ -204,8 +204,8 @@ static void line_title(char *text, size_t capacity, const struct study_picture *
     }
 }
 
-/* Writes the names of the keys with the given role, as `material.young, load`, into text[capacity]. with_value: adds
- * the first value of each key. */
+/* Writes the names of the keys that have the given role in the picture into text[capacity], for example
+ * `material.young, load`. with_value: true to add the first value of each key. */
 static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
@@ -227,8 +227,8 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Composes the notes below the panels: which keys are held at one value, and what points and bars mean. map: notes for
- * maps instead of lines. */
+/* Composes the notes below the panels: which keys have one value, and what points and bars mean. map: true for maps,
+ * false for lines. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -271,8 +271,8 @@ static bool words_touch(const struct varied_key *key)
 static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
 static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
 
-/* Computes the margins of the panels, the width of the legend and the height of the picture from the lengths of their
- * texts. up: key along the vertical axis of a map; NULL for lines. */
+/* Computes the margins of the panels, the width of the legend and the size of the picture from the lengths of their
+ * texts. up: key along the vertical axis of a map; NULL for a picture with lines. */
 static void room_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
@@ -330,8 +330,8 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
     return unit_with_allowed_prefix(unit, largest);
 }
 
-/* Sends margins, title and axis labels of panel number `panel`. up: label of the vertical axis; NULL: the axis shows
- * the values of the figure. */
+/* Sends margins, title and axis labels of panel number `panel` to gnuplot. up: label of the vertical axis; NULL if this
+ * axis shows the values of the figure. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
     const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
@@ -440,7 +440,8 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Draws every figure as a map over the two keys p->across and `up`, the index of the key along the vertical axis. */
+/* Draws each chosen figure of a study as a map over two varied keys. The key with the index p->across is along the
+ * horizontal axis, the one with the index `up` along the vertical axis. Returns FAILED if gnuplot fails. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];
@@ -472,9 +473,9 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two keys of a map: the varied keys with a physical meaning or, unless these are two, all varied keys.
- * Stores the index of the key along the vertical axis in *up, along the horizontal axis in *across. Returns false if
- * neither selection has exactly two keys. */
+/* Finds the two keys of a map: the varied keys with a physical meaning if they are two, else all varied keys. Stores
+ * the index of the key along the vertical axis in *up, along the horizontal axis in *across. Returns false if there are
+ * not two. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

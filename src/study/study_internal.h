@@ -17,16 +17,16 @@ uint64_t study_hash(uint64_t hash, const char *text);
 /* Enlarges the hash table of the names of runs if it has no room for one more name. */
 void study_grow_name_table(struct study *s);
 
-/* Chooses a name that no run of s has and writes it to name[CASE_NAME_ROOM]: the text `wanted`, restricted to
- * characters that every file system accepts, or if it is too long, reserved or taken, case-HASH with a hash of the
- * overrides o[n]. */
+/* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text `wanted`,
+ * restricted to characters that every file system accepts. If that is too long, reserved or taken, it is case-HASH,
+ * with a hash of the overrides o[n] of the run. */
 void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
 
 /* Adds the name of the run with index `number` to the hash table of the names of runs. */
 void study_name_register(struct study *s, int number);
 
-/* Stores the indices of those of the keys key[keys] that have several values in order[], sorted as the keys appear in
- * names of runs; order[] has room for `keys` entries. Returns their number. */
+/* Finds which of the keys key[keys] appear in the names of runs, those with several values. Stores their indices in
+ * order[], which has space for `keys` entries, in the order in which they appear. Returns their number. */
 int study_order_name_keys(int *order, const struct varied_key *key, int keys);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
@@ -40,8 +40,8 @@ void study_name_compose(char *name, const struct varied_key *key, int keys, cons
 /* Capacity of the label of a value in a picture [byte]. */
 enum { LABEL_ROOM = 40 };
 
-/* Writes the label that a picture has for value number `value` of a varied key to text[LABEL_ROOM]. If the values are
- * long, the beginning and end that all of them share are left out. */
+/* Writes the label of value number `value` of a varied key, as in pictures, to text[LABEL_ROOM]. If the values of the
+ * key are too long, the label omits their common beginning and end. */
 void study_value_label(char *text, const struct varied_key *key, int value);
 
 /* Returns the number of characters of the longest label of the values of a key. */
@@ -53,12 +53,12 @@ enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 /* Writes the file name of the picture of a key, KEY.png, to name[PICTURE_NAME_ROOM]. */
 void study_picture_name(char *name, const char *key);
 
-/* Returns a round distance between tics (1, 2 or 5 times a power of ten) that divides an axis of length `range` > 0
- * into at most `max_intervals` intervals. */
+/* Returns a distance between tics, 1, 2 or 5 times a power of ten, that divides an axis of length `range` > 0 into at
+ * most `max_intervals` intervals. */
 double axis_tick_distance(double range, int max_intervals);
 
 /* Returns true if all values of the varied key are numbers with the same unit, and then stores a pointer to the text of
- * the unit in *unit. */
+ * this unit in *unit. */
 bool varied_key_is_number(const struct varied_key *key, const char **unit);
 
 #endif

@@ -9,9 +9,9 @@
  * characters that labels omit. */
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* Computes the numbers of characters that all values of a key have in common at their beginning (*begin) and at their
- * end (*end), which labels may omit. Both are cut at separators, so that no number is divided, and are 0 if less than
- * LEFT_OUT_LEAST. */
+/* Computes how many characters all values of a key have in common at their beginning (*begin) and at their end (*end),
+ * so that labels may omit them. Both numbers are reduced to the next separator, so that no number is divided. A result
+ * below LEFT_OUT_LEAST becomes 0. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];
@@ -31,8 +31,8 @@ static void values_common(const struct varied_key *key, size_t *begin, size_t *e
     if (*end < LEFT_OUT_LEAST) *end = 0;
 }
 
-/* Reduces the numbers of characters that labels omit, *begin and *end, as far as the labels still fit into VALUE_SHOWN
- * characters. longest: length of the longest value. */
+/* Reduces the numbers of characters that labels omit at the beginning (*begin) and end (*end) of values, as long as the
+ * labels still fit into VALUE_SHOWN characters. longest: length of the longest value. */
 static void common_keep(size_t *begin, size_t *end, size_t longest)
 {
     const size_t wanted = longest - *begin - *end + 4;

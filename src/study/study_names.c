@@ -11,8 +11,8 @@
 
 /* ---- hashes ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the hash of a sequence of texts that ends with `text`. hash: hash of the texts before it (FNV-1a, Fowler,
- * Noll and Vo, with a final mixing step). */
+/* Returns the hash of a sequence of texts that ends with `text`, by FNV-1a (Fowler, Noll and Vo) with a final mixing
+ * step. hash: hash of the texts before it. */
 uint64_t study_hash(uint64_t hash, const char *text)
 {
     for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
@@ -28,7 +28,8 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Returns the slot of the hash table of names that contains `name`, or the empty slot where it has to be entered. */
+/* Returns the slot of the hash table of run names that contains `name`, or the empty slot in which it has to be
+ * entered. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);

@@ -16,7 +16,8 @@ static bool word_listed(const char *word, const char *const *list)
     return false;
 }
 
-/* Returns a copy of a text in one line: \n stands for a line break, \\ for a backslash. */
+/* Returns a copy of `text` in one line: a line break is written as \n and a backslash as \\. The caller releases it
+ * with memory_free. */
 static char *line_from_text(const char *text)
 {
     char *line = NEW("study.options", 2 * (int64_t)strlen(text) + 1, char), *to = line;
@@ -28,8 +29,8 @@ static char *line_from_text(const char *text)
     return line;
 }
 
-/* Replaces a line that line_from_text has made by the original text, in place: \n becomes a line break and \ a
- * backslash. */
+/* Replaces `line`, a text whose line breaks are written as \n and whose backslashes are written as \\, by the original
+ * text, in place. */
 static void line_to_text(char *line)
 {
     char *to = line;

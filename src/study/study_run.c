@@ -34,9 +34,9 @@ struct runner {
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Returns the words of the `cleave run` command for run c of a study, an array ended by NULL. Stores in *pairs the
- * texts key=value to which the words refer. The caller releases both with memory_free. scene: path of the scene file;
- * folder: for the results; threads: number as text, or NULL; mode: --resume, --overwrite or NULL. */
+/* Returns the words of the `cleave run` command for run c of a study, as an array ended by NULL. Stores in *pairs the
+ * texts KEY=VALUE to which the words refer. The caller releases both with memory_free. scene: path of the scene file;
+ * threads: number of threads as text, or NULL; folder: folder for the results; mode: --resume, --overwrite or NULL. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
@@ -56,9 +56,8 @@ static char **command_words(const char *scene, const struct study_case *c, char 
     return word;
 }
 
-/* Prints the character c of a word of a shell command, which is in single quotes. harmful: a terminal would act on the
- * character and the output stream would replace it. It is then printed as a number, which the shell converts to the
- * character with printf. */
+/* Prints the character c, which is within a word in single quotes of a shell command. harmful: true if a terminal would
+ * act on the character. It is then printed as a number, from which the shell makes the character with printf. */
 static void print_quoted(FILE *out, char c, bool harmful)
 {
     if (harmful)
@@ -87,7 +86,8 @@ void study_print_word(FILE *out, const char *word)
     memory_free(shown);
 }
 
-/* Returns an absolute path. Links in it are kept, as a scene is named after the link through which it is reached. */
+/* Returns `path` as an absolute path. Symbolic links in it are kept, since a scene is named after the link by which it
+ * is given. */
 static struct path path_whole(const char *path)
 {
     char here[PATH_ROOM];
@@ -131,8 +131,9 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of the log of a run, by which Cleave recognises it. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks that the files of run c of a study may be written. REFUSED if the folder of the run is a link, which may lead
- * out of the folder of the study, or if the log of the run would replace a file that Cleave did not write. */
+/* Checks that the files of run c of a study may be written. Returns REFUSED if the folder of the run is a symbolic
+ * link, which may lead out of the folder of the study, or if the log of the run would replace a file that Cleave did
+ * not write. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -144,8 +145,8 @@ static status case_guard(const struct study *s, const struct study_case *c)
     return file_check_beginning(log.text, begin, COUNT_OF(begin));
 }
 
-/* Runs in the child process: executes the command word[] with its output in the descriptor `log`. The process has its
- * own process group, so that an interrupt from the terminal reaches only the study, which passes it on once. It is
+/* Replaces the child process by the command word[], with its output to the descriptor `log`. The process has its own
+ * process group, so that an interrupt from the terminal reaches only the study, which passes it on once. The process is
  * ended if the study is killed. Does not return. */
 static _Noreturn void become_run(char **word, int log)
 {
@@ -163,8 +164,9 @@ static _Noreturn void become_run(char **word, int log)
     _exit(FAILED);
 }
 
-/* Starts the process of run c on the cores of the given slot, with its output in a log. A run with results in its
- * folder is resumed, or replaced with --overwrite. REFUSED or FAILED if it cannot be started. */
+/* Starts the process of run c with its output in a log. slot: number of the share of the processor cores on which it
+ * runs. A run with results in its folder is resumed, or replaced with --overwrite. Returns REFUSED or FAILED if it
+ * cannot be started. */
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
@@ -212,8 +214,8 @@ static void last_line(const char *path, char *line, size_t capacity)
     memory_free(text);
 }
 
-/* Records the end of a run: its state and duration. Prints a line about it, which after a failure contains the last
- * line of its log, and removes an empty log. ended: status of the process from waitpid. */
+/* Records the end of run c: its state and duration. Prints a line about the run, which after a failure contains the
+ * last line of its log. Removes an empty log. ended: status of the process from waitpid. */
 static void case_end(struct runner *r, struct study_case *c, int ended)
 {
     const struct path log = log_path(r->study, c);
@@ -237,7 +239,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
-/* Records the ends of those running processes of a study that have ended. */
+/* Finds the processes of a study that have ended since the last call, and records state and duration of their runs. */
 static void cases_take(struct runner *r)
 {
     for (int k = 0; k < r->study->n; k++) {
@@ -247,7 +249,7 @@ static void cases_take(struct runner *r)
     }
 }
 
-/* Returns the smallest slot (share of the cores) that no running process of the study uses. */
+/* Returns the smallest number of a share of the processor cores that no running process of the study uses. */
 static int slot_free(const struct runner *r)
 {
     for (int slot = 0;; slot++) {
@@ -267,8 +269,8 @@ static void cases_stop(struct runner *r)
     r->stopped = true;
 }
 
-/* Kills the processes of a study that have not ended PATIENCE seconds after cases_stop, for example during a long
- * set-up. */
+/* Kills the processes of a study that still run PATIENCE seconds after they were asked to stop by a signal, for example
+ * because of a long set-up. */
 static void cases_kill(struct runner *r)
 {
     if (!r->stopped || wall_clock() < r->since + PATIENCE) return;
@@ -305,8 +307,8 @@ static status cases_run(struct runner *r)
 
 /* ---- whole study ------------------------------------------------------------------------------------------------- */
 
-/* Returns the options `how` of a study in which numbers that are 0 are replaced. The number of runs at a time becomes
- * the number of cores over the threads of a run if these are given, else the number of cores or of waiting runs,
+/* Returns the options `how` of a study with numbers in place of zeros. The number of runs at a time becomes the number
+ * of cores over the threads of a run if these are given. Otherwise it is the number of cores or of waiting runs,
  * whichever is smaller. The number of threads becomes an equal share of the cores for each run. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
@@ -320,8 +322,8 @@ static struct study_options options_filled(struct study_options how, const struc
     return how;
 }
 
-/* Claims the folder of a study and writes the scene of the study into it. REFUSED if the folder holds other files or,
- * without `overwrite`, the study of another scene. FAILED if it cannot be written. */
+/* Claims the folder of a study and writes the scene of the study into it. Returns REFUSED if the folder contains other
+ * files or, unless `overwrite` is true, the study of another scene. Returns FAILED if it cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_mark(s->folder));

@@ -33,8 +33,9 @@ static int figure_add(struct study_table *t, const char *name)
     return t->figures++;
 }
 
-/* Stores one number of a summary in the row of the current run. A figure that is new gets a new column. context: struct
- * filled; key: name of the figure. Called for each number of a summary. */
+/* Stores one number of a summary in the table, in the row of the current run. A figure that is not in the table yet
+ * gets a new column. context: pointer to a struct filled; key: name of the figure; value: the number. It is called for
+ * each number of a summary. */
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;

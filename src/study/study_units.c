@@ -26,8 +26,8 @@ static bool name_fits(const char *name, const char *begin, const char *end)
     return strncmp(name, begin, strlen(begin)) == 0 && n >= e && strcmp(name + n - e, end) == 0;
 }
 
-/* Reads the unit of the column called `column` from the header of a history into unit[capacity], "" for [1]. Returns
- * false if there is no such column. */
+/* Reads the unit of the column called `column` from the header line of history.csv into unit[capacity]. The text is ""
+ * for dimensionless columns. Returns false if there is no such column. */
 static bool unit_in_header(char *unit, size_t capacity, const char *header, const char *column)
 {
     const size_t length = strlen(column);

@@ -26,8 +26,8 @@ double value_read_number(const char *value, const char **unit)
 
 /* ---- pieces of a list -------------------------------------------------------------------------------------------- */
 
-/* Returns the position of the first character `mark` in the text `at` that is outside brackets and quotes, or of the
- * end of the text if there is none. */
+/* Returns a pointer to the first character `mark` in the text `at` that is outside brackets and quotes, or to the end
+ * of the text if there is none. */
 static const char *value_end(const char *at, char mark)
 {
     int depth = 0;
@@ -47,7 +47,8 @@ static const char *value_end(const char *at, char mark)
     return at;
 }
 
-/* Returns a copy of the characters from..to-1 without blanks at both ends. Release it with memory_free. */
+/* Returns a copy of the characters from `from` to before `to`, without blanks at both ends. The caller releases it with
+ * memory_free. */
 static char *trimmed(const char *from, const char *to)
 {
     while (from < to && isspace((unsigned char)*from)) from++;
@@ -83,9 +84,9 @@ struct row {
     char unit[32];
 };
 
-/* Reads a range from:to:step, such as 10:30:5 mm, into *r. Returns false if the text has another form. Sets *s to
- * REFUSED if the text is a range but its units differ, or its step does not lead from the first number to the last. k:
- * key, for messages. */
+/* Reads a range FROM:TO:STEP, such as 10:30:5 mm, from `text` into *r. Returns false if the text has another form. Sets
+ * *s to REFUSED if the text is a range but its units differ, or if no whole number of steps leads from the first number
+ * to the last. k: key of the range, for messages. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};
@@ -127,8 +128,8 @@ static status values_add_row(struct varied_key *k, const struct row *r)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads a list of values and ranges, separated by commas, and appends them to k->value. REFUSED if a value is missing
- * or given twice, or a range is faulty. */
+/* Reads a list of values and ranges, separated by commas, and appends the values to k->value. Returns REFUSED if a
+ * value is missing or occurs twice, or a range is faulty. */
 static status values_read(struct varied_key *k, const char *text)
 {
     for (const char *at = text;;) {

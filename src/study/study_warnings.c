@@ -32,8 +32,8 @@ static bool is_alike(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Counts a warning (`text`) of run number `run` in the list kind[*kinds]. Warnings that differ only in numbers are one
- * kind, which counts once per run. Ignores new kinds after KINDS_MOST. */
+/* Counts the warning `text` of run number `run` in the list kind[*kinds]. Warnings that differ only in numbers are of
+ * one kind, which counts once per run. A new kind is appended, unless there are already KINDS_MOST. */
 static void warning_book(struct warning_kind *kind, int *kinds, const char *text, int run)
 {
     int k = 0;

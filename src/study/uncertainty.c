@@ -15,8 +15,8 @@
 /* Largest relative difference between the spacings of a level's runs and that of the scene [1]. */
 #define SAME_LEVEL 0.05
 
-/* Returns the path of the folder of the convergence study NAME_converge, with NAME = name, which is beside the folder
- * of a run. */
+/* Returns the path of the folder NAME_converge with NAME = name, in the parent folder of `folder`, the folder of a run.
+ * The convergence study of the run has this folder by default. */
 static struct path study_beside(const char *folder, const char *name)
 {
     char place[PATH_NAME_ROOM];
@@ -36,8 +36,8 @@ struct path pilot_folder(const char *folder)
     return to;
 }
 
-/* Returns the next cell of a line of a table, and advances *line behind it. Returns NULL at the end of the line.
- * Changes the line. */
+/* Returns the next cell of a line of a table, a text that is ended in place by a zero, and sets *line to the text after
+ * it. Returns NULL at the end of the line. */
 static char *cell_next(char **line)
 {
     char *cell = *line;
@@ -53,7 +53,8 @@ struct bar_columns {
     int spacing[16], half_width[16], levels;
 };
 
-/* Finds the columns of spacing and uncertainty of each level in the header line of converge.csv. Changes `header`. */
+/* Finds the columns of spacing and uncertainty of each spacing level in `header`, the first line of converge.csv.
+ * Changes `header`. */
 static void columns_find(struct bar_columns *c, char *header)
 {
     int column = 0, level;
