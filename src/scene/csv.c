@@ -52,8 +52,8 @@ void csv_detect_separator(struct csv_file *c)
     c->separator = strchr(c->text, ';') ? ';' : tabs > commas ? '\t' : ',';
 }
 
-/* Strips surrounding blanks and double quotes from a field of a CSV line, repeatedly. Overwrites the text behind the
- * field with zeros. Returns the first character of the stripped field, a position in `field`. */
+/* Strips blanks and double quotes from both ends of a field of a CSV line, also if they are nested. Overwrites the
+ * characters after the stripped field with zeros. Returns a pointer to its first character, inside `field`. */
 static char *csv_trim(char *field)
 {
     size_t n = strlen(field);
@@ -65,8 +65,8 @@ static char *csv_trim(char *field)
     return csv_trim(field + 1);
 }
 
-/* Returns the position in `field` from which the separator that ends the field must be searched: the closing quote
- * of a quoted field, else the beginning of the field. */
+/* Returns the position in `field` at which the search for the separator after the field begins: the closing quote of a
+ * quoted field, else the beginning of the field. */
 static char *csv_behind_quotes(char *field)
 {
     char *start = field + strspn(field, " "), *close = *start == '"' ? strchr(start + 1, '"') : NULL;

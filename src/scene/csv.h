@@ -25,13 +25,14 @@ status csv_open(struct csv_file *c, const char *path, const char *contents);
 void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text. Sets *more to false at the end of the file, and *comment to true
- * if the line begins with #. */
+ * if the line begins with #. Returns REFUSED, with a message, if the line is too long or cannot be read. */
 status csv_read_line(struct csv_file *c, bool *more, bool *comment);
 
 /* Reads the next line that is neither blank nor a comment into c->text. Sets *more to false at the end of the file. */
 status csv_read_data_line(struct csv_file *c, bool *more);
 
-/* Sets the separator of the file from the current line: a semicolon or a tab if the line contains one, else a comma. */
+/* Sets the separator of the file from the current line: a semicolon if the line contains one, else a tab if it has more
+ * tabs than commas, else a comma. */
 void csv_detect_separator(struct csv_file *c);
 
 /* Cuts the next field off the line *rest and returns it, a part of the same memory, without surrounding blanks and

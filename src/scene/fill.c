@@ -105,8 +105,8 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
     return false;
 }
 
-/* Returns a uniform random number in [-1/2, 1/2) that depends on its arguments alone: the hash of `seed` with the
- * counter id * DIM_MAX + component. id: index of the particle; component: axis of its position. */
+/* Returns a uniform random number in [-1/2, 1/2) that depends on its arguments alone: a hash of `seed` and the counter
+ * id * DIM_MAX + component. id: index of the particle; component: axis of its position. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
     return (real)(hash_add_word(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
@@ -157,10 +157,10 @@ static status place_skip(struct particle_draft *d, const real *place)
     return OK;
 }
 
-/* Adds a particle to the draft d (particles before they are created) if the lattice position place[dim] is in the
- * shape of the body [m]. Its position is shifted at random by up to half of `particles.irregularity` spacings along
- * each axis (Imachi et al. 2019, eq. 49). body: index in the scene; volume: of the particle [m^3]. Returns REFUSED
- * if the draft cannot take it. */
+/* Adds a particle to d, the list of particles to be created, if the lattice position place[dim] [m] is in the shape of
+ * the body with the index `body`. Its position is shifted at random by up to half of `particles.irregularity` spacings
+ * along each axis (Imachi et al. 2019, eq. 49). volume: of the particle [m^3]. Returns REFUSED if the list cannot take
+ * it. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -172,9 +172,8 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
     return particle_draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
 }
 
-/* Adds the particles of the lattice in the shape of a body to the draft d (particles before they are created), with
- * x varying fastest. body: index in the scene. Returns REFUSED if the scene has no spacing or the shape does not fit
- * it. */
+/* Adds the particles of the lattice in the shape of the body with the index `body` to d, the list of particles to be
+ * created, with x varying fastest. Returns REFUSED if the scene has no spacing or the shape does not fit it. */
 static status fill_lattice(struct particle_draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
@@ -250,9 +249,9 @@ static real spacing_of(const struct particle_draft *d)
                1.0 / s->dim);
 }
 
-/* Creates the particles p from the draft d. If the draft leaves a velocity or mass NAN, it follows from the body's
- * velocity or the material's density. The method of the scene determines the kind of the particles. optional:
- * optional arrays to create (WITH_*). */
+/* Creates the particles p from d, the list of particles to be created. If d leaves a velocity or mass NAN, it follows
+ * from the body's velocity or the material's density. The method of the scene determines the kind of the particles.
+ * optional: optional arrays to create (WITH_*). */
 static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -287,7 +286,8 @@ static void take_skipped(struct particles *p, const struct particle_draft *d)
 }
 
 /* Returns REFUSED if a particle is farther than FILL_FARTHEST spacings from the origin or its mass is not a positive
- * finite number. d: draft, for the name of the body in the message. spacing [m]. */
+ * finite number. d: list from which p was created, for the name of the body in the message; spacing: of the particles
+ * [m]. */
 static status check_values(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -303,8 +303,8 @@ static status check_values(const struct particles *p, const struct particle_draf
 }
 
 /* Returns REFUSED if the initial state (`initial` of the scene) moves a particle farther than FILL_FARTHEST spacings
- * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: draft, for
- * the name of the body in the message. spacing [m]. */
+ * from the origin, makes its volume 0 or negative, or gives it a velocity or stress that is not finite. d: list from
+ * which p was created, for the name of the body in the message; spacing: of the particles [m]. */
 static status check_start(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -323,8 +323,8 @@ static status check_start(const struct particles *p, const struct particle_draft
 }
 
 /* Returns REFUSED if two particles are closer than too_close spacings. The message names the pair with the smallest
- * index of its first particle, so that it does not depend on the number of threads. d: draft, for the name of the
- * body; spacing [m]. */
+ * index of its first particle, so that it does not depend on the number of threads. d: list from which p was created,
+ * for the name of the body in the message; spacing: of the particles [m]. */
 static status check_distances(const struct particles *p, const struct particle_draft *d, real spacing)
 {
     struct cells cells;
@@ -358,9 +358,9 @@ static status check_distances(const struct particles *p, const struct particle_d
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* Returns df_a/dx_b [1/m] at X[dim] [m], where f_a is the formula of velocity component a of the initial state s: a
- * central difference over one spacing. Returns 0 if component a has no formula, or if the formula has no finite value
- * on both sides of X. */
+/* Returns df_a/dx_b at X[dim] [1/s], where f_a is the formula of velocity component a of the initial state s, as a
+ * central difference over one spacing [m]. Returns 0 if component a has no formula, or if the formula has no finite
+ * value on both sides of X. */
 static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
     real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
@@ -374,8 +374,8 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
 }
 
 /* Sets the velocity of particle i to v = v0 f(X) + G arm and stores the velocity gradient G + grad f in particles that
- * have one (APIC). s: initial state with velocity v0, formulas f and G [1/s]. X[dim]: position of the particle [m].
- * arm[dim]: X minus the centre of s [m]. */
+ * have one (APIC). s: initial state with velocity v0, formulas f and gradient G [1/s]; X[dim]: position of the particle
+ * [m]; arm[dim]: X minus the centre of s [m]; spacing: of the particles [m]. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
                            const real *arm, real spacing)
 {
@@ -458,7 +458,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
 }
 
 /* Applies to particle i every initial state of the scene s whose body and region contain it, in the order of the scene.
- * spacing [m]: scales the tolerance with which a particle on the boundary of a region is inside. */
+ * spacing: of the particles [m]; a particle within ON_SURFACE spacings of the boundary of a region is inside. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
     const real tolerance = ON_SURFACE * spacing;
@@ -481,8 +481,9 @@ static void start_at_rest(struct particles *p, int64_t i)
     for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
 }
 
-/* Creates the particles p of the draft d, applies the initial states, checks values and distances, and sorts the
- * particles. optional: optional arrays to create (WITH_*). Returns REFUSED for invalid values, lists or positions. */
+/* Creates the particles p from d, the list of particles to be created, applies the initial states, checks values and
+ * distances, and sorts the particles. optional: optional arrays to create (WITH_*). Returns REFUSED for invalid values,
+ * lists or positions. */
 static status fill_made(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;

@@ -18,15 +18,16 @@ struct particle_draft {
     int32_t *id;
 };
 
-/* Appends a particle at the position X (dim components [m]) to d. volume: of the particle [m^3]; material, body: their
- * indices. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
+/* Appends a particle at the position X (dim coordinates [m]) to d, the list of particles to be created. volume: of the
+ * particle [m^3]; material, body: their indices in the scene. Returns REFUSED, with a message, if there would be more
+ * than PARTICLES_MAX particles. */
 status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body);
 
-/* Returns REFUSED with a message that names body number `body` and ends with the text `why`. */
+/* Returns REFUSED with a message that names the body with the index `body` and ends with the text `why`. */
 status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why);
 
-/* Appends the particles of body number `body` from its particle list to d. Returns REFUSED, with a message, if the list
- * cannot be read or is invalid. */
+/* Appends the particles of the body with the index `body` from its particle list file to d, the list of particles to be
+ * created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
 status particle_draft_add_list(struct particle_draft *d, int body);
 
 #endif

@@ -67,8 +67,8 @@ static status entry_material(const struct scene *s, const struct particle_list *
     return *material < s->materials ? OK : refuse_material(s, l, b->file, i, given);
 }
 
-/* Adds entry i of the list l to the draft d (particles before they are created). body: its index in the scene;
- * volume: volume of the particle if the list has no volumes [m^3]. Returns REFUSED for an unknown material. */
+/* Adds entry i of the particle list l to d, the list of particles to be created. body: index of its body in the scene;
+ * volume: volume of the particle if l has no volumes [m^3]. Returns REFUSED for an unknown material. */
 static status take_entry(struct particle_draft *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
@@ -86,9 +86,9 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
     return OK;
 }
 
-/* Adds the entries of the list l that belong to a body to the draft d (particles before they are created): entries
- * that name the body, or all if the list has no column of bodies. body: index in the scene. Returns REFUSED if an
- * entry names a body with another file, or if neither the list gives volumes nor the scene a spacing. */
+/* Adds the entries of the particle list l that belong to the body with the index `body` to d, the list of particles to
+ * be created. These are the entries that name the body, or all if l has no column of bodies. Returns REFUSED if an
+ * entry names a body with another file, or if neither l gives volumes nor the scene a spacing. */
 static status take_list(struct particle_draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
@@ -110,8 +110,8 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     return OK;
 }
 
-/* If the particles `first` .. d->n - 1 of the draft form a lattice to the precision of the decimals in their list,
- * rounds their positions to its sites. Planes of symmetry of the scene are then on sites or midway between two. */
+/* Rounds the positions of the particles `first` .. d->n - 1 of d to lattice sites, if they form a lattice to the
+ * precision of the decimals in their file. Planes of symmetry of the scene are then on sites or midway between two. */
 static void take_lattice(struct particle_draft *d, int64_t first)
 {
     const struct scene *s = d->scene;

@@ -51,8 +51,8 @@ struct verdict {
     real filled; /* median volume over space up to the nearest [1]             */
 };
 
-/* Copies the positions and volumes of the particles of body c->body to new arrays c->X, c->volume, and sets the number
- * of particles c->n and c->one_place, the distance below which positions count as equal [m]. */
+/* Copies the positions and volumes of the particles of body c->body to new arrays c->X and c->volume. Sets their number
+ * c->n, and c->one_place, the distance below which positions count as equal [m]. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -97,9 +97,10 @@ static real nearest_of(const struct crowd *c, real *const *others, int64_t n, co
     return nearest;
 }
 
-/* Returns the statistics of the body in c from a sample of at most LOOKED_AT particles. The sample is spread over the
- * list by a Weyl sequence of the golden ratio, so that no pattern of the list matters. Particles of other bodies count
- * as neighbours unless the whole scene is peridynamic, because bonds do not join bodies. */
+/* Returns statistics of the body in c (distances of particles and numbers of neighbours) from a sample of at most
+ * LOOKED_AT particles. The sample is spread over the list by a Weyl sequence of the golden ratio, so that a pattern in
+ * the order of the list does not matter. Particles of other bodies count as neighbours unless the whole scene is
+ * peridynamic, because bonds do not join bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -125,10 +126,10 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Returns a guess of the unit of a list as text for a message, such as " (is it in mm?)", or "". ratio: a length of
- * the list over its expected value, such as 1e3 for mm; by_volume: the same ratio from the volumes that the list
- * gives in m^3, NAN without volumes. If the lengths fit both cm and mm, by_volume decides; without it the text names
- * both. */
+/* Returns a guess of the unit of a particle list as text for a message, such as " (is it in mm?)", or "". ratio: a
+ * length in the list over its expected value, such as 1e3 for mm; by_volume: the same ratio as computed from the
+ * volumes in the list [m^3], NAN without volumes. If the lengths fit both cm and mm, by_volume decides; without it the
+ * text names both. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {
@@ -163,8 +164,8 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
                       why);
 }
 
-/* Returns REFUSED with a message if v, the statistics of the list of body c->body, shows units that do not match the
- * spacing, or so many bonds that they exceed the memory. */
+/* Checks the particle list of body c->body by its statistics v. Returns REFUSED, with a message, if its units do not
+ * match the spacing, or if it would have so many bonds that they exceed the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;

@@ -8,9 +8,10 @@
  * volumes equal `volume`, the volume of a lattice cell [m^3], to a thousandth. */
 bool particle_list_is_lattice(const struct particle_list *l, real spacing, real volume);
 
-/* Rounds the n coordinates X of a body along one axis to exact multiples of the spacing. The coordinates must be whole
- * spacings apart up to a thousandth of a spacing; they are unchanged if they are exact already. anchor [m]: if the
- * coordinates are nearly whole or half spacings away from it, they are rounded to exactly such positions. */
+/* Rounds the n coordinates X [m] of the particles of a body along one axis to exact multiples of `spacing` [m]. The
+ * coordinates must be whole spacings apart up to a thousandth of a spacing. They are unchanged if they are exact
+ * already. anchor: coordinate of a plane [m]; if the coordinates are nearly n or n + 1/2 spacings away from it, with a
+ * whole number n, they become exactly so. */
 void coordinates_round_to_lattice(real *X, int64_t n, real spacing, real anchor);
 
 #endif

@@ -87,7 +87,7 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
 }
 
-/* Copies column k of the dataset t, converted to SI, to a new array for the column `column` (COLUMN_*) of the list
+/* Copies column k of the table t, converted to SI units, to a new array for the column `column` (COLUMN_*) of the list
  * l. path: name of the file, for messages. Returns REFUSED for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {

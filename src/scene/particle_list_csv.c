@@ -51,8 +51,9 @@ static int column_named(const char *name, int dim)
     return found == COLUMN_NONE || particle_list_column_is_unused(found, dim) ? COLUMN_NONE : found;
 }
 
-/* Finds *column, what a column `weight` means by its unit: COLUMN_MASS or COLUMN_VOLUME. name, unit: parts of the
- * column name in the current line of c. Returns REFUSED for another unit. */
+/* Decides by its unit whether a column called `weight` is a mass or a volume. Sets *column to COLUMN_MASS or
+ * COLUMN_VOLUME. name, unit: the two parts of the column name in the current line of c. Returns REFUSED for another
+ * unit. */
 static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
 {
     char what[160];
@@ -62,9 +63,9 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     return csv_report_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
-/* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified. A column with an
- * unknown name is noted in l->head and ignored. has[COLUMNS]: list columns named so far. Returns REFUSED if a column
- * is named twice or its unit is of another quantity. */
+/* Appends a column to c->column. name: its name with unit, such as `x [mm]`, which is modified; has[COLUMNS]: true for
+ * the list columns that were named before. A column with an unknown name is noted in l->head and ignored. Returns
+ * REFUSED if a column is named twice or its unit is of another quantity. */
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
@@ -183,9 +184,9 @@ static bool comment_names(const char *comment, int dim)
     return by_tabs || by_blanks;
 }
 
-/* If both tabs and blanks separate the names in the header line `names`, replaces the tabs by blanks. The first
- * entry shows this: the header then has as many names as the entry has values. Else the header remains unchanged;
- * each tab ends a name, which may be empty. entry: line of the first entry; dim: coordinates per position. */
+/* Replaces the tabs in the header line `names` by blanks if both tabs and blanks separate its names. This is so if the
+ * header then has as many names as the first entry has values. Otherwise each tab ends a name, which may be empty, and
+ * the header remains unchanged. entry: line of the first entry; dim: coordinates per position. */
 static void header_unify(char *names, const char *entry, int dim)
 {
     char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
@@ -216,8 +217,9 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the column names from the text `names`, line number `line` of the file. The current line of c is the first
- * entry; it remains the current line, to be read as an entry next. Returns REFUSED for invalid names. */
+/* Reads the column names from the text `names`, which is line number `line` of the file. The current line of c is the
+ * first entry of the list; it remains the current line, so that it can be read next. Returns REFUSED for invalid
+ * names. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -275,9 +277,9 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Uses the column names that the scene gives (l->form.columns) in place of those of the file. The first line that is
- * not a comment is the first entry, which shows what separates fields. Returns REFUSED for an empty file or invalid
- * names. */
+/* Reads the column names that the scene gives, l->form.columns, in place of those of the file. The first line that is
+ * not a comment is the first entry; it shows whether commas, tabs or blanks separate fields. Returns REFUSED for an
+ * empty file or invalid names. */
 static status csv_header_given(struct csv *c, struct particle_list *l)
 {
     char entry[CSV_LINE_LENGTH];
@@ -325,8 +327,8 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line, converts it to SI and stores it as entry l->n of its list column. field: text of the
- * field. Returns REFUSED if it is no valid value. */
+/* Reads field k of a line, converts it to SI units and stores it as entry l->n of the column of the list l to which
+ * field k belongs. field: text of the field. Returns REFUSED if it is no valid value. */
 static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];

@@ -28,8 +28,8 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
     return !named && n == 2 ? 1 : -1;
 }
 
-/* Stores `value` as entry number `entry` of a list column (COLUMN_*). Returns REFUSED for a value that is invalid in
- * this column. */
+/* Stores `value` as entry number `entry` of column `column` (COLUMN_*) of the list x->l. Returns REFUSED for a value
+ * that is invalid in this column. */
 static status value_take(struct exodus_list *x, int column, int64_t entry, real value)
 {
     const char *fault = particle_list_value_fault(column, value);

@@ -41,29 +41,33 @@ bool particle_list_column_is_unused(int column, int dim);
  * valid. */
 const char *particle_list_value_fault(int column, real value);
 
-/* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. expected: kind of unit. If
- * `unit` is not of this kind, returns false and writes the fault to message[capacity], as the rest of a sentence. */
+/* Finds the factor by which a number in the unit `unit` is multiplied to convert it to SI units, and stores it in
+ * *factor; 1 if `unit` is empty. expected: kind of quantity. Returns false if `unit` is not of this kind, and writes
+ * the fault to message[capacity] as the rest of a sentence. */
 bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char *message, size_t capacity);
 
-/* Returns the factor to SI units of a number in a column without a unit: in coordinates and volumes that of the form of
- * the list, else 1. */
+/* Returns the factor to SI units of a number in a column without a unit. For coordinates and volumes it follows from
+ * the unit that the scene gives for the list l, else it is 1. */
 real particle_list_default_factor(const struct particle_list *l, int column);
 
-/* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
+/* Appends the text `what` to the note in *head, which is printed about the list, preceded by `between` if the note is
+ * not empty. */
 void particle_list_note_append(struct particle_list_head *head, const char *between, const char *what);
 
-/* Stores in *head whether the file has columns of materials, masses and volumes, and adds the defaults of missing
- * columns to its note. has[COLUMNS]: true for each column that the file has. */
+/* Stores in *head whether the file has columns of materials, masses and volumes, and adds to its note which defaults
+ * replace missing columns. has[COLUMNS]: true for each column that the file has. */
 void particle_list_note_columns(struct particle_list_head *head, const bool *has);
 
 /* Returns REFUSED, with a message that names the file `path`, if a run with n particles needs more memory than the
  * machine has. */
 status particle_list_check_memory(const char *path, int64_t n);
 
-/* Reads a particle list from an Exodus II file as particle_list_read does. */
+/* Reads a particle list from the Exodus II file `path` into *l. Returns REFUSED, with a message, if the file cannot be
+ * read or is invalid. */
 status particle_list_read_exodus(struct particle_list *l, const char *path);
 
-/* Reads a particle list from a CSV file as particle_list_read does. head: true to read only the column names. */
+/* Reads a particle list from the CSV file `path` into *l. head: true to read only the column names. Returns REFUSED,
+ * with a message, if the file cannot be read or is invalid. */
 status particle_list_read_csv(struct particle_list *l, const char *path, bool head);
 
 #endif

@@ -250,8 +250,8 @@ static bool list_forms_agree(const struct particle_list_form *a, const struct pa
     return !a->columns || strcmp(a->columns, b->columns) == 0;
 }
 
-/* Returns true if the particle list of a body forms a lattice with the spacing of the scene. body: index in the scene.
- * Returns false for a list that cannot be read; it is refused later. */
+/* Returns true if the particle list of the body with the index `body` forms a lattice with the spacing of the scene.
+ * Returns false for a list that cannot be read, which is reported later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -341,7 +341,8 @@ const char *scene_why_reference_frame_no_remedy(const struct scene *s)
     return why;
 }
 
-/* Returns, as part of a message, which key of the scene requires the current frame; NULL if there is no such key. */
+/* Returns a phrase for a message that names the key of the scene because of which shape functions must be evaluated at
+ * the present positions of material points (frame `current`). Returns NULL if there is no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -357,10 +358,10 @@ bool scene_yields_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Changes bodies with frame auto to the current frame if the keys of the scene require it. If no body is left at
- * auto, keys with a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as
- * given, so that scene_echo.c writes them. They must not be written while a body is at auto, since a scene that
- * gives these keys requires the current frame. */
+/* Chooses the frame `current` for bodies whose frame is `auto` if the keys of the scene require it. If no body then has
+ * the frame `auto`, marks the keys that have a meaning in the current frame only (mpm.shape, mpm.transfer,
+ * interface_damping) as given, so that scene_echo.c writes them. They must not be written while a body has the frame
+ * `auto`, since a scene that gives these keys requires the current frame. */
 void resolve_reference_frames(struct scene *s)
 {
     bool open = false;

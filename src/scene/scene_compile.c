@@ -63,10 +63,10 @@ bool compile_add_operand(struct compile *c, enum expression_op op, const struct 
 
 struct operand *compile_operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
-/* Replaces the topmost operand, or two for an operation of two, by the result of the operation `op`, and appends a step
- * to the expression. unit: unit of the result, which the caller derives. If the operands are constant, evaluates the
- * operation now and appends its value as a number instead. Returns false, with a message in c, if the value is not
- * finite or the expression is too long. */
+/* Applies the operation `op` to the topmost operand, or to two of them for a binary operation: replaces them by the
+ * result and appends a step to the expression. unit: unit of the result, which the caller derives. If the operands are
+ * constant, evaluates the operation now and appends its value as a number instead. Returns false, with a message in c,
+ * if the value is not finite or the expression is too long. */
 bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
     const bool two = expression_op_is_binary(op);
@@ -86,8 +86,8 @@ bool compile_add_operation(struct compile *c, enum expression_op op, const struc
 /* Returns true if an operand is a constant 0 written without a unit, which is compatible with every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Checks that the two topmost operands have the same unit; a 0 without a unit gets the unit of the other operand. If
- * they differ, returns false with a message in c that names the operation `word` at position `at` of c->text. */
+/* Checks that the two topmost operands have the same unit. A 0 without a unit gets the unit of the other operand. If
+ * the units differ, returns false with a message in c that names the operation `word` at position `at` of c->text. */
 bool compile_check_equal_units(struct compile *c, const char *word, const char *at)
 {
     struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
@@ -132,9 +132,9 @@ bool compile_add_product(struct compile *c, char sign, const char *at)
            compile_add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Replaces *unit by its power: the exponents of m, kg and s times `power`. Returns false, with a message in c, if an
- * exponent becomes neither whole nor half, or too large. place: number of the operator's character in the text, for
- * the message. */
+/* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by it. place: number of the operator's
+ * character in the text, for the message. Returns false, with a message in c, if an exponent becomes neither whole nor
+ * half, or too large. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {

@@ -28,7 +28,7 @@ struct compile {
     size_t room;
 };
 
-/* Writes a fault to c->what and returns false. */
+/* Writes a message about a fault, composed as by printf, to c->what. Returns false. */
 bool compile_report_fault(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the number of the character at `place` in c->text, from 1. */
@@ -48,32 +48,37 @@ bool quantity_is_dimensionless(const struct quantity *q);
 /* Returns the operand that is `below` entries below the top of the stack of c; 0 for the topmost one. */
 struct operand *compile_operand_from_top(struct compile *c, int below);
 
-/* Adds a step that pushes a value on the stack: a number or variable (op EXPRESSION_NUMBER), a coordinate or the time.
- * quantity: unit and, for a number, value. Returns false if the expression is too long or the stack too deep, with the
- * fault in c->what, as do the functions below. */
+/* Appends a step that pushes a value on the stack: a number or variable (op EXPRESSION_NUMBER), a coordinate or the
+ * time. quantity: unit and, for a number, value. Returns false, with a message in c->what, if the expression is too
+ * long or the stack too deep. */
 bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *quantity);
 
-/* Adds a step that applies op to the topmost one or two operands. unit: unit of the result. */
+/* Appends a step that applies `op` to the topmost operand, or to two of them for a binary operation. unit: unit of the
+ * result. Returns false, with a message in c->what, if the expression is too long or a constant result is not
+ * finite. */
 bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);
 
-/* Adds a step that negates the topmost operand. */
+/* Appends a step that negates the topmost operand. Returns false, with a message in c->what, if the expression is too
+ * long. */
 bool compile_add_negation(struct compile *c);
 
-/* Adds a step that adds (sign '+') or subtracts the two topmost operands, which must have one unit. at: position of the
- * operator in the text, for messages. */
+/* Appends a step that adds (sign '+') or subtracts (sign '-') the two topmost operands. at: position of the operator in
+ * the text, for messages. Returns false, with a message in c->what, if their units differ. */
 bool compile_add_sum(struct compile *c, char sign, const char *at);
 
-/* Adds a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units. at: position
- * of the operator in the text, for messages. */
+/* Appends a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units. at:
+ * position of the operator in the text, for messages. Returns false, with a message in c->what, if the result is
+ * invalid. */
 bool compile_add_product(struct compile *c, char sign, const char *at);
 
-/* Adds a step that raises the second topmost operand to the power of the topmost one, which must have no unit. at:
- * position of the operator in the text, for messages. */
+/* Appends a step that raises the second topmost operand to the power of the topmost one. at: position of the operator
+ * in the text, for messages. Returns false, with a message in c->what, if the exponent has a unit or the power has none
+ * that is valid. */
 bool compile_add_power(struct compile *c, const char *at);
 
-/* Checks that the two topmost operands have one unit; a constant 0 without unit first receives the unit of the other
- * operand. word: name of the operation, and at: its position in the text, for the message. Returns false if the units
- * differ. */
+/* Checks that the two topmost operands have the same unit. A constant 0 without unit first receives the unit of the
+ * other operand. word: name of the operation, and at: its position in the text, for the message. Returns false, with a
+ * message in c->what, if the units differ. */
 bool compile_check_equal_units(struct compile *c, const char *word, const char *at);
 
 #endif

@@ -159,8 +159,8 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     }
 }
 
-/* Returns true if scene.yaml contains the key k: its value, given or by default, is of a type of the table and not
- * empty. base: the structure of the key's group; place: address of the value in it. */
+/* Returns true if the key k is written to scene.yaml: it has a type that the table of keys can write, and its value,
+ * given or by default, is not empty. base: the structure of the key's group; place: address of the value in it. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;

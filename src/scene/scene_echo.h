@@ -15,10 +15,10 @@ struct writer {
     bool dash;  /* the next line begins an item of a list */
 };
 
-/* Begins a line: writes indentation, the dash of a list item if it is due, and `key:`. */
+/* Begins a line of the YAML text: writes the indentation, the dash of a list item before its first key, and `key:`. */
 void writer_begin_key(struct writer *w, const char *key);
 
-/* Begins an item of a list; the dash is written with its first key. */
+/* Begins an item of a YAML list. Its dash is written with its first key. */
 void writer_begin_item(struct writer *w);
 
 /* Writes a number so that it reads back to identical bits. */
@@ -33,24 +33,24 @@ void write_list(struct writer *w, const real *value, int n);
 /* Writes the value of key k in the form of its type. place: address of the value. */
 void write_value(struct writer *w, const struct key *k, const void *place);
 
-/* Returns the address of the value of key k in `base`, the struct of its group. */
+/* Returns the address of the value of key k in the structure `base` of its group. */
 const void *key_value_address(const struct key *k, const void *base);
 
-/* Writes all keys of the group `group`, the path of a key with subkeys, one per line; base: struct with their
+/* Writes all keys of the group `group` (the path of a key with keys below it), one per line. base: structure with their
  * values. */
 void write_group(struct writer *w, const char *group, const void *base);
 
-/* Writes `key:` and below it, as a mapping, all keys of the group `group`; base: struct with their values. */
+/* Writes `key:` and below it, as a mapping, all keys of the group `group`. base: structure with their values. */
 void write_mapping(struct writer *w, const char *key, const char *group, const void *base);
 
-/* Writes a key with the absolute path of a file, so that the scene runs from any folder, and the checksum of its
- * contents. */
+/* Writes the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
+ * contents: hash of the file, which is written as a comment. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
 
 /* Writes the boundary conditions (scene_echo_loads.c). */
 void write_boundaries(struct writer *w);
 
-/* Writes a vector whose components are numbers or formulas. */
+/* Writes the key `key` with a vector: component d is formula[d] if it is given, else the number value[d]. */
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
 
 /* Writes a region as a list of solids (scene_echo_solids.c). */

@@ -46,9 +46,9 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
     return OK;
 }
 
-/* Merges the mapping `over` into `under`. Values of `over` take precedence, mappings for which key_is_merged_mapping is
- * true are merged entry by entry, and an empty value removes the entry. group: path of both mappings in the scene.
- * Returns REFUSED for a key given twice. */
+/* Merges the mapping `over` into the mapping `under`. Values of `over` take precedence. Mappings for which
+ * key_is_merged_mapping is true are merged entry by entry. An empty value removes the entry. group: path of both
+ * mappings in the scene. Returns REFUSED for a key that occurs twice in a mapping. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -71,8 +71,8 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a file is one of those in the chain that are being read; it would then include itself. file: its
- * status, from stat. */
+/* Returns true if a file is one of those that are being read, so that it would include itself. chain: these files, the
+ * innermost first; file: status of the file, from stat. */
 static bool is_open(const struct chain *chain, const struct stat *file)
 {
     for (; chain; chain = chain->up)
@@ -87,8 +87,8 @@ static int length_of(const struct chain *chain)
     return n;
 }
 
-/* Returns the path of the file that node n includes, in the reader's arena. A relative name starts from the folder of
- * the including file. */
+/* Returns the path of the file that node n includes, in memory of the reader that arena_free releases. A relative name
+ * starts from the folder of the including file. */
 static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
@@ -101,8 +101,9 @@ static char *path_from(struct reader *r, const struct yaml_node *n)
 
 static status include_all(struct reader *r, struct yaml_node *root, const struct chain *chain);
 
-/* Reads the scene that node n names, and the scenes that it includes, into the tree *root. chain: files that are being
- * read. Returns REFUSED if the file cannot be read, is no scene or includes itself. */
+/* Reads the scene in the file that node n names, and the scenes that it includes, into the tree *root. chain: files
+ * that are being read, to find a file that includes itself. Returns REFUSED if the file cannot be read, is no scene or
+ * includes itself. */
 static status include_file(struct reader *r, const struct yaml_node *n, const struct chain *chain,
                            struct yaml_node **root)
 {

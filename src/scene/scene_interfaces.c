@@ -34,9 +34,9 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
     return OK;
 }
 
-/* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns it to b. Joined bodies must not have one
- * material, because bonds between them are recognised by their materials. n: node of the interface, for messages.
- * Returns REFUSED if there are 255 materials already. */
+/* Makes a copy of the material of body b, named MATERIAL_BODY, and assigns it to b. The copy is needed because bonds
+ * between joined bodies are recognised by their different materials. n: node of the interface, for messages. Returns
+ * REFUSED if there are 255 materials already. */
 static status material_apart(struct reader *r, const struct yaml_node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;

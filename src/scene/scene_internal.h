@@ -63,80 +63,89 @@ struct reader {
     real *spacing_most; /* of note_largest_spacing; NULL: strengths that do not suit the spacing are refused */
 };
 
-/* Returns `size` zeroed bytes of the memory of the reader; arena_free releases them. */
+/* Returns `size` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
 void *arena_new(struct reader *r, size_t size);
 
-/* Returns a copy of `length` bytes of a text, with a final 0, in the arena. */
+/* Returns a copy of the first `length` bytes of `text` with a final 0, in memory of the reader r that arena_free
+ * releases. */
 char *arena_text(struct reader *r, const char *text, size_t length);
 
 /* Releases all memory of the arena. */
 void arena_free(struct reader *r);
 
-/* Parses a YAML text to a tree of nodes in the arena. origin: as in struct yaml_node. Sets *root to NULL if the text
- * contains no value. REFUSED for invalid YAML. */
+/* Parses the YAML text text[length] to a tree of nodes in memory of the reader and stores its root in *root; NULL if
+ * the text contains no value. origin: index of the file or override from which the text is (see struct yaml_node).
+ * Returns REFUSED, with a message, for invalid YAML. */
 status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root);
 
-/* Appends a node to the entries of a list or map. */
+/* Appends the node `child` to the entries of the list or mapping `parent`. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
 
-/* Returns the entry of a map with this key, or NULL. */
+/* Returns the entry of the mapping `map` with the key `key`, or NULL. */
 struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 
-/* Removes a node from the entries of its parent. */
+/* Removes the node `child` from the entries of the list or mapping `parent`. */
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
-/* Reads the files that the tree includes, and merges the tree over theirs (scene_include.c). */
+/* Reads the scene files that the tree `root` includes, and merges the tree over theirs. Returns REFUSED, with a
+ * message, for an invalid list of files or an invalid file. */
 status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
-/* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged key by key. Other
- * values, such as solids, are replaced as a whole. */
+/* Returns true if the value of the key at `path` ("" for the whole scene) is a mapping that is merged key by key with
+ * that of an included scene. Other values, such as solids, replace the included value as a whole. */
 bool key_is_merged_mapping(const char *path);
 
-/* Applies the overrides of the reader to the tree (scene_override.c). */
+/* Applies all overrides of the command line, r->override, to the tree of the scene. Returns REFUSED, with a message,
+ * for an invalid one. */
 status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
 
-/* Replaces keys of earlier versions in the tree by their present names, and notes them in the scene (scene_renamed.c).
- * REFUSED if both names are given, and for keys that no longer exist. */
+/* Replaces keys of earlier versions of Cleave in the tree by their present names, and notes them in the scene for a
+ * warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
-/* Returns the present name of the key at `path`, as an override gives it: `path` itself if it is current. Replacing a
- * name of an earlier version is noted in the scene. */
+/* Returns the present name of the key at `path`, which an override gives: `path` itself if it is current. If the name
+ * is of an earlier version of Cleave, notes this in the scene for a warning. */
 const char *key_path_present_name(struct reader *r, const char *path);
 
-/* Returns the present name of a key of an earlier version; NULL if `path` is no such key. */
+/* Returns the present name of a key that had the name `path` in an earlier version of Cleave; NULL if there was no such
+ * key. */
 const char *key_present_name(const char *path);
 
-/* Returns the name of the file from which a node was read; the scene file for an override (scene_files.c). */
+/* Returns the name of the file from which a node was read; for an override it is the scene file. origin: member of
+ * struct yaml_node. */
 const char *origin_file_name(const struct reader *r, int origin);
 
 /* Returns the length of the folder at the beginning of a path, with its final slash; 0 if there is none. */
 int folder_length(const char *path);
 
-/* Reads a whole file to *bytes [*length]; the caller releases it with memory_free. */
+/* Reads the whole file `path` into an allocated array *bytes of *length bytes, which the caller releases with
+ * memory_free. Returns REFUSED, with a message, if it cannot be read. */
 status file_read_bytes(const char *path, char **bytes, size_t *length);
 
-/* Sets `key` in the tree to `value`, as an override; an empty value removes the key. REFUSED if it is absent then. */
+/* Sets the key `key` in the tree to `value`, in the manner of an override of the command line. An empty value removes
+ * the key. Returns REFUSED, with a message, for a malformed key, and if a key to be removed is absent. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
-/* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
+/* Returns the node at `path`, keys joined by dots that lead through no list; NULL if the scene does not give it. */
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
-/* Parses the scene text[length], applies includes and overrides (scene.c), and stores the tree in *root. Returns
- * REFUSED, with a message, if the text is malformed or a file is missing. */
+/* Parses the scene text[length], merges the files that it includes, applies overrides, and stores the tree in *root.
+ * Returns REFUSED, with a message, if the text is malformed or a file is missing. */
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root);
 
-/* Fills r->scene from the tree, and checks it (scene.c). */
+/* Reads all keys of the tree `root` into r->scene and checks the scene. Returns REFUSED, with a message, if it is
+ * invalid. */
 status scene_from_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
-/* Reads the requirements of a scene with `method: auto` on pilot runs, from its tree and its text (scene_wish.c). The
- * caller zeroes w. */
+/* Reads what a scene with `method: auto` requires of its pilot runs into *w, which the caller has set to zero. root:
+ * tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene. */
 status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
                        struct pilot_wish *w);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
-/* Writes the shortest text that reads back to identical bits, and returns it. */
+/* Writes the shortest text that reads back to a number with identical bits to `text`, and returns it. */
 const char *number_write_shortest(char text[32], real value);
 
 /* A number with its unit, which is given by exponents of m, kg and s. */
@@ -146,34 +155,37 @@ struct quantity {
     bool bare;    /* the value has no unit in the text: it is taken as SI in every key */
 };
 
-/* Reads `number [/ number] [unit]` with any unit. Returns false if the text has another form. */
+/* Reads `text` of the form `number [/ number] [unit]`, with any unit, into *q. Returns false if the text has another
+ * form. */
 bool quantity_parse(struct quantity *q, const char *text);
 
-/* Reads the number at the beginning of a text, and with with_unit the unit that follows. Returns the length of both;
- * 0 on failure, with the fault in *fault_text. */
+/* Reads the number at the beginning of `text` into *q and, if with_unit is true, the unit that follows. Returns the
+ * number of characters that were read. On failure returns 0 and stores a description of the fault in *fault_text. */
 size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text);
 
-/* Sets *q to one of the unit whose symbol is at the beginning of `text`. Returns the length of the symbol; 0 if there
- * is none. */
+/* Sets *q to 1 in the unit whose symbol is at the beginning of `text`. Returns the length of the symbol; 0 if there is
+ * none. */
 size_t quantity_read_unit(struct quantity *q, const char *text);
 
-/* Returns the unit `text` of a temperature or specific heat without its kelvin, such as kJ/kg of kJ/(kg K) or kJ/kg/K,
- * which is written to plain[capacity]; other texts and units of other kinds are returned as they are. Kelvin is no
- * symbol of its own, since variables may be called K. */
+/* Removes kelvin from the text of a unit of temperature or specific heat, such as kJ/(kg K) or kJ/kg/K, which becomes
+ * kJ/kg. Writes the shortened text to plain[capacity] and returns it. Returns `text` itself if there is no kelvin, or
+ * if `unit` is another kind of unit. (Kelvin is no symbol of its own, since variables may be called K.) */
 const char *unit_without_kelvin(const char *text, enum unit unit, char *plain, size_t capacity);
 
-/* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to message[capacity],
- * as the rest of a sentence that begins with the text of the value. */
+/* Returns true if q has a unit of the kind `unit` or no unit. Otherwise returns false and writes the fault to
+ * message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool quantity_has_unit(const struct quantity *q, enum unit unit, char *message, size_t capacity);
 
-/* Returns true if the value is finite and inside the bounds of its unit. Otherwise returns false and writes the fault
- * to message[capacity], as the rest of a sentence that begins with the text of the value. */
+/* Returns true if `value` [SI] is finite and inside the bounds of its kind of unit. Otherwise returns false and writes
+ * the fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
 bool value_is_in_unit_bounds(real value, enum unit unit, char *message, size_t capacity);
 
-/* Writes a unit for messages: `a length`, or `in m^2 s^-1` if it has no name. */
+/* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:
+ * 2 times the exponents of m, kg and s. */
 void unit_describe(const int twice[3], char *text, size_t capacity);
 
-/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`. */
+/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`, to text[capacity]. twice: 2 times the
+ * exponents of m, kg and s. */
 void unit_write_text(const int twice[3], char *text, size_t capacity);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
@@ -181,8 +193,9 @@ void unit_write_text(const int twice[3], char *text, size_t capacity);
 /* Arguments that an expression may contain besides numbers and variables of the scene: x, y, z; t. */
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
-/* Reads an expression with the unit of key k, such as `12 MPa*exp(-(t/3us)^2)`; a number is one, too. of: sum of
- * EXPRESS_*. Release e with expression_free. REFUSED in one line with the position of the fault in the text. */
+/* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *e; a number is one,
+ * too. of: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free. Returns REFUSED, with
+ * a message of one line that states the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
                        struct expression *e);
 
@@ -196,26 +209,27 @@ bool looks_like_expression(const struct reader *r, const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
-/* Evaluates the variables of a scene. REFUSED for an invalid variable, and for one that an override sets but nothing
- * uses. */
+/* Evaluates the variables of the scene with the tree `root` and stores them in r. Returns REFUSED, with a message, for
+ * an invalid variable, and for one that an override sets but no value uses. */
 status read_variables(struct reader *r, const struct yaml_node *root);
 
 /* Returns the value of the variable `name`. Returns NULL, and writes the fault to message[capacity], if there is none
  * of this name or it cannot be evaluated. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
-/* Reads a number of a scene into *value [SI]: a number with unit as number_read, or an expression of variables. unit:
- * expected unit; allow_infinity: true if inf is allowed. On failure returns false and writes the fault to
- * message[capacity], as the rest of a sentence that begins with `text`. */
+/* Reads a number of a scene from `text` into *value [SI]. It may be a number with a unit, or an expression of
+ * variables. unit: expected kind of unit; allow_infinity: true if inf is allowed. On failure returns false and writes
+ * the fault to message[capacity], as the rest of a sentence that begins with `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
                           char *message, size_t capacity);
 
-/* Replaces the message message[capacity] about a number of the key k if `text` is a length and the key counts spacings:
- * by one that contains the length in spacings. The spacing of the scene must have been read. */
+/* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
+ * key counts spacings, replaces the message by one that states the length in spacings. The spacing of the scene must
+ * have been read. */
 void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
 
-/* Returns the unit that the name of an unknown unit means, as text for a message: `us?` for usec; NULL for other names
- * (scene_unit_words.c). */
+/* Returns the unit that is meant by the name `text` of an unknown unit, as text for a message, such as `us?` for usec.
+ * Returns NULL for other names. */
 const char *unit_meant_by_word(const char *text);
 
 /* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
@@ -274,61 +288,65 @@ extern const int keys_count;
 /* Returns the last part of the path of key k, behind the last dot. */
 const char *key_leaf(const struct key *k);
 
-/* Writes the meaning, type, range and default of a key to text[capacity] (scene_help.c). */
+/* Writes the meaning, type, range and default of key k to text[capacity]. */
 void key_description(const struct key *k, char *text, size_t capacity);
 
-/* Returns true if k is the key `path` or below it; every key is below "". */
+/* Returns true if k is the key `path`, or a key below it. Every key is below "". */
 bool key_is_below(const struct key *k, const char *path);
 
-/* Writes type, SI unit, range or words, and default of k to text[capacity], in one line. */
+/* Writes the type, SI unit, range or allowed words, and default of key k to text[capacity], in one line. */
 void key_describe_type(const struct key *k, char *text, size_t capacity);
 
-/* Returns true if k is directly below `group` ("" for the top). */
+/* Returns true if key k is directly below the key `group` ("" for the top of a scene). */
 bool key_is_directly_below(const struct key *k, const char *group);
 
-/* Returns the key `leaf` directly below `group`, or NULL. */
+/* Returns the key whose last part is `leaf` directly below the key `group` ("" for the top of a scene), or NULL. */
 const struct key *key_find(const char *group, const char *leaf);
 
-/* Returns the key directly below `group` with the smallest edit distance to `leaf`. */
+/* Returns the key directly below the key `group` ("" for the top of a scene) whose last part has the smallest edit
+ * distance to `leaf`. */
 const struct key *key_nearest(const char *group, const char *leaf);
 
-/* Returns a key whose last part is `leaf`, in any group, one at the left margin if there is one; NULL if there is none.
- * keys_of_name: receives the number of keys with this last part. */
+/* Returns a key whose last part is `leaf`, in any group; one at the top of a scene if there is one. Returns NULL if
+ * there is none. Stores the number of keys with this last part in *keys_of_name. */
 const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
-/* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note
- * that Cleave has none. Returns false, and writes nothing, for unknown words. */
+/* Writes advice for a word of another program that is no key of `group` ("" for the top of a scene) to text[capacity]:
+ * the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for unknown words. */
 bool foreign_word_advice(const char *word, const char *group, char *text, size_t capacity);
 
-/* Returns advice about a wrong value of the key at `path`, or NULL. */
+/* Returns advice, a static text, about the invalid value `value` of the key at `path`, if it is a word of another
+ * program; else NULL. */
 const char *foreign_value_advice(const char *path, const char *value);
 
-/* Returns the keys equivalent to a word of another program, separated by spaces, perhaps none; NULL for unknown words.
- */
+/* Returns the keys that are equivalent to a word of another program, separated by spaces ("" if there are none); NULL
+ * for unknown words. */
 const char *foreign_word_keys(const char *word);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED with a message that begins with `file:line:column: key: ` or `-s key=value: key: ` of a node. */
+/* Sets a message about node `at`, composed as by printf, and returns REFUSED. The message begins with
+ * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. */
 status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Returns REFUSED with a message that begins with `file:line:column: `, or with the text of the override. origin: file
- * or override as in struct yaml_node; line, column: location in the file. */
+/* Sets a message, composed as by printf, and returns REFUSED. The message begins with `file:line:column: `, or with the
+ * text of the override. origin: file or override (see struct yaml_node); line, column: location in the file. */
 status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Writes a place to text[capacity]: file, line and column, or the override that gives it. origin: as in struct
- * yaml_node.
- */
+/* Writes a location to text[capacity]: file, line and column, or the text of the override that gives it. origin: file
+ * or override (see struct yaml_node). */
 void location_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity);
 
-/* Stores the places of the keys of a scene, r->scene, in two levels below `root`; scene_prepend_location reads them. */
+/* Stores in r->scene where each key of the scene was given, for keys up to two levels below `root`, so that later
+ * messages (scene_prepend_location) can state the location. */
 void scene_key_locations_make(const struct reader *r, const struct yaml_node *root);
 
-/* Writes the beginning of a message of fault to text[capacity], for messages that follow after the reading. */
+/* Writes the text with which messages about node `at` begin, its location and key, to text[capacity]. It is for
+ * messages that are composed after the scene has been read. */
 void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
@@ -338,44 +356,53 @@ status fault_missing_key(struct reader *r, const struct yaml_node *map, const st
  * that was set last: by an override, else in the scene file. */
 status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
 
-/* Returns the value of node n as one short, printable line for messages; memory of the reader or static. */
+/* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
+ * which arena_free releases. */
 const char *node_text(struct reader *r, const struct yaml_node *n);
 
 /* Returns `text` as one short, printable line for messages, in memory that arena_free releases. */
 const char *text_for_message(struct reader *r, const char *text);
 
-/* Returns the words a|b|c of a choice as `a, b or c`, in the arena. */
+/* Returns the words a|b|c of a choice as `a, b or c`, in memory of the reader that arena_free releases. */
 const char *words_for_message(struct reader *r, const char *words);
 
-/* Returns REFUSED, with a message, for keys of `map` that are unknown in `group` or given twice; else OK. */
+/* Returns REFUSED, with a message, if a key of the mapping `map` is unknown in the group `group` or occurs twice; else
+ * OK. */
 status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group);
 
-/* Returns REFUSED if n is not of kind `kind`, with a message "... is not " completed by `what`; else OK. */
+/* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT = `what`;
+ * else OK. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
 
-/* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
- * keys are reported at `where`. */
+/* Reads all keys of the group `group` that need no function of their own into the structure `base`. map: mapping with
+ * the keys, or NULL to store the defaults only; where: node at whose location missing keys are reported. Returns
+ * REFUSED, with a message, for a missing key or an invalid value. */
 status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
                   void *base);
 
-/* Reads the value n of key k by the table into `base`, the struct of its group. REFUSED for an invalid value. */
+/* Reads the value of key k from node n into `base`, the structure of its group, as the table of keys describes it.
+ * Returns REFUSED, with a message, for an invalid value. */
 status read_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base);
 
-/* Reads a number in the unit and range of key k. REFUSED for an invalid value. */
+/* Reads a number in the unit and range of key k from node n into *value [SI]. Returns REFUSED, with a message, for an
+ * invalid value. */
 status read_number(struct reader *r, const struct key *k, const struct yaml_node *n, real *value);
 
-/* Reads a point or vector [r->dim] in the unit and range of key k. REFUSED for an invalid value. */
+/* Reads a point or vector in the unit and range of key k from node n into point[r->dim] [SI]. Returns REFUSED, with a
+ * message, for an invalid value. */
 status read_point(struct reader *r, const struct key *k, const struct yaml_node *n, real *point);
 
-/* Returns the space of the points that are being read, in words for messages. */
+/* Returns the space in which points are read at present, in words for messages: that of the scene, or the plane of an
+ * extrusion. */
 const char *space_for_message(const struct reader *r);
 
 /* Returns REFUSED if n is no list or has not as many items as the range of key k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
-/* Reads a file name: searches the folder of the scene, then the current folder, and computes the checksum of the
- * contents. The caller releases *path with memory_free. what: kind of file, for messages. Copies the name without
- * opening the file if r->files is false (scene_files.c). */
+/* Reads a file name from node n: searches the folder of the scene, then the current folder. Stores the path in *path
+ * and a hash of the contents of the file in *contents. The caller releases *path with memory_free. what: kind of file,
+ * for messages. If r->files is false, copies the name without opening the file. Returns REFUSED, with a message, if the
+ * file cannot be read. */
 status read_path(struct reader *r, const struct yaml_node *n, const char *what, char **path, uint64_t *contents);
 
 /* Words of scenes for the values of enum space, in their order. */

@@ -39,7 +39,7 @@ static status check_curve(struct reader *r, const struct yaml_node *n, const str
 }
 
 /* Reads the list n of pairs of plastic strain [1] and stress [Pa] into the hardening curve c. Returns REFUSED for
- * invalid points or a curve that check_curve refuses. */
+ * invalid points, or if the return mapping cannot solve its equation with this curve (check_curve). */
 static status read_curve(struct reader *r, const struct yaml_node *n, struct flow_curve *c)
 {
     const struct key strain = {

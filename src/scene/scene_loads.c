@@ -63,8 +63,9 @@ static status read_fixed(struct reader *r, const struct yaml_node *n, struct bou
     return OK;
 }
 
-/* Reads one component of a vector from node n: a number into *value, or a formula into *f with *value = 1. k: key, for
- * unit and range. of: variables allowed in the formula (EXPRESS_*). Returns REFUSED if it is neither. */
+/* Reads one component of a vector from node n: a number into *value, or a formula into *f with *value = 1. k: key of
+ * the vector, for unit and range; of: variables allowed in the formula (EXPRESS_*). Returns REFUSED if it is
+ * neither. */
 static status read_formula(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
                            struct expression *f)
 {

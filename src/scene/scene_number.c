@@ -150,9 +150,9 @@ status read_variables(struct reader *r, const struct yaml_node *root)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Reads a number, or an expression of variables, into *value [SI]. unit: expected unit; allow_infinity: true if inf is
- * allowed. Returns false if the text is invalid, with the fault in message[capacity] as the rest of a sentence that
- * begins with `text`. */
+/* Reads a number, or an expression of variables, from `text` into *value [SI]. unit: expected kind of unit;
+ * allow_infinity: true if inf is allowed. Returns false if the text is invalid, with the fault in message[capacity] as
+ * the rest of a sentence that begins with `text`. */
 bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
                           char *message, size_t capacity)
 {

@@ -187,8 +187,8 @@ static void write_alternatives(FILE *out, const struct key *k)
     }
 }
 
-/* Returns true if key k is in a mapping that is merged when a scene includes other scenes. An empty value removes such
- * a key. */
+/* Returns true if key k is in a mapping that is merged with that of an included scene. Such a key may have an empty
+ * value, which removes it. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];

@@ -18,8 +18,8 @@ enum { SLICES_MOST = 65536 };
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 
-/* Combines `contents`, the hash of one more file, with f->contents, the hash of the files before (FNV-1a). If f has
- * one file, f->contents is the hash of that file. */
+/* Combines f->contents, the hash of the files read so far, with `contents`, the hash of one more file (FNV-1a). If f
+ * has one file, f->contents is the hash of that file. */
 static void contents_add(struct shape_file *f, uint64_t contents)
 {
     if (f->files == 0)

@@ -23,9 +23,9 @@ status read_file_unit(struct reader *r, const struct yaml_node *n, bool required
  * list of these. Returns REFUSED, with a message, for an invalid value. */
 status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *part);
 
-/* Reads the mapping `materials`, node n, which assigns ranges of grey values to materials or void, and stores all
- * ranges that are not void in `part`. v: the image. Returns REFUSED, with a message, if the solid is not the shape of a
- * body, or if a grey value of the image is in no range. */
+/* Reads the mapping `materials` of an image, node n, which assigns ranges of grey values to materials or to void.
+ * Stores all ranges that are not void in `part`. v: voxels of the image. Returns REFUSED, with a message, if the solid
+ * is not the shape of a body, or if a grey value of the image is in no range. */
 status read_grey_materials(struct reader *r, const struct yaml_node *n, const struct voxels *v,
                            struct voxel_part *part);
 

@@ -302,8 +302,8 @@ static bool unit_in_other_case(const char *text, char *out, size_t capacity)
     return strcmp(out, text) != 0 && unit_read(&m, out);
 }
 
-/* Sets *ten to twice the power of ten that converts the unit unit_text to SI. unit: expected kind. Returns false, with
- * a message in c, for an unknown unit or one of another kind. */
+/* Finds the power of ten that converts the unit with the text unit_text to SI units, and stores twice its exponent in
+ * *ten. unit: expected kind. Returns false, with a message in c, for an unknown unit or one of another kind. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;

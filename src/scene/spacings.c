@@ -65,7 +65,8 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
 /* Relative tolerance for the equality of lengths [1]: scenes give them with few digits. */
 #define DIGITS 1e-6
 
-/* Returns the smallest number of equal spacings of at most h [m] into which a length [m] is divided. */
+/* Returns the smallest number of equal parts into which `length` [m] can be divided such that none is longer than h
+ * [m]. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
 /* Returns true if `length` is a whole number of times `unit`, to a relative 1e-6. */
