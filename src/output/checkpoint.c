@@ -22,8 +22,9 @@ static const char newest_name[] = "checkpoint.h5", previous_name[] = "checkpoint
 
 /* ---- archive entries --------------------------------------------------------------------------------------------- */
 
-/* Composes path[capacity], the path of an archive entry in the HDF5 file, from its name. All entries are in the
- * group /state: '/' in a name becomes '.', so that the name of one entry may be the beginning of another name. */
+/* Composes path[capacity], the path of an archive entry in the HDF5 file, from the entry's name. All entries are in the
+ * group /state. Each '/' in a name becomes '.', because HDF5 would read it as a group, which fails if the part before
+ * it is the name of an entry, too. */
 static void entry_path(char *path, size_t capacity, const char *name)
 {
     int length = snprintf(path, capacity, "/state/%s", name);
@@ -31,8 +32,8 @@ static void entry_path(char *path, size_t capacity, const char *name)
     for (char *c = path + strlen("/state/"); *c; c++) *c = *c == '/' ? '.' : *c;
 }
 
-/* Writes one archive entry: `size` bytes of `data` under `name`. Returns FAILED after a fault of the file, which struct
- * hdf records; the function that opened the file reports it. */
+/* Writes one archive entry: `size` bytes of `data` under `name`. Returns FAILED after a fault of the file. The fault is
+ * recorded in the struct hdf of the file, so that the function that opened the file reports it. */
 static status entry_save(struct archive *a, const char *name, void *data, size_t size)
 {
     struct hdf *f = a->file;
@@ -74,9 +75,9 @@ static struct archive archive_of(struct hdf *f, bool saving)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes the state to an HDF5 file under the temporary name of `path`, without the footer. scene_text: text of the
- * scene, stored in the file. archive_all(context, a) must pass all entries to the archive a. Returns FAILED on a
- * fault, with the file removed. */
+/* Writes the state of a run to an HDF5 file under the temporary name of `path`, without the footer (length and hash).
+ * scene_text: text of the scene, which is stored in the file; archive_all(context, a): must pass all entries of the
+ * state to the archive a. Returns FAILED on a fault, with the file removed. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {
@@ -137,9 +138,9 @@ static bool same_scene(struct hdf *f, const char *scene_text)
     return same;
 }
 
-/* Restores the state from the checkpoint `path`, whose hash must have been checked. archive_all(context, a) must
- * read all entries from the archive a. Returns FAILED if the file has another format, belongs to another scene than
- * scene_text, or cannot be read. */
+/* Restores the state of a run from the checkpoint `path`, whose hash must have been checked. archive_all(context, a):
+ * must read all entries of the state from the archive a. Returns FAILED if the file has another format, belongs to
+ * another scene than scene_text, or cannot be read. */
 static status state_read(const char *path, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct hdf f;

@@ -35,7 +35,8 @@ static void hash_start(struct hash *h)
     h->length = 0;
 }
 
-/* Adds `strides` blocks of STRIDE bytes each to the hash: word k of a block to lane k. */
+/* Adds `strides` blocks of STRIDE bytes each to the hash h. A block consists of 64-bit words, one for each lane of the
+ * hash: word k is added to lane k. */
 static void hash_strides(struct hash *h, const unsigned char *bytes, size_t strides)
 {
     uint64_t a = h->lane[0], b = h->lane[1], c = h->lane[2], d = h->lane[3], word[LANES_OF_HASH];

@@ -14,9 +14,9 @@ bool file_name_is_ignored(const char *name)
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
 }
 
-/* Checks that a folder contains only hidden files, temporary files and those that a folder of this kind has at first,
- * so that a command may write into it. Returns REFUSED with the name of another entry; OK if there is no such
- * folder. */
+/* Checks that a command of the given kind may write into a folder: it may contain only hidden files, temporary files
+ * and those files with which folders of this kind begin. Returns REFUSED, with a message, if there is another entry,
+ * whose name the message gives. Returns OK if the folder does not exist. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

@@ -11,7 +11,8 @@
 #include "output/output_files.h"
 #include "output/renamed_results.h"
 
-/* Returns the length of the entry of a CSV line that starts at `from`: up to a comma or the end of the line. */
+/* Returns the length of the entry of a CSV line that starts at `from`; it ends before a comma or the end of the
+ * line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
 
 /* Returns the name in a column heading of `length` characters, `name [unit]`, without the unit. Release it with
@@ -38,8 +39,8 @@ static void read_header(struct history *h, const char *line)
     }
 }
 
-/* Reads one line of history.csv into row[columns]. An entry that is not a number becomes NAN. Returns false if the line
- * has another number of entries. */
+/* Reads one line of history.csv into row[h->columns]. An entry that is not a number becomes NAN. Returns false if the
+ * line has another number of entries. */
 static bool read_row(const struct history *h, const char *line, double *row)
 {
     const char *at = line;

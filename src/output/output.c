@@ -89,9 +89,9 @@ static bool has_frames(const char *folder)
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* Returns the part of a line of scene.yaml that decides whether two scenes are equal, and stores its length in
- * *length. It is the whole line; in a line with the hash of a file it is only the hash, since the path of the file
- * may differ. */
+/* Finds the part of a line of scene.yaml that is compared to decide whether two scenes are equal. Returns a pointer to
+ * its first character and stores its length in *length. It is the whole line. In a line with the hash of a file it is
+ * the hash alone, since the path of the file may differ. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -101,8 +101,9 @@ static const char *line_meaning(const char *line, size_t *length)
     return contents ? contents : line;
 }
 
-/* Returns the number, from 1, of the first line in which the scenes *a and *b differ, and advances *a and *b to this
- * line. Returns 0 if the scenes are equal. */
+/* Compares two scenes, texts of scene.yaml that begin at *a and *b, line by line. Returns the number, from 1, of the
+ * first line in which they differ, and sets *a and *b to the beginning of this line. Returns 0 if the scenes are
+ * equal. */
 static int scene_difference(const char **a, const char **b)
 {
     for (int line = 1; **a || **b; line++) {
@@ -163,8 +164,8 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     return is;
 }
 
-/* Returns true if `name` in the folder is a folder `frames` without frames: a run that was killed before it wrote
- * scene.yaml leaves only this folder. */
+/* Returns true if `name` in the folder is a folder `frames` that contains no frames. A run that was killed before it
+ * wrote scene.yaml leaves only this folder. */
 static bool is_frames_folder(const char *folder, const char *name)
 {
     const struct path frames = path_join(folder, name);
@@ -180,8 +181,8 @@ static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
 /* Checks the folder in which a run of the scene with the text scene_text would write. mode: whether an older run may be
- * overwritten. Returns REFUSED if the folder holds other files, or the run of another scene and mode is not
- * OUTPUT_OVERWRITE. */
+ * overwritten. Returns REFUSED if the folder contains other files. Also returns REFUSED if it contains the run of
+ * another scene, unless mode is OUTPUT_OVERWRITE. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     char difference[500], *text = NULL;
@@ -222,9 +223,9 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* Checks that `mode` suits an older run in the folder. Returns REFUSED if there is an older run and mode is
- * OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has advanced but has no checkpoints. Warns if there is
- * nothing to resume. */
+/* Checks that `mode` (first run, resume or overwrite) is possible with an older run in the folder. Returns REFUSED if
+ * there is an older run and mode is OUTPUT_FIRST, or if mode is OUTPUT_RESUME and the older run has advanced but has no
+ * checkpoints. Warns if there is nothing to resume. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
@@ -256,9 +257,10 @@ static status file_each(const char *folder, const char *name, file_visit_fn *eac
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls each(path) for all frames and index files of one region. inner: folder of its frames, frames_NAME, below
- * `folder`; end: additional ending of the file names, "" or that of temporary files. If `each` removes files, the
- * folder is removed too, unless other files are in it. Returns the first status other than OK. */
+/* Calls each(path) for all frames and index files of one region for which frames are written separately. inner: name
+ * frames_NAME of the folder of these frames, which is in `folder`; end: additional ending of the file names, "" or that
+ * of temporary files. If `each` removes files, the folder is removed too, unless other files are in it. Returns the
+ * first status other than OK. */
 static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -407,7 +409,8 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     return OK;
 }
 
-/* Returns the path of the folder frames_NAME of the region `name` in the folder of a run. */
+/* Returns the path of the folder frames_NAME, in the folder of a run, in which the frames of the region NAME = name
+ * are. */
 static struct path series_folder(const char *folder, const char *name)
 {
     char inner[PATH_NAME_ROOM];
@@ -457,8 +460,9 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
-/* Saves the frames of a series (number, times, sizes) and the number and hash of its last particles file to the
- * archive a if a->saving, else restores them. Returns FAILED if the restored lists do not match. */
+/* Saves the list of frames of a series (number, times, sizes) and the number and hash of its last particles file to the
+ * archive a if a->saving is true, else restores them. A series is the frames of the whole run or of one region. Returns
+ * FAILED if the restored lists do not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], entry_name[100], number_name[100], content_name[100];

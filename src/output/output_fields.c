@@ -7,8 +7,9 @@
 
 #include "data/derived_fields.h"
 
-/* Copies one number per particle to column c of the array `rows`, which has `columns` floats per row: of[row[r]], or
- * of[row[r]] - less[row[r]] if `less` is not NULL, for rows r = first .. end - 1. */
+/* Copies one number per particle to column c of the rows first .. end - 1 of the array `rows`, which has `columns`
+ * floats per row. Row r receives of[row[r]], or of[row[r]] - less[row[r]] if `less` is not NULL. row[r]: index of the
+ * particle of row r. */
 static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int32_t *row, int64_t first, int64_t end,
                                       const real *of, const real *less)
 {
@@ -16,8 +17,8 @@ static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int
         rows[columns * r + c] = (float)(less ? of[row[r]] - less[row[r]] : of[row[r]]);
 }
 
-/* Copies the vectors of[dim][n] of the particles row[r], or the differences of - less if `less` is not NULL, to the
- * rows first .. end - 1 of an array with dim floats per row. */
+/* Copies vectors of[dim][n], or the differences of - less if `less` is not NULL, to the rows first .. end - 1 of an
+ * array with dim floats per row. row[r]: index of the particle of row r. */
 static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t end, real *const *of,
                          real *const *less, int dim)
 {
@@ -43,7 +44,8 @@ static void copy_velocity(const struct frame_source *s, const int32_t *row, int6
     copy_vectors(rows, row, first, end, s->p->v, NULL, s->p->dim);
 }
 
-/* Copies one number per particle, of[row[r]], to the rows first .. end - 1 of an array with one column. */
+/* Copies one number per particle, of[row[r]], to the rows r = first .. end - 1 of an array with one column. row[r]:
+ * index of the particle of row r. */
 static void copy_scalars(float *rows, const int32_t *row, int64_t first, int64_t end, const real *of)
 {
     copy_column(rows, 1, 0, row, first, end, of, NULL);
@@ -77,8 +79,8 @@ static void copy_stress(const struct frame_source *s, const int32_t *row, int64_
         ((float *)rows)[stored * r + 2] = (float)particle_out_of_plane_stress(p, row[r]);
 }
 
-/* Fills the rows first .. end - 1 of a field that is derived from stress or velocity, such as the von Mises stress,
- * for the particles row[r]. */
+/* Computes the rows first .. end - 1 of a field that is derived from stress or velocity, such as the von Mises stress.
+ * row[r]: index of the particle of row r. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
                          int64_t first, int64_t end, float *rows)
 {
@@ -94,10 +96,10 @@ static void copy_derived(const struct derived_field *field, const struct frame_s
 
 /* ---- fields of the displacement gradient ------------------------------------------------------------------------- */
 
-/* Returns the Green-Lagrange strain zz of particle i normal to the plane in plane stress, 1/2 (F_zz^2 - 1) [1]; 0 in
- * other spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. Plastic flow
- * preserves volume, so that a yielding material has F_zz = J/J_plane, with the elastic volume ratio J that belongs
- * to its mean stress. strain[6]: in-plane strains, in the order xx yy zz xy yz xz. */
+/* Returns the Green-Lagrange strain 1/2 (F_zz^2 - 1) of particle i normal to the plane in plane stress [1]; 0 in other
+ * spaces. An elastic material contracts by nu/(1 - nu) times the sum of the in-plane strains. In a yielding material
+ * plastic flow preserves volume. There F_zz = J/J_plane, where J is the elastic volume ratio that follows from the mean
+ * stress, and J_plane the area ratio in the plane. strain[6]: in-plane strains, in the order xx yy zz xy yz xz. */
 static real strain_across(const struct frame_source *s, int64_t i, const real *strain)
 {
     const struct material *m = &s->extra.material[s->p->material[i]];
@@ -159,13 +161,15 @@ static void copy_plastic_work(const struct frame_source *s, const int32_t *row, 
         array_fill_bytes((float *)rows + first, 0, end - first, sizeof(float));
 }
 
-/* Copies one byte per particle, of[row[r]], to the rows first .. end - 1. */
+/* Copies one byte per particle, of[row[r]], to the rows r = first .. end - 1. row[r]: index of the particle of row
+ * r. */
 static void copy_bytes(uint8_t *rows, const int32_t *row, int64_t first, int64_t end, const uint8_t *of)
 {
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
 }
 
-/* Copies one integer per particle, of[row[r]], to the rows first .. end - 1. */
+/* Copies one integer per particle, of[row[r]], to the rows r = first .. end - 1. row[r]: index of the particle of row
+ * r. */
 static void copy_integers(int32_t *rows, const int32_t *row, int64_t first, int64_t end, const int32_t *of)
 {
     for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
@@ -183,8 +187,8 @@ static void copy_level(const struct frame_source *s, const int32_t *row, int64_t
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
-/* Copies the damage of the particles row[r] to the rows first .. end - 1: the damage computed for the frame if there
- * is one, else that of struct particles. */
+/* Copies the damage of particles to the rows first .. end - 1: the damage computed for the frame if there is one, else
+ * that stored in struct particles. row[r]: index of the particle of row r. */
 static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, row, first, end, s->extra.state.damage ? s->extra.state.damage : s->p->damage);
@@ -219,8 +223,8 @@ static void copy_fragment(const struct frame_source *s, const int32_t *row, int6
 
 /* ---- fields of the particles file -------------------------------------------------------------------------------- */
 
-/* Copies the spacing of the particles row[r] to the rows first .. end - 1 [m]. Material points of coarse grid cells
- * have larger spacings. */
+/* Copies the spacing of particles [m] to the rows first .. end - 1. Material points of coarse grid cells have larger
+ * spacings. row[r]: index of the particle of row r. */
 static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     for (int64_t r = first; r < end; r++)
@@ -328,7 +332,8 @@ size_t frame_field_bytes(const struct frame_field *field, int dim)
     return hdf_type_size(field->type) * (size_t)field_stored(field, dim);
 }
 
-/* Copies the rows first .. end - 1 of a field from the source to the array `rows`. row[r]: particle of row r. */
+/* Copies the values of a field for the particles row[first] .. row[end - 1] from the source to the rows first .. end -
+ * 1 of the array `rows`. */
 static void copy_rows(const struct frame_field *field, const struct frame_source *source, const int32_t *row,
                       int64_t first, int64_t end, void *rows)
 {

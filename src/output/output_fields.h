@@ -39,25 +39,25 @@ extern const struct frame_field frame_fields[FRAME_FIELDS];
 enum { CELLS_CONNECTIVITY, CELLS_OFFSETS, CELLS_TYPES, CELL_LISTS };
 extern const struct frame_field frame_cells[CELL_LISTS];
 
-/* Returns the set of the fields of a frame, one bit per field in the order of frame_fields[]: the basic ones, plastic
- * strain if a material yields, contact force if the scene has contact, fragments if bodies can break, and those that
- * the scene requests. */
+/* Returns the set of fields that a frame from the source s contains, as bits in the order of the table frame_fields:
+ * the basic ones, plastic strain if a material yields, contact force if the scene has contact, fragments if bodies can
+ * break, and those that the scene requests. */
 unsigned frame_field_set_of(const struct frame_source *s);
 
-/* Copies the stored components of a field, row by row, to `rows` (frame_field_bytes for each row). Material points of
- * coarse cells (source->extra.more) have 0 in a field that they lack. order: the rows. */
+/* Copies the stored numbers of a field to `rows`, which has frame_field_bytes bytes per row. order: which particle each
+ * row shows. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *order, char *rows);
 
-/* Writes a field as a dataset with its unit. rows: its stored components at n points, as from frame_field_copy_rows.
- * dim: dimension of the body. A failure is stored in h->failed. */
+/* Writes a field as a dataset with its unit to the file h. rows: stored numbers of the field at n points, as
+ * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in h->failed. */
 void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows);
 
-/* Writes one line `field [unit]` for every field with a unit in the set `fields` (bits as returned by
- * frame_field_set_of) to `text`, which holds `capacity` bytes. */
+/* Writes one line `field [unit]` for every field with a unit to text[capacity]. fields: set of fields, one bit per
+ * entry of the table frame_fields. */
 void frame_units_text(unsigned fields, char *text, size_t capacity);
 
-/* Returns the size of the stored numbers of one row of a field [byte]. dim: dimension of the body. */
+/* Returns the size of the stored numbers in one row of a field [byte]. dim: dimension of the space. */
 size_t frame_field_bytes(const struct frame_field *field, int dim);
 
 #endif

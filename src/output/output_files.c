@@ -79,7 +79,7 @@ enum { UNFINISHED_MOST = 8 };
 static struct path unfinished[UNFINISHED_MOST];
 static pthread_mutex_t unfinished_lock = PTHREAD_MUTEX_INITIALIZER;
 
-/* Replaces the first entry of `unfinished` that equals `from` by `to`, if there is one. */
+/* Replaces the path `from` by `to` in the list `unfinished`, if it is there. */
 static void unfinished_replace(const char *from, const char *to)
 {
     bool found = false;
@@ -111,8 +111,8 @@ void files_unfinished_remove(void)
 
 /* ---- faults ------------------------------------------------------------------------------------------------------ */
 
-/* Returns advice on how to remove the cause of a failed write, as the end of a message; "" if there is none. cause: an
- * errno. */
+/* Returns advice on how to remove the cause of a failed write, as the end of a message; "" if there is none. cause:
+ * value of errno after the failure. */
 static const char *file_remedy(int cause)
 {
     switch (cause) {
@@ -149,8 +149,8 @@ void file_discard_temporary(const char *path)
 
 /* ---- what is not replaced ---------------------------------------------------------------------------------------- */
 
-/* Checks that a file may be replaced or removed. Returns REFUSED if it is an input of this command, a pipe, a socket or
- * a device; OK if there is no such file. */
+/* Checks that the file `path` may be replaced or removed. Returns REFUSED, with a message, if it is an input of the
+ * command that is running, a pipe, a socket or a device. Returns OK if there is no such file. */
 status file_check_replaceable(const char *path)
 {
     struct stat s;

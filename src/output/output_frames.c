@@ -47,8 +47,8 @@ struct frame_job {
  * file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
-/* Copies the rows of the fields that the frame itself stores to o->frame_copy. Its memory is reused for the next
- * frame. */
+/* Copies the rows of those fields that are stored in the frame itself, not in the particles file, to o->frame_copy.
+ * This memory is used again for the next frame. */
 static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
 {
     struct output *o = job->o;
@@ -81,8 +81,9 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Determines the particles file (data that do not change) to which the frame of the job links: the last one of the
- * series, or a new one if its contents would differ. scene_text: text of the scene, which the file contains. */
+/* Determines the particles file to which the frame of the job links. It contains the data that do not change. It is the
+ * last one of the series, or a new one if its contents would differ. scene_text: text of the scene, which the file
+ * contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -101,8 +102,9 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     job->particles.compress = job->compress;
 }
 
-/* Creates the job of writing a frame at time t [s] and time step number `step`, and copies the fields of the
- * particles. scene_text: text of the scene, for the particles file. The caller owns the job. */
+/* Creates the job of writing a frame of a series at time t [s] and time step number `step`, and copies the fields of
+ * the particles into it, so that the run can go on while it is written. scene_text: text of the scene, for the
+ * particles file. The caller owns the job. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -125,7 +127,8 @@ static void job_free(struct frame_job *job)
 
 /* ---- the rows ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the array 0 .. n - 1, to be released with free; NULL if memory is exhausted. */
+/* Returns an allocated array of the numbers 0 .. n - 1; NULL if memory is exhausted. The caller releases it with
+ * free. */
 static int32_t *ascending_order(int64_t n)
 {
     int32_t *order = calloc((size_t)n + 1, sizeof *order);
@@ -133,8 +136,8 @@ static int32_t *ascending_order(int64_t n)
     return order;
 }
 
-/* Returns the indices of the particles sorted by id [p->n]. Ids are unique but may have gaps. Returns NULL if memory is
- * exhausted. Release the array with free. */
+/* Returns an allocated array of the indices of the particles, [p->n], in ascending order of their ids. Ids are unique
+ * but need not be consecutive. Returns NULL if memory is exhausted. The caller releases the array with free. */
 static int32_t *order_by_id(const struct particles *p)
 {
     int64_t room = 0, k = 0;
@@ -159,8 +162,8 @@ static void rows_free(struct frame_series *s)
     s->particles.current = false;
 }
 
-/* Returns true if the frames of the series show particle i of p, which may also be material points of coarse cells: it
- * is in the region of the series, if there is one. */
+/* Returns true if the frames of the series show particle i of p: it is in the region of the series, or the series has
+ * no region. p: particles, or material points of coarse cells. */
 static bool series_shows(const struct frame_series *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
@@ -169,9 +172,10 @@ static bool series_shows(const struct frame_series *s, const struct particles *p
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Selects the particles that the frames of a series show, in the order of their ids, as the rows of its frames. The
- * selection is kept until output_discard_particle_order, unless there are material points of coarse grid cells,
- * which may change at any step. Returns false if memory is exhausted. */
+/* Selects the particles that the frames of a series show, in the order of their ids, and stores them in s->rows. The
+ * selection is kept until output_discard_particle_order, or until the number of particles changes. It is made again for
+ * each frame if the series has a region and there are material points of coarse grid cells, which may change at any
+ * step. Returns false if memory is exhausted. */
 static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
     const struct particles *more = source->extra.more;
@@ -330,9 +334,9 @@ struct particles_seen {
     int64_t content;           /* this hash */
 };
 
-/* Checks particles file number `number` of a series in the folder of a run, and stores name, fault and hash in
- * *seen. Does nothing if it is the file checked last. The checkpoint has the hash of the last particles file of the
- * series: a file with another hash belongs to another run and counts as lost. */
+/* Checks particles file number `number` of a series in the folder of a run, and stores name, fault and hash in *seen.
+ * Does nothing if it is the file that was checked last. The checkpoint has the hash of the last particles file of the
+ * series. If the hash of this file differs, it belongs to another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -359,9 +363,9 @@ static bool frame_read_marks(const char *path, real *time, int64_t *content)
     return read;
 }
 
-/* Returns true if the frame at `path` is damaged or missing for certain, and writes a phrase that completes "FRAME
- * ..." to text[capacity]. Returns false if the frame has no fault or cannot be read. e: its entry in the list of
- * frames; particles: the particles file to which it should link. */
+/* Returns true if the frame at `path` is damaged or missing for certain, and then writes a phrase that completes "FRAME
+ * ..." to text[capacity]. Returns false if the frame has no fault, or if it cannot be decided because reading failed.
+ * e: entry of the frame in the list of frames; particles: the particles file to which it should link. */
 static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
                           char *text, size_t capacity)
 {
@@ -378,9 +382,9 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
     return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
 
-/* Marks the frames of a series that are lost (damaged or missing), adds their number to *lost, and describes the
- * first lost frame of all series in text[capacity]. Frames that were marked at an earlier restart and exist again
- * lose their mark. A particles file that is lost is not used for further frames. */
+/* Marks the frames of a series that are lost (damaged or missing) and adds their number to *lost. If *lost was 0,
+ * describes the first of them in text[capacity]. Frames that were marked at an earlier restart and exist again lose
+ * their mark. A particles file that is lost is not used for further frames. */
 static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t capacity)
 {
     struct particles_seen seen = {.number = -1};

@@ -42,8 +42,8 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Records the result of an HDF5 call, which is negative on a fault, and errno in f. Returns true if the call
- * succeeded. */
+/* Records in f whether an HDF5 call failed, with errno. result: value that the call returned, negative on a fault.
+ * Returns true if the call succeeded. */
 static bool good(struct hdf *f, int64_t result)
 {
     if (result >= 0) return true;
@@ -315,8 +315,8 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
     free(plain);
 }
 
-/* Writes the attribute `name` of the group `group`, with one value of type `type`, and closes the data space
- * `space`. */
+/* Writes the attribute `name` of the group `group`, with one value *value of the HDF5 type `type`, and closes the data
+ * space `space`. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

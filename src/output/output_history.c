@@ -69,9 +69,9 @@ static status history_header(struct output *o, const struct column *column)
     return line_end(o, &l);
 }
 
-/* Shortens history.csv to its length at the checkpoint that is resumed. Creates a new file, so that targets of links
- * and other hard links remain unchanged. Returns FAILED if the file is missing or shorter, or if this part of it has
- * changed. */
+/* Cuts history.csv to the length that it had at the checkpoint that is resumed. The result is a new file, so that
+ * targets of links and other hard links to the old file remain unchanged. Returns FAILED if the file is missing or
+ * shorter, or if this part of it has changed. */
 static status history_cut(const struct output *o)
 {
     struct path path = history_path(o);
@@ -89,8 +89,8 @@ static status history_cut(const struct output *o)
                       path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
 }
 
-/* Opens history.csv at `path` for writing, without following a link: at its end if `resume`, else as a new file.
- * Returns NULL and sets errno on a fault. */
+/* Opens history.csv at `path` for writing, without following a link. resume: true to continue it at its end, false to
+ * create a new file. Returns NULL and sets errno on a fault. */
 static FILE *history_file(const char *path, bool resume)
 {
     if (!resume) unlink(path);

@@ -11,22 +11,23 @@ struct frame_indices {
     size_t length[INDICES]; /* [byte] */
 };
 
-/* Composes the texts of the indices of a series in memory. index: all 0 before. folder: of the run, for messages.
- * Returns FAILED if memory is exhausted. Release with frame_indices_free in any case. */
+/* Composes the texts of both index files of a series of frames, frames.hdf.series and frames.xdmf, in memory. index:
+ * must be set to zero before; folder: of the run, for messages. Returns FAILED if memory is exhausted. Release index
+ * with frame_indices_free in any case. */
 status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s);
 
-/* Writes the indices as files to the folder of the run. Returns FAILED if one cannot be written. */
+/* Writes the composed texts in *index as the index files of the series s to the folder of the run. Returns FAILED if
+ * one cannot be written. */
 status frame_indices_write(const struct frame_indices *index, const char *folder, const struct frame_series *s);
 
 /* Releases the texts of *index. */
 void frame_indices_free(struct frame_indices *index);
 
-/* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds
- * `capacity` bytes. */
+/* Writes the file name of frame number `number` of a series, relative to the folder of the run, to name[capacity]. */
 void frame_name(const struct frame_series *s, char *name, size_t capacity, int number);
 
-/* Writes the name of an index file of a series, relative to the folder of the run, to `name`, which holds `capacity`
- * bytes: the name of the series followed by the ending `end`. */
+/* Writes the name of an index file of a series, relative to the folder of the run, to name[capacity]: the name of the
+ * series followed by the ending `end`. */
 void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *end);
 
 #endif

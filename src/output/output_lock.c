@@ -15,8 +15,8 @@ static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
-/* Returns true if `path` is still the file that is open as fd. It may have been removed or replaced since it was
- * opened. */
+/* Returns true if `path` is still the name of the file that is open as fd. The file may have been removed or replaced
+ * since it was opened. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;
@@ -30,8 +30,8 @@ static bool has_other_names(int fd)
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* Checks that the open file fd is empty or begins with the text that `sign` writes. Returns REFUSED if it does not, and
- * FAILED if it cannot be read. */
+/* Checks that the open file fd is empty or begins with the text with which lock files of Cleave begin. path: its name,
+ * for messages. Returns REFUSED if it begins otherwise, and FAILED if it cannot be read. */
 static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];

@@ -18,8 +18,8 @@
  * particles by less. The limit bounds the memory that a damaged file can request. */
 enum { PARTICLES_PER_BYTE_MOST = 1024 };
 
-/* Reads the dataset `name` of n rows and `columns` columns, and copies its columns from[k] to new arrays out[k][n],
- * k = 0 .. wanted - 1. The caller releases the arrays. */
+/* Reads the dataset `name` of n rows and `columns` columns. Copies its column from[k] to a new array out[k][n], for k =
+ * 0 .. wanted - 1. The caller releases the arrays. */
 static void read_columns(struct hdf *h, const char *name, int64_t n, int columns, int wanted, const int *from,
                          float **out)
 {
@@ -118,8 +118,8 @@ void frame_free(struct output_frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Copies the stress or velocity (`from`) of particle i, from which a derived field is computed, to row[SYM_MAX].
- * Components that the space does not have are 0. */
+/* Copies the quantity of particle i from which a derived field is computed, stress or velocity as `from` selects, to
+ * row[SYM_MAX]. Components that the space does not have are 0. */
 static void source_row(const struct output_frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */

@@ -32,8 +32,8 @@ struct temporal {
     struct hdf_source *source; /* [n] scratch; its numbers of rows are those of the frames */
 };
 
-/* Lists in *a the frames of a series whose files exist, with their particles files, and the fields that all of them
- * have. Contact forces are listed if any frame has them. */
+/* Lists in *a the frames of a series whose files exist, with their particles files, and the fields that all of these
+ * frames have. Contact forces are listed if at least one frame has them. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
     unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
@@ -50,8 +50,8 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     a->fields = all | (any & 1u << FIELD_CONTACT);
 }
 
-/* Writes the group Steps of the temporal file: the times, and where the data of each time begin. number: working memory
- * of n entries. */
+/* Writes the group Steps of the file of all frames for VTK: their times, and where the data of each frame begin in the
+ * arrays. number: working memory of n entries, n being the number of frames. */
 static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -78,9 +78,9 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes a virtual dataset that concatenates a field of all frames. needed: bits of the fields that a frame must
- * have to contain the dataset, 0 if every frame has it; the rows of other frames read as 0. more: number of rows in
- * each frame beyond its number of points. */
+/* Writes a virtual dataset that concatenates a field of all frames. needed: bits of the fields without which a frame
+ * does not contain the dataset, 0 if every frame contains it; the rows of frames that lack one read as 0. more: number
+ * of rows in each frame beyond its number of points. */
 static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {

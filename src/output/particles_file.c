@@ -58,8 +58,8 @@ void particles_file_free(struct particles_file *f)
     f->rows = NULL, f->cells = NULL;
 }
 
-/* Writes list number `list` (CELLS_*) of VTK cells, such as their offsets, to h. of[entries]: values of the list, in
- * its type. */
+/* Writes one of the lists that describe the VTK cells of the particles to h. list: which one (CELLS_*), such as their
+ * offsets; of[entries]: its values, in the type of the list. */
 static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
 {
     hdf_write_rows_zero_padded(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);

@@ -63,8 +63,8 @@ static bool boxes_are_whole(int fd, int64_t length)
     return length > 0;
 }
 
-/* Returns the offset in the open file of `length` bytes at which the end that format e requires begins [byte]; for a
- * format made of boxes, the length of the file. Returns -1 if the file is incomplete. */
+/* Returns the offset at which the end of the open picture fd of `length` bytes begins, the last bytes that its format e
+ * requires [byte]. For a format made of boxes it is the length of the file. Returns -1 if the file is incomplete. */
 static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
 {
     char last[END_LENGTH];

@@ -96,8 +96,8 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* Returns what follows the first part of the dotted key `rest`, if that part is `name` of `length` characters.
- * Returns NULL if it is another one, or if rest is NULL. */
+/* Compares the first part of the dotted key `rest` with `name`, a text of `length` characters. Returns the part of
+ * `rest` after it if they are equal. Returns NULL if they differ, or if rest is NULL. */
 static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
@@ -105,9 +105,9 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
-/* Parses the value of the member `name` (`length` characters) of an object. During the call r->key is the dotted key
- * of the value, truncated if it is too long. rest: part of the wanted key from this member on, NULL if the value is
- * not on its path; depth: levels of nesting. Returns false if the text is malformed. */
+/* Parses the value of the member `name` (of `length` characters) of an object. During the call r->key is the dotted key
+ * of the value, truncated if it is too long. rest: the part of the wanted key that begins with this member, or NULL if
+ * the value is not on the path of the wanted key; depth: levels of nesting. Returns false if the text is malformed. */
 static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
 {
     const size_t above = r->length;
