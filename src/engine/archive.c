@@ -14,8 +14,9 @@
 
 #define FAR_AWAY 1e7 /* largest coordinate of a particle [spacings]; as too_far in fill.c */
 
-/* Checks restored particles before their indices are used in arrays: a checkpoint with a correct checksum may still
- * contain a state that no run of scene s produces. Returns FAILED, with a message, for such a state. */
+/* Checks particles that were restored from a checkpoint before their indices are used in arrays. A checkpoint with a
+ * correct checksum may still contain a state that no run of scene s produces. Returns FAILED, with a message, for such
+ * a state. */
 static status particles_check(const struct scene *s, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n_all; i++) {
@@ -36,8 +37,9 @@ static status particles_check(const struct scene *s, const struct particles *p)
     return OK;
 }
 
-/* Saves the name of the present set of kernels (machine instructions of the loops), or reads that of a checkpoint.
- * Warns if they differ: results then differ by round-off. Returns the status of the archive. */
+/* Saves the name of the set of kernels in use (machine instructions for which the loops are compiled) to the archive a,
+ * or compares it with the name in a checkpoint. Warns if they differ, since results then differ by round-off. to: list
+ * of warnings. Returns FAILED if the archive cannot be written or lacks the name. */
 static status kernels_archive(struct warnings *to, struct archive *a)
 {
     char text[256];
@@ -55,8 +57,9 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     return OK;
 }
 
-/* Saves the hollow cells: mesh cells inside a body that coarse cells replace, and that have no particles. They are
- * restored before the rest of the checkpoint (restore.c). Returns FAILED if the archive cannot be written. */
+/* Saves which mesh cells are hollow to the archive a. Hollow cells are inside a body and have no particles, because
+ * coarse cells replace them. They are restored before the rest of the checkpoint (restore.c). Returns FAILED if the
+ * archive cannot be written. */
 static status hollow_save(const struct cells_without_particles *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
@@ -64,8 +67,8 @@ static status hollow_save(const struct cells_without_particles *h, struct archiv
     return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
 }
 
-/* Saves time, step number, number of steps and time step of a run to the archive a, or restores them from it
- * (a->saving). Returns FAILED if the archive cannot be written or lacks one of them. */
+/* Saves time, step number, number of steps and time step of a run to the archive a if a->saving is true, else restores
+ * them from it. Returns FAILED if the archive cannot be written or lacks one of them. */
 static status clock_archive(struct run_clock *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/t", c->t);
@@ -75,8 +78,8 @@ static status clock_archive(struct run_clock *c, struct archive *a)
     return OK;
 }
 
-/* Saves hollow cells, particles and bonds of a run to the archive a. optional: optional arrays of p, sum of WITH_*.
- * Returns FAILED if the archive cannot be written. */
+/* Saves hollow cells (cells inside a body without particles), particles p and bonds b of a run to the archive a.
+ * optional: optional arrays of p, a sum of WITH_*. Returns FAILED if the archive cannot be written. */
 static status body_save(struct cells_without_particles *hollow, struct particles *p, int optional, struct bonds *b,
                         struct archive *a)
 {
@@ -85,8 +88,9 @@ static status body_save(struct cells_without_particles *hollow, struct particles
     return bonds_save_or_load(b, p, a);
 }
 
-/* Restores particles and bonds from archive a, and rebuilds lists, coupling, mesh and coarse cells from them. Returns
- * FAILED, with a message, if an entry is missing or a particle has an impossible state. */
+/* Restores the particles and bonds of run e from the archive a, and rebuilds from them what is not stored: lists of
+ * particles, coupling, mesh and coarse cells. Returns FAILED, with a message, if an entry is missing or a particle has
+ * an impossible state. */
 static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_save_or_load(&e->part, e->optional, a));

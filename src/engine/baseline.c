@@ -8,7 +8,8 @@
 #include "step/report.h"
 #include "step/step.h"
 
-/* Returns true if the scene needs a reference run: it has a PULSE probe and is not itself on material points alone. */
+/* Returns true if the scene requires a reference run, which is made with material points alone: it has a PULSE probe
+ * and does not itself consist of material points alone. */
 static bool wanted(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++)
@@ -16,9 +17,9 @@ static bool wanted(const struct scene *s)
     return false;
 }
 
-/* Stores the velocities of the n particles p of the completed reference run, and its energy change [1], in
- * probing->baseline. The particles have the same order as in the main run, because they are made and sorted before any
- * becomes peridynamic. */
+/* Stores the velocities of the particles p at the end of the reference run, and its energy change [1], in
+ * probing->baseline. The particles have the same order as in the main run, because they are created and sorted before
+ * any becomes peridynamic. */
 static void baseline_keep(struct probing *probing, const struct particles *p, real energy_change)
 {
     for (int d = 0; d < p->dim; d++) {

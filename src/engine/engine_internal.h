@@ -5,7 +5,8 @@
 #include "data/hollow.h"
 #include "engine/engine.h"
 
-/* Allocates the parts of a run (contact, cracks, mesh, probes and others), all zero, and stores them in *e. */
+/* Allocates the parts of a run (contact, cracks, mesh, probes and others), sets all of them to zero, and stores
+ * pointers to them in *e. */
 void run_parts_make(struct run *e);
 
 /* Releases all parts of a run and what they own. Parts that were not created are skipped. */
@@ -17,38 +18,37 @@ struct predecessor {
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates the state of a run as engine_make does, without the particles of the cells listed in `hollow` (cells inside a
- * body that coarse cells replace). predecessor: if not NULL, particles, bonds and time are transferred from this run;
- * the caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
- * engine_make does. */
+/* Creates the run e of the scene s without the particles of the cells listed in `hollow`: cells inside a body that
+ * coarse cells replace. out: output of the run. predecessor: NULL, or a run from which particles, bonds and time are
+ * transferred. In the latter case the caller sets all other state that time steps have changed, and the refinement
+ * levels of cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
 status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
                                     struct cells_without_particles hollow, struct predecessor *predecessor);
 
-/* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
- * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
- * progress cannot be written. */
+/* Replaces run e by a run with the same state, in which the particles are those that the refinement levels of the mesh
+ * cells require. level: refinement level of each mesh cell. Returns FAILED if this fails, or if the frame that is being
+ * written cannot be written. */
 status engine_replace_particles(struct run *e, const uint8_t *level);
 
-/* Transfers the particles of predecessor->run to a run that is being created, and stores the new indices of these
- * particles in predecessor->now. Call it when the mirror images of the new particles exist. */
+/* Transfers the particles of predecessor->run to the run e, which is being created, and stores the new indices of these
+ * particles in predecessor->now. The mirror images of the new particles must exist. */
 void engine_transfer_particles(struct run *e, struct predecessor *predecessor);
 
-/* Transfers the broken bonds of predecessor->run to a run that is being created, and frees the bonds and particles of
- * predecessor->run. Call it after engine_transfer_particles. */
+/* Transfers the broken bonds of predecessor->run to the run e, which is being created. Releases the bonds and particles
+ * of predecessor->run. engine_transfer_particles must have been called before. */
 void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor);
 
-/* Saves the state of loads and of all parts of a run to the archive if a->saving is set, else restores it from the
- * archive. Each part saves only state that a->scope includes. Returns FAILED if an entry is missing or has another
- * size. */
+/* Saves the state of loads and of all parts of run e to the archive a if a->saving is true, else restores it from a.
+ * Each part saves only the state that a->scope selects. Returns FAILED if an entry is missing or has another size. */
 status parts_save_or_load(struct run *e, struct archive *a);
 
-/* Adds warnings to *to about bodies with particles that have no neighbours within the horizon. cells: search over
- * reference positions. */
+/* Adds warnings to *to about bodies in which particles have no neighbours within the horizon. cells: neighbour search
+ * over reference positions. */
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
                                        const struct particles *p, struct warnings *to);
 
-/* Returns true if the bounding box of a crack overlaps the box low..high [dim, m], extended by `reach` [m] on every
- * side. */
+/* Returns true if the bounding box of crack c, extended by `reach` [m] on every side, overlaps the box with the corners
+ * low[dim] and high[dim] [m]. */
 bool crack_overlaps_box(const struct crack *c, const real *low, const real *high, int dim, real reach);
 
 /* Adds warnings to *to about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks where
@@ -61,8 +61,8 @@ void engine_warn_of_useless_cracks(const struct scene *s, const struct particles
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                                    const struct run_clock *clock, real wave_speed, struct warnings *to);
 
-/* Adds warnings to *to about supports whose prescribed speed is so high that the bonds next to the particles that they
- * drive break. */
+/* Adds warnings to *to about supports whose prescribed speed is so high that bonds break between the particles that
+ * they drive and the neighbours of these particles. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *to);
 
@@ -75,16 +75,17 @@ void engine_warn_of_fast_start(const struct particles *p, real wave_speed, struc
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *to);
 
-/* Adds warnings to *to about bodies of a few rows of particles, whose stiffness pd.surface: moments cannot correct, and
- * about weights of bonds near faces whose solver has given up. w: these weights. */
+/* Adds warnings to *to about bodies of a few rows of particles, whose stiffness the correction pd.surface: moments
+ * cannot correct. Also warns if the solver for the weights w of bonds near faces has given up. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
                                       struct warnings *to);
 
-/* Computes the box of the particles of body b and of all that are joined to it [m]. Returns false if there are none. */
+/* Computes the bounding box of the particles of body b and of all bodies that are joined to it, and stores its corners
+ * in low[dim] and high[dim] [m]. Returns false if there are no such particles. */
 bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int b, real *low, real *high);
 
-/* Returns the number of particles along an axis between the positions low and high [m], including their images beyond
- * planes of symmetry. */
+/* Returns the number of particles along the axis `axis` between the positions `low` and `high` [m], including their
+ * mirror images beyond planes of symmetry. */
 real engine_count_particles_across(const struct scene *s, real low, real high, int axis);
 
 /* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */

@@ -26,7 +26,8 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
 /* Sets the critical stretch of bonds for each pair of materials: that of the weaker material, or of an interface
- * between bodies. In static problems no bond breaks. Allocates tables->pair_stretch, [materials][materials]. */
+ * between bodies. In static problems no bond breaks. Allocates the table tables->pair_stretch [materials][materials],
+ * to which `source` then refers. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -46,8 +47,8 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
-/* Sets how bonds soften for each pair of materials: from the stretch at which the material that softens first begins.
- * Does nothing if no material softens. */
+/* Sets the softening of bonds for each pair of materials. A bond softens as the one of its two materials that begins to
+ * soften at the smaller stretch. Does nothing if no material softens. */
 static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -67,9 +68,9 @@ static void make_softening(const struct scene *s, struct material_tables *tables
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
-/* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E of bonds for each pair of materials, from the material
- * that yields first. A bar of one material then has its uniaxial stress-strain curve. Does nothing if no material
- * yields. */
+/* Sets the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials, with
+ * sigma_y, E and H of the one of the two that yields first. (H_b: hardening modulus, k_e: elastic stiffness of a bond.)
+ * A bar of one material then has its uniaxial stress-strain curve. Does nothing if no material yields. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -102,10 +103,10 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
-/* Returns the principal stress at which points of material m convert to peridynamic particles [Pa]: alpha times
- * conversion.stress, by default times the stress at s_c, where bonds break (at s_0 if they soften; E s_c where nothing
- * yields). With a larger stress points may exceed the strain at which bonds break. Returns INFINITY if points do not
- * convert by stress. */
+/* Returns the principal stress at which material points of material m convert to peridynamic particles [Pa]: alpha *
+ * conversion.stress. By default conversion.stress is the uniaxial stress at the stretch at which bonds break or, if
+ * they soften, begin to soften. With a larger stress points may exceed the strain at which bonds break. Returns
+ * INFINITY if points do not convert by stress. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
@@ -113,8 +114,8 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Creates the constants of all materials for the kernels, tables->elastic [materials], and the limits of their
- * bonds. */
+/* Creates the constants of all materials that the kernels use, tables->elastic[materials], and the stretches at which
+ * bonds of these materials break, soften and yield. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
@@ -175,8 +176,8 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
-/* Converts the initial peridynamic particles and creates the bonds. before: run that is continued, or NULL. Returns
- * REFUSED or FAILED, with a message, if surface weights or pre-cracks cannot be made. */
+/* Converts the initial peridynamic particles and creates the bonds of run e. before: run from which broken bonds are
+ * transferred, or NULL. Returns REFUSED or FAILED, with a message, if surface weights or pre-cracks cannot be made. */
 static status make_bonds(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
@@ -208,8 +209,9 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Returns the fraction of the relative velocity across the interface that is damped in a step, at most
- * DAMPING_SHARE_MOST [1]. c: wave speed [m/s]; dt: time step [s]; h: spacing of the grid [m]. */
+/* Returns the fraction of the relative velocity across the interface between peridynamic particles and material points
+ * that is damped in a step, at most DAMPING_SHARE_MOST [1]. c: wave speed [m/s]; dt: time step [s]; h: spacing of the
+ * grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);
@@ -261,8 +263,8 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : source->limit.softening ? PD_BOND_SOFT : PD_BOND;
 }
 
-/* Computes the critical time step and the time step, or copies both from the run that is continued. before: that run,
- * or NULL. Returns REFUSED, with a message, if no time step is possible. */
+/* Computes the critical time step and the time step of run e, or copies both from the run `before`, which e replaces.
+ * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
     if (!before) return scene_prepend_location(e->scene, time_step_choose(e));
@@ -318,8 +320,8 @@ static status make_probes(struct run *e)
     return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
-/* Creates loads, bonds, rigid bodies, contact, coupling and mesh, and computes the time step. before: run that is
- * continued, or NULL. Returns REFUSED or FAILED, with a message, if one of them does not fit the scene. */
+/* Creates loads, bonds, rigid bodies, contact, coupling and mesh of run e, and computes the time step. before: run that
+ * e replaces, or NULL. Returns REFUSED or FAILED, with a message, if one of them does not suit the scene. */
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;

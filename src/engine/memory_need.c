@@ -27,8 +27,9 @@ static real share_filled(const struct region *shape, const real *from, const rea
     return real_max(inside, 1) / all;
 }
 
-/* Estimates the number of particles of bodies on lattices; bodies from files are left out. boxes: use the boxes around
- * bodies, without their shapes. *longest: receives the longest edge of these boxes [spacings]. */
+/* Estimates the number of particles of bodies that are filled with lattices; bodies from files are left out. boxes:
+ * true to fill the bounding boxes of the bodies, false to fill their shapes. Stores the longest edge of these boxes
+ * [spacings] in *longest. */
 static real particles_expected(const struct scene *s, bool boxes, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
@@ -45,16 +46,17 @@ static real particles_expected(const struct scene *s, bool boxes, real *longest)
     return n;
 }
 
-/* Returns the number of particles, or its estimate if p has none yet. *longest: receives the longest edge of a box
- * around a body [spacings]. */
+/* Returns the number of particles p of a run, or its estimate if they are not created yet. Stores the longest edge of a
+ * box around a body [spacings] in *longest. */
 static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
     const real expected = particles_expected(s, false, longest);
     return p->n > 0 ? (real)p->n : expected;
 }
 
-/* Estimates the memory of n particles and their bonds [byte]. families: all particles have bonds to their whole family,
- * else about one bond each; longest: longest edge of a box around a body [spacings]. */
+/* Estimates the memory of n particles and their bonds [byte]. families: true if each particle has bonds to all
+ * neighbours within the horizon, false for about one bond each; longest: longest edge of a box around a body
+ * [spacings]. */
 static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
 {
     const real bonds = families ? source->family.full / source->family.cell_volume : 1;

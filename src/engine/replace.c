@@ -10,9 +10,9 @@
 #include "step/report.h"
 #include "engine_internal.h"
 
-/* Frees mesh, partial stress, interface zone and neighbour search of a run that is replaced. The new run computes them
- * from particles and scene, and large bodies have no memory for both. Displacements and velocities of nodes are
- * kept. */
+/* Releases mesh, partial stress, interface zone and neighbour search of run e, which is about to be replaced. The new
+ * run computes them from particles and scene, and for large bodies there is no memory for both. Displacements and
+ * velocities of the mesh nodes are kept. */
 static void leave_derived(struct run *e)
 {
     struct mesh *mesh = &e->frame->mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
@@ -36,8 +36,8 @@ static void swap_arrays(real **a, real **b, int dim)
     }
 }
 
-/* Moves displacements and velocities of all nodes, and the coarse cells, from run `old` to run e, which replaces it.
- * Both have the same nodes. */
+/* Moves displacements and velocities of all mesh nodes, and the coarse cells, from run `old` to run e, which replaces
+ * it. Both runs have the same nodes. */
 static void nodes_take(struct run *e, struct run *old)
 {
     struct reference_frame *r = e->frame, *was = old->frame;
@@ -67,9 +67,9 @@ static void rest_take(struct run *e, struct run *old)
     *old->report = (struct run_report){.out = NULL};
 }
 
-/* Replaces the content of run e by a new run with the hollow cells of its frame and the state of the previous one; the
- * state of parts is transferred through an archive in memory. Returns FAILED or REFUSED, with a message, if the new run
- * cannot be made. */
+/* Replaces the content of run e by a new run with the hollow cells of its frame (cells inside a body without particles)
+ * and the state of the previous run. The state of parts is transferred through an archive in memory. Returns FAILED or
+ * REFUSED, with a message, if the new run cannot be made. */
 static status run_replace(struct run *e)
 {
     struct run *old = NEW("replace.old", 1, struct run);

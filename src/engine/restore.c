@@ -4,8 +4,9 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Creates the run again with the hollow cells of a checkpoint, and keeps its report, warnings and timers. absent: 1 for
- * each cell without particles; owned by the run from now on. Returns the status of engine_make_from_predecessor. */
+/* Creates run e again without the particles of the hollow cells of a checkpoint, and keeps its report, warnings and
+ * timers. absent: 1 for each cell without particles; the run owns this array from now on. Returns REFUSED or FAILED,
+ * with a message, if the run cannot be created. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
@@ -24,8 +25,8 @@ static status remake(struct run *e, uint8_t *absent)
     return made;
 }
 
-/* Reads the hollow cells of a checkpoint, and creates the run again with them if there are any. Returns FAILED, with a
- * message, if they do not fit the bodies of the scene. */
+/* Reads from the archive a of a checkpoint which cells are hollow (inside a body, without particles), and creates run e
+ * again if there are any. Returns FAILED, with a message, if they do not suit the bodies of the scene. */
 static status hollow_restore(struct run *e, struct archive *a)
 {
     struct cells_without_particles *h = &e->frame->hollow;

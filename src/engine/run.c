@@ -8,8 +8,8 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Stores position and radius of the contours of all SIF probes in the frame f, where cells are not coarsened. seen:
- * view of the run for probes. */
+/* Stores position and radius of the integration contours of all probes of stress-intensity factors in the frame f.
+ * Cells inside these contours are not made coarser. seen: view of the run for probes. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
@@ -39,7 +39,8 @@ status engine_step(struct run *e)
     return step(e);
 }
 
-/* Runs a scene to its end by the method that its solver and steps ask for. Returns as engine_run does. */
+/* Runs the scene of e to its end: as one equilibrium, in load steps or in time, as its solver requires. Returns FAILED
+ * if a step fails, INTERRUPTED if a signal ends the run early. */
 static status run_to_end(struct run *e)
 {
     if (scene_is_single_equilibrium(e->scene)) return engine_solve_static(e);

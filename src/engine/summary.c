@@ -19,8 +19,8 @@
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
-/* Writes name, method, status, numbers of steps and particles, and times of the run to JSON object j. s, message:
- * status and error message of the run. */
+/* Writes name, method, status, numbers of steps and particles, and times of the run e to the JSON object j. s, message:
+ * status of the run and its error message. */
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
@@ -127,7 +127,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_write_rounded(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
-/* Writes the times of the timed sections of the time loop in this process to JSON object j [s]. */
+/* Writes the times of the timed sections of the time loop in this process [s] to the JSON object j. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');
@@ -135,8 +135,8 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
-/* Prints summary.json to file. s, message: status and error message of the run; fragments: those at the end; threads:
- * number of threads. */
+/* Prints the contents of summary.json to `file`. fragments: fragments at the end of run e; s, message: status of the
+ * run and its error message; threads: number of threads. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads)
 {

@@ -2,9 +2,10 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Returns the indices in the new run of the particles and then the mirror images of the run that it replaces, an array
- * [q->n_all]; -1 where the new run lacks one. p, loads: particles and loads of the new run; q, images: those of the
- * replaced run. In both runs particles are in ascending order of id. Release it with memory_free. */
+/* Finds the particles and mirror images of a replaced run in the new run. p, loads: particles and loads of the new run;
+ * q, images: particles and loads of the replaced run. In both runs particles are in ascending order of id. Returns an
+ * allocated array now[q->n_all]: index in the new run of each particle, followed by each image, of the replaced run; -1
+ * if the new run lacks it. The caller releases it with memory_free. */
 static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
                             const struct loads *images)
 {

@@ -53,9 +53,9 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
                      coupling_name[kind]);
 }
 
-/* Adds warnings to *to: of quadratic and cubic shape functions if a boundary prescribes motion of points on a grid, and
- * of cells with a single point. on_grid: material points are on the grid of the current frame, not on a mesh of the
- * reference frame. */
+/* Adds warnings to *to about quadratic and cubic shape functions if a boundary prescribes the motion of points on a
+ * grid, and about cells with a single point. on_grid: true if the shape functions of material points are those of a
+ * regular grid at their present positions, false if those of a mesh at their reference positions. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
     bool driven = false;
@@ -109,8 +109,8 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
-/* Returns true if a region contains a particle. Also true if the run has hollow cells (cells without particles),
- * because their points may be in the region. */
+/* Returns true if a region contains a particle. Also returns true if the run has cells whose particles are not created
+ * (hollow cells), because these may be in the region. */
 static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
                           const struct region *region)
 {

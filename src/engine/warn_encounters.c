@@ -13,8 +13,8 @@ struct flight {
     bool known;                              /* the box is finite, and no force acts before the body meets another */
 };
 
-/* Computes box and range of velocities, f[b], of each deformable body b, and whether nothing acts on it before it meets
- * another body. Joined bodies count as the first of them. f: [bodies + rigid bodies]; entries of rigid bodies are not
+/* Computes the bounding box and the range of initial velocities of each deformable body b, and stores them in f[b].
+ * Joined bodies count as the first of them. f: an entry for each body and rigid body; those of rigid bodies are not
  * set. */
 static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
 {
@@ -33,8 +33,8 @@ static void flights_of_particles(const struct scene *s, const struct particles *
     }
 }
 
-/* Computes box and velocity, f[b], of each rigid body b, s->bodies <= b < s->bodies + s->rigids. f[b].known is false
- * for unbounded shapes. */
+/* Computes the bounding box and velocity of each rigid body b, s->bodies <= b < s->bodies + s->rigids, and stores them
+ * in f[b]. f[b].known is false for unbounded shapes. */
 static void flights_of_rigids(const struct scene *s, struct flight *f)
 {
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
@@ -44,8 +44,8 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
     }
 }
 
-/* Returns true if a body flies: along one axis all its particles move in one direction, each with more than half of the
- * largest speed. */
+/* Returns true if a body moves in one direction as a whole: along one axis all its particles move in the same
+ * direction, each with more than half of the largest speed. */
 static bool flies(const struct flight *f, int dim)
 {
     bool any = false;
@@ -55,8 +55,8 @@ static bool flies(const struct flight *f, int dim)
     return any;
 }
 
-/* Returns the time after which bodies a and b can meet [s], i.e. when their ranges of positions overlap along every
- * axis; INFINITY if they never do. reach: distance at which they meet [m]. */
+/* Returns the time after which bodies a and b can meet [s]: when their ranges of positions, extended by `reach`,
+ * overlap along every axis. Returns INFINITY if they never do. reach: distance at which bodies meet [m]. */
 static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
 {
     real after = 0;
@@ -83,7 +83,8 @@ static bool fly_freely(const struct scene *s)
     return freely;
 }
 
-/* Warns if the flying body a meets no other body within the duration. f: boxes and velocities of all bodies. */
+/* Warns if body a, which moves in one direction as a whole, meets no other body within the duration. f[b]: bounding box
+ * and velocity of each body b. */
 static void warn_of_flight(const struct scene *s, const struct flight *f, int a, struct warnings *to)
 {
     real soonest = INFINITY;

@@ -7,7 +7,7 @@
 
 enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which the motions of two supports are compared */
 
-/* Warns if load l holds all components of all particles at rest. */
+/* Warns if load l prescribes zero displacement in all components for all particles. */
 static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
 {
     const struct boundary *b = l->boundary;
@@ -23,8 +23,9 @@ static bool motion_known(const struct load *l)
     return l->boundary->kind == BOUNDARY_VELOCITY && boundary_check_displacement_known(l->boundary) == OK;
 }
 
-/* Returns the components (bit d: component d) in which loads a and b prescribe different displacements of one particle,
- * compared at MOMENTS_OF_SUPPORTS times. The particle is number j of load a and number k of load b. */
+/* Returns the components in which loads a and b prescribe different displacements of one particle, as bits (bit d for
+ * component d). The displacements are compared at MOMENTS_OF_SUPPORTS times. The particle is number j in the list of
+ * load a and number k in that of load b. */
 static unsigned components_apart(const struct scene *s, const struct particles *p, const struct load *a, int64_t j,
                                  const struct load *b, int64_t k)
 {
@@ -40,8 +41,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Warns of loads a and b if they prescribe the same components of the same particles differently. These must be at
- * least half of the particles of one of the loads; at edges that two faces share there are fewer. */
+/* Warns if loads a and b prescribe different motions in the same components of the same particles. Only if these are at
+ * least half of the particles of one of the loads: faces that meet at an edge share fewer. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {

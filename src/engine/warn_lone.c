@@ -13,7 +13,7 @@ struct lone {
     int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
 };
 
-/* Counts particle i in *l as one without neighbours. */
+/* Counts particle i in *l, the particles without neighbours of a body. The first one is stored for the message. */
 static void lone_add(struct lone *l, int64_t i)
 {
     if (l->n++ == 0) l->first = i;
@@ -38,7 +38,7 @@ static bool from_file(const struct scene *s, int body)
     return any;
 }
 
-/* Counts the peridynamic particles without bonds in lone[body]. */
+/* Counts the peridynamic particles without any bond in lone[b], an entry for each body b. */
 static void lone_bonds_count(const struct bonds *b, const struct particles *p, struct lone *lone)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -47,7 +47,8 @@ static void lone_bonds_count(const struct bonds *b, const struct particles *p, s
     }
 }
 
-/* Counts in lone[body] the material points of bodies from files that have no neighbour within a cell. */
+/* Counts the material points that have no neighbour within a cell in lone[b], an entry for each body b. Only bodies
+ * from files are examined. */
 static void lone_points_count(const struct scene *s, const struct cells *cells, const struct particles *p,
                               struct lone *lone)
 {
@@ -70,8 +71,8 @@ enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define ALIKE 0.01
 #define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
-/* Computes the distance *apart of particle i from its nearest neighbour [m], INFINITY if `near` is empty, and the
- * number *beside of neighbours at that distance. near: neighbours of i. */
+/* Computes the distance of particle i from its nearest neighbour and stores it in *apart [m], INFINITY if `near` is
+ * empty. Stores the number of neighbours at that distance in *beside. near: neighbours of i. */
 static void surroundings(const struct particles *p, const struct neighbour_list *near, int64_t i, real *apart,
                          real *beside)
 {

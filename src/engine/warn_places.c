@@ -17,8 +17,8 @@ struct overlap {
     real depth;
 };
 
-/* Returns the particles of body a that are inside the shape of body b by more than `least` [m]; none if b is a list of
- * particles, whose surface is not known, or has a box with an infinite side. */
+/* Returns the particles of body a that are inside the shape of body b by more than `least` [m]. Returns none if b is
+ * made from a list of particles, whose surface is not known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
 {
     const struct region *shape = &s->body[b].shape;
@@ -68,8 +68,8 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
-/* Returns true if entry k of `initial` changes the state of at least one particle, or may do so in cells without
- * particles. */
+/* Returns true if the initial state number k of the scene applies to at least one particle. Also returns true for a
+ * pulse, and if the run has cells whose particles are not created, since it may apply to these. */
 static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
 {
     const struct scene_initial *initial = &s->initial[k];

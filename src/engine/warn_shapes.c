@@ -15,8 +15,8 @@ static real radical_inverse(int k, int base)
     return sum;
 }
 
-/* Computes the common part of the box of a solid and of the box low[dim] .. high[dim] [m], which is overwritten by it.
- * Returns the distance of both boxes [m], 0 if they meet. */
+/* Computes the common part of the bounding box of a solid and the box low[dim] .. high[dim] [m], and stores it in `low`
+ * and `high`. Returns the distance between both boxes [m], 0 if they meet. */
 static real boxes_common(const struct solid *solid, int dim, real *low, real *high)
 {
     struct bounds box;
@@ -29,8 +29,9 @@ static real boxes_common(const struct solid *solid, int dim, real *low, real *hi
     return sqrt(apart2);
 }
 
-/* Returns true if one of POINTS_OF_SOLID evenly distributed points (Halton 1960) of the box low .. high is in the solid
- * and also in region `before` (inside true), or in the solid and not in `before` (inside false). */
+/* Tests POINTS_OF_SOLID evenly distributed points (Halton 1960) of the box low[dim] .. high[dim]. Returns true if one
+ * of them is in the solid and also in the region `before`; if `inside` is false, if one is in the solid and not in
+ * `before`. */
 static bool point_found(const struct solid *solid, const struct region *before, int dim, bool inside, const real *low,
                         const real *high)
 {

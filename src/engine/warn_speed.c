@@ -4,15 +4,16 @@
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Sets body[b] = true for the bodies that contain particles of load l, false for others. Joined bodies are marked at
- * the lowest of their numbers. body: [scene->bodies]. */
+/* Sets body[b] to true for each body b that contains particles of load l, and to false for the others. For joined
+ * bodies only the one with the lowest index is marked. body: [scene->bodies]. */
 static void bodies_mark(const struct scene *scene, const struct particles *part, const struct load *l, bool *body)
 {
     for (int b = 0; b < scene->bodies; b++) body[b] = false;
     for (int64_t k = 0; k < l->n; k++) body[scene->body[part->body[l->particle[k]]].joined] = true;
 }
 
-/* Returns true if load l has particles in marked bodies. body[scene->bodies]: marks of bodies_mark. */
+/* Returns true if load l has particles in bodies that are marked by body[b] = true. body: [scene->bodies]; for joined
+ * bodies only the one with the lowest index is marked. */
 static bool load_meets(const struct scene *scene, const struct particles *part, const struct load *l, const bool *body)
 {
     bool any = false;
@@ -28,9 +29,9 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing prevents the bodies of driver d from moving with its load. That is: no mirror across its
- * components, no absorbing face, no damping, no contact with other bodies, and no other load that drives the same
- * components with a velocity that differs by more than d->limit. all: all loads of the run. */
+/* Returns true if nothing prevents the bodies with particles of the load of d from moving with this load: no mirror
+ * across its components, no absorbing face, no damping, no contact with other bodies, and no other load that drives the
+ * same components with a velocity that differs by more than d->limit. all: all loads of the run. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -58,8 +59,9 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
     return freely;
 }
 
-/* Returns the time in which a wave crosses the marked bodies [s], from the diagonals of their bounding boxes and the
- * slowest material. body[bodies]: marks of bodies_mark. */
+/* Returns the time in which a wave crosses the bodies with body[b] = true [s]. It follows from the diagonals of their
+ * bounding boxes and the slowest material. body: [bodies]; for joined bodies only the one with the lowest index is
+ * marked. */
 static real body_crossing_time(const struct particles *p, const struct scene *s, const bool *body)
 {
     real slowest = INFINITY, most = 0;
@@ -73,8 +75,8 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Warns of the load of driver d, on bodies that move freely, if its velocity changes by more than d->limit within the
- * time in which a wave crosses the bodies. Slower changes hardly strain them. */
+/* Warns of the load of d, which acts on bodies that move freely, if its velocity changes by more than d->limit within
+ * the time in which a wave crosses these bodies. Slower changes hardly strain them. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {

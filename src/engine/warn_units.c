@@ -59,8 +59,8 @@ static const struct {
                       "its times (us?) and duration"},
 };
 
-/* Warns if `value` of quantity k is outside least .. most, unless the scene accepts that. subject: part of the scene
- * that has this value; note: text with the numbers from which it is computed, or "". */
+/* Warns if `value` is outside least .. most, unless the scene accepts implausible values of the quantity k. subject:
+ * part of the scene that has this value; note: text with the numbers from which the value is computed, or "". */
 static void units_judge_between(const struct scene *s, enum accept k, real least, real most, const char *subject,
                                 real value, const char *note, struct warnings *to)
 {
@@ -73,8 +73,9 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
                  (int)strcspn(word, "|"), word);
 }
 
-/* Warns if `value` is outside the plausible range rule[k] of quantity k, unless the scene accepts that. subject: part
- * of the scene with this value; note: text with the numbers from which it is computed, or "". */
+/* Warns if `value` is outside the plausible range of the quantity k in the table `rule`, unless the scene accepts
+ * implausible values of k. subject: part of the scene that has this value; note: text with the numbers from which the
+ * value is computed, or "". */
 static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -157,7 +158,8 @@ static void units_of_brittleness(const struct scene *s, real longest, struct war
 
 /* ---- times of loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns the largest magnitude of the function of time f from time 0 to t_end [1]; INFINITY: at all times. */
+/* Returns the largest magnitude of the function of time f from time 0 to t_end [s] [1]. t_end: INFINITY for all
+ * times. */
 static real factor_largest_until(const struct time_function *f, real t_end)
 {
     real most = fabs(time_function_value(f, t_end));
@@ -207,7 +209,7 @@ struct load_figures {
     int supports;
 };
 
-/* Returns the stress caused by applied load l at its particle number k and time t [Pa]: the size of a traction or
+/* Returns the stress that the applied load l causes at its k-th particle at time t [Pa]: the magnitude of a traction or
  * pressure, or that of a body force times the longest edge of the box around all particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
@@ -220,7 +222,7 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
            particles_bounding_box_longest_edge(p);
 }
 
-/* Updates the largest values *f by the stress or displacement that load l prescribes at its particle number k at time t
+/* Updates the largest values *f by the stress or displacement that load l prescribes at its k-th particle at time t
  * [s]. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
@@ -289,10 +291,10 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Warns if the largest stress of the run is too small to make a crack grow. A crack as long as the body, in Griffith's
- * plate (1921), G = pi sigma^2 a/E with a the longest edge, would release less than the smallest energy release rate of
- * a material. The stress is raised by the slenderness of the body, because bending is not computed. stress: that of
- * loads [Pa]. */
+/* Warns if the largest stress of the run is too small to make a crack grow. It is so if a crack as long as the longest
+ * edge a of the body would release less energy in Griffith's plate (1921), G = pi sigma^2 a/E, than the smallest energy
+ * release rate of a material. The stress is raised by the slenderness of the body, because bending is not computed.
+ * stress: stress that the loads cause [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
