@@ -44,8 +44,9 @@ struct deck {
 /* Returns true if the reading position of s is at the end of a line or of the file. */
 static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
 
-/* Reads the next field of the line, up to a comma, without surrounding blanks. Returns false if there is none; a
- * trailing comma adds no field. A field of FIELD or more characters is cut off. */
+/* Reads the next field of the current line into field[FIELD]: the text up to a comma, without surrounding blanks.
+ * Fields of FIELD or more characters are cut. Returns false if the line has no further field; a comma at its end adds
+ * none. */
 static bool deck_field(struct source *s, char field[FIELD])
 {
     size_t n = 0;
@@ -59,8 +60,8 @@ static bool deck_field(struct source *s, char field[FIELD])
     return true;
 }
 
-/* Advances to the next line that is neither empty nor a comment. Returns true if it is a line of data; false if it is a
- * keyword, and at the end of the file. */
+/* Advances to the next line that is neither empty nor a comment. Returns true if it is a line of data. Returns false if
+ * it is a keyword, or at the end of the file. */
 static bool data_line(struct source *s)
 {
     while (s->at < s->length) {
@@ -224,9 +225,9 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* Reads the node labels of an element, which may continue on further lines: labels of its corners into node[],
- * labels of its middle nodes into middle[], in the order of elements.h. The interior node of elements with 27 nodes
- * is skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
+/* Reads the node labels of an element, which may continue on further lines. Stores the labels of its corners in node[]
+ * and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with 27 nodes is
+ * skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
 static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -295,8 +296,8 @@ static status generate_line(struct deck *d, int set)
     return OK;
 }
 
-/* Adds the current members of the set called `name` to set number `set`. of_nodes: true for sets of nodes, false for
- * sets of elements. Returns REFUSED if there are too many sets or members. */
+/* Adds the present members of the set called `name` to the set number `set`. of_nodes: true for sets of nodes, false
+ * for sets of elements. Returns REFUSED if there are too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = element_mesh_find_set(d->m, name, of_nodes);
@@ -309,8 +310,8 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Replaces the labels that were added to sets since the last call by indices of the nodes or elements of `scope`, a
- * part or what is outside parts. Removes labels that the scope does not contain. */
+/* Replaces labels by indices in the sets of the mesh: the labels added since the last call, which belong to `scope`. (A
+ * scope is a part of the deck, or what is outside parts.) Removes labels that the scope does not contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -325,8 +326,8 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
     }
 }
 
-/* Returns the index of the part called `name`, or, if `instance` is true, of the part whose instance is called so;
- * -1 if there is none. */
+/* Returns the index of the part called `name` or, if `instance` is true, of the part of which an instance is called
+ * `name`. Returns -1 if there is none. */
 static int scope_find(const struct deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
@@ -380,8 +381,8 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current scope, a part or what is outside parts, and replaces its labels by indices. A middle node with
- * label 0 is missing, and its edge is straight. Returns REFUSED for unknown or repeated labels. */
+/* Ends the current part of the deck, or what is outside parts, and replaces its labels by indices. A middle node with
+ * label 0 is missing; its edge is then straight. Returns REFUSED for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -407,7 +408,7 @@ static status scope_end(struct deck *d)
     return OK;
 }
 
-/* Begins a new scope, a part with this name or "" outside parts, which becomes the current one. */
+/* Begins a part of the deck called `name` and makes it the current one. name: "" for what is outside parts. */
 static void scope_begin(struct deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
@@ -417,9 +418,9 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* Ends the current scope and begins a new one, at the beginning and at the end of a part. name: name of the part
- * that begins; NULL for what is outside parts. Returns REFUSED if there are too many parts, or if the labels of the
- * ended scope are invalid. */
+/* Ends the current part of the deck, or what is outside parts, and begins the next. name: name of the part that begins;
+ * NULL for what is outside parts. Returns REFUSED if there are too many parts, or if labels in the ended one are
+ * invalid. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX) return source_report_fault(d->s, "more than %d parts", PARTS_MAX);
@@ -428,7 +429,8 @@ static status scope_change(struct deck *d, const char *name)
     return OK;
 }
 
-/* Rotates the point X by `angle` [rad] about the axis from a to b (Rodrigues' formula). a and b must differ. */
+/* Rotates the point X (coordinates) by `angle` [rad] about the axis from the point a to the point b (Rodrigues'
+ * formula). a and b must differ. */
 static void rotate_about(real *X, const real *a, const real *b, real angle)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = 0;

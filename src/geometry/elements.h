@@ -78,30 +78,30 @@ struct element_mesh {
 
 enum { ELEMENT_SETS_MAX = 1000 };
 
-/* Appends a node at X (three components [unit of the file]) to the mesh m. label: its number in the file. file: for the
- * message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
+/* Appends a node at X (three coordinates [unit of the file]) to the mesh m. label: its number in the file; file: for
+ * the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
 status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *X, int64_t label);
 
-/* Appends a node at X (three components [unit of the file]) to the mesh m without a check of the number of nodes, and
- * returns its index. label: its number in the file, -1 for nodes that are not in the file. */
+/* Appends a node at X (three coordinates [unit of the file]) to the mesh m and returns its index. label: its number in
+ * the file, -1 for nodes that are not in the file. The number of nodes is not checked. */
 int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *X, int64_t label);
 
-/* Appends an element of the given kind to the mesh m. node: its corners, as indices or, in Abaqus files, still numbers
- * of the file; label: number of the element in the file; file: for the message. Returns REFUSED, with a message, if
- * there are too many elements. */
+/* Appends an element of the kind `kind` to the mesh m. node: its corners, as indices of nodes or, in Abaqus files, as
+ * node numbers of the file that are replaced later; label: number of the element in the file; file: for the message.
+ * Returns REFUSED, with a message, if there are too many elements. */
 status element_mesh_add_element(struct element_mesh *m, const struct source *file, enum element_kind kind,
                                 const int32_t *node, int64_t label);
 
-/* Sets the middle nodes (on edges and sides) of the last element of m. middle: indices or numbers of the file, as many
- * as element_middles of its kind. */
+/* Sets the middle nodes (on edges and sides) of the last element of the mesh m. middle: as many indices, or node
+ * numbers of the file, as element_middles has for the kind of the element. */
 void element_mesh_set_middle_nodes(struct element_mesh *m, const int32_t *middle);
 
 /* Returns the index in m->set of the set of nodes (of_nodes true) or elements (false) called `name`, ignoring case;
  * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
 int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_nodes);
 
-/* Appends a node or element to set number `set` of m. member: index, or number of the file if indices are not known
- * yet. */
+/* Appends a node or element to the set number `set` of the mesh m. member: its index, or its number in the file if
+ * indices are not known yet. */
 void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
 /* Releases all arrays of m and zeroes it. */
@@ -118,15 +118,15 @@ struct label_entry {
     int64_t label, index;
 };
 
-/* Creates the map `map` from numbers of a file (labels) to indices: label[k] has the index first + k, k = 0 .. n - 1.
- * Release with label_map_free. */
+/* Creates *map, which maps the numbers that nodes or elements have in a file (labels) to indices: label[k] is mapped to
+ * first + k, k = 0 .. n - 1. Release it with label_map_free. */
 void label_map_make(struct label_map *map, const int64_t *label, int64_t first, int64_t n);
 
 /* Releases the entries of `map`. */
 void label_map_free(struct label_map *map);
 
-/* Returns the index of the number `label` of the file in `map`, the lowest index if the number occurs twice, -1 if it
- * does not occur. */
+/* Returns the index to which `map` maps the number `label` of the file; the lowest one if the number occurs twice, -1
+ * if it does not occur. */
 int64_t label_map_find(const struct label_map *map, int64_t label);
 
 /* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
@@ -145,15 +145,16 @@ status abaqus_read(struct element_mesh *m, struct source *file);
  * contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a failure. */
 status exodus_read(struct element_mesh *m, struct source *file);
 
-/* Reads the text or binary STL file into the empty mesh m; corners of triangles nearer to each other than a millionth
- * of the extent become one node. Returns REFUSED, with a message, if the file is malformed. The caller releases m with
- * element_mesh_free, also after a failure. */
+/* Reads the text or binary STL file into the empty mesh m. Corners of triangles that are nearer to each other than a
+ * millionth of the extent of the mesh become one node. Returns REFUSED, with a message, if the file is malformed. The
+ * caller releases m with element_mesh_free, also after a failure. */
 status stl_read(struct element_mesh *m, struct source *file);
 
-/* Creates g, the surface of the body that the elements of m fill and the surfaces of its named sets. path: file, for
- * messages; scale: metres per unit of the file; max_chord_error: largest distance between a curved edge and its chords
- * [m], NAN: 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no
- * element has the dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
+/* Creates g: the surface of the body that the elements of m fill, in metres, and the surfaces of the named sets of m.
+ * path: file, for messages; dim: dimensions of the space; scale: length of the unit of the file [m]; max_chord_error:
+ * largest distance between a curved edge and the chords that approximate it [m], NAN for 1/256 of the largest sagitta.
+ * Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the dimension of the body, a 2D
+ * mesh is not plane, or curved edges need too many chords. */
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
                               real max_chord_error);
 
@@ -186,12 +187,13 @@ struct surface_builder {
  * ignored. */
 void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k);
 
-/* Appends the side of an element with n = 3 or 4 corners, given by the node indices `node`, to the faces of surface b,
- * as one or two triangles. These are the sides of the elements beyond it if those are triangles. */
+/* Appends the side of an element to the faces of the surface b, as one or two triangles. node[n]: its corners, n = 3 or
+ * 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on its other side,
+ * if these have triangular sides. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n);
 
-/* Appends a copy of *p, a side of an element with middle nodes, to surface b. surface_builder_divide_sides divides it
- * into faces later. */
+/* Appends a copy of *p, a side of an element with middle nodes, to the surface b. surface_builder_divide_sides divides
+ * it into faces later. */
 void surface_builder_add_patch(struct surface_builder *b, const struct patch *p);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
@@ -199,8 +201,9 @@ void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
  * file, for the message. Returns REFUSED, with a message, if too many pieces were needed. */
 status surface_builder_set_chord_tolerance(struct surface_builder *b, const char *path, real max_chord_error);
 
-/* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
- * remove_shared_sides: true first removes sides shared by two elements, as inside a body. */
+/* Divides all sides with middle nodes that b has stored into faces, curved ones into several, for which nodes are added
+ * to the mesh. remove_shared_sides: true to remove first the sides that two elements share, since they are inside the
+ * body. */
 void surface_builder_divide_sides(struct surface_builder *b, bool remove_shared_sides);
 
 #endif

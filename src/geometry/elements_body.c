@@ -20,7 +20,8 @@ static bool point_before(const real *X, const real *Y, real size)
     return false;
 }
 
-/* Returns a number that two nodes, in either order, share with no other two. */
+/* Returns a number that identifies the edge between the nodes i and j. It does not depend on their order and differs
+ * between edges. */
 static int64_t edge_label(int32_t i, int32_t j) { return ((int64_t)(i < j ? i : j) << 32) + (i < j ? j : i); }
 
 /* Lists in b->edges the edges of the volume elements with triangular sides, if others have quadrilateral sides. */
@@ -43,10 +44,11 @@ static void builder_list_edges(struct surface_builder *b)
     memory_free(label);
 }
 
-/* Adds a side of an element, with n = 3 or 4 corners node[n], to the faces. A quadrilateral becomes two triangles,
- * whose common diagonal starts at the corner that is first by position: two elements that share the side but not its
- * nodes then have the same diagonal. If the other diagonal alone is an edge of an element, as where two tetrahedra
- * meet the side, it is taken: no gap is left between them and a side that is not plane. */
+/* Adds a side of an element to the faces. node[n]: its corners, n = 3 or 4. A quadrilateral becomes two triangles.
+ * Their common diagonal begins at the corner that is first by position, so that two elements that share the side but
+ * not its nodes have the same diagonal. If only the other diagonal is an edge of an element, as where two tetrahedra
+ * adjoin the side, that one is used. Otherwise there would be a gap between the tetrahedra and a side that is not
+ * plane. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;
@@ -61,8 +63,8 @@ void surface_builder_add_side(struct surface_builder *b, const int32_t *node, in
     if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
 
-/* Adds the sides of an element to the faces. If the dimension of the element is lower than that of the body, adds
- * the element itself. */
+/* Adds the sides of element e to the faces. If the dimension of the element is lower than that of the body, adds the
+ * element itself as a face. */
 static void builder_add_element(struct surface_builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
@@ -85,7 +87,7 @@ static void builder_add_element(struct surface_builder *b, const struct element 
     }
 }
 
-/* Returns six times the volume enclosed by the faces from number `first` on, in 2D twice the area [unit of the
+/* Returns the volume enclosed by the faces from number `first` on, times six; in 2D the area, times two [unit of the
  * file^dim]. */
 static real builder_volume(const struct surface_builder *b, int64_t first)
 {
@@ -103,9 +105,10 @@ static real builder_volume(const struct surface_builder *b, int64_t first)
     return sum;
 }
 
-/* Returns one side of the element e as a patch: its n corners, the middle nodes of its edges, and the node at its
- * centre. corner[n]: numbers of the corners in the element; centre: number of the side's central node among the
- * middle nodes of the element, or -1 for none; turned: true to reverse the orientation of the side. */
+/* Returns one side of the element e as a patch (face with middle nodes): its n corners, the middle nodes of its edges,
+ * and the node at its centre. corner[n]: numbers of the corners within the element; centre: number of the side's
+ * central node among the middle nodes of the element, or -1 for none; turned: true to reverse the orientation of the
+ * side. */
 static struct patch patch_of(const struct surface_builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -122,8 +125,9 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     return p;
 }
 
-/* Adds the sides of an element to the patches, faces with middle nodes. If the dimension of the element is lower
- * than that of the body, adds the element itself. turned: true to reverse the orientation of the sides. */
+/* Adds the sides of element e to the patches, which are faces with middle nodes. If the dimension of the element is
+ * lower than that of the body, adds the element itself as a patch. turned: true to reverse the orientation of the
+ * sides. */
 static void builder_add_patches(struct surface_builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
@@ -142,8 +146,8 @@ static void builder_add_patches(struct surface_builder *b, const struct element 
     }
 }
 
-/* Adds the sides of an element to the faces, or to the patches if the mesh has middle nodes, such that they point
- * outwards. If the corners of the element are numbered in the opposite orientation, its sides are reversed. */
+/* Adds the sides of element e, oriented outwards, to the faces; to the patches (faces with middle nodes) if the mesh
+ * has middle nodes. If the corners of the element are numbered in the opposite orientation, its sides are reversed. */
 static void builder_add_oriented(struct surface_builder *b, const struct element *e)
 {
     const int64_t first = b->n;
@@ -161,9 +165,9 @@ static void builder_add_oriented(struct surface_builder *b, const struct element
 }
 
 /* Makes the surface *hull of the collected faces and their nodes, in metres, and removes the faces from the builder.
- * closed: true if the surface encloses a volume. node_of: if not NULL, *node_of receives the node of the mesh at
- * each corner of the surface, to be released by the caller with memory_free; if NULL, nodes that subdivision has
- * added are removed from the mesh. */
+ * closed: true if the surface encloses a volume. node_of: if it is not NULL, *node_of receives an allocated array with
+ * the mesh node at each corner of the surface, which the caller releases with memory_free. If it is NULL, nodes that
+ * the division of curved faces has added are removed from the mesh. */
 static void builder_close(struct surface_builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -204,8 +208,8 @@ static void set_of_elements(struct surface_builder *b, const struct element_set 
     builder_close(b, hull, fills, NULL);
 }
 
-/* Makes the open surface *hull of a set of nodes: the nodes, and the faces of the body whose nodes are all members
- * of the set. whole: surface of the body; node_of: node of the mesh at each corner of `whole`. */
+/* Makes the surface *hull of a set of nodes. It is open and consists of the nodes of the set and of those faces of the
+ * body whose nodes are all in the set. whole: surface of the body; node_of: mesh node at each corner of `whole`. */
 static void set_of_nodes(struct surface_builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -228,8 +232,8 @@ static void set_of_nodes(struct surface_builder *b, const struct element_set *se
     builder_close(b, hull, false, NULL);
 }
 
-/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g->set. node_of: node of the
- * mesh at each corner of the body's surface g->whole. */
+/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g->set. node_of: mesh node at
+ * each corner of the body's surface g->whole. */
 static void take_sets(struct surface_builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);

@@ -30,9 +30,9 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Returns the number of chords, 1 .. most, by which a curved edge must be divided so that no chord is farther from
- * it than `wanted`. sagitta: distance of a single chord, in the same unit; the distance falls with the square of the
- * number of chords. */
+/* Returns the number of chords, from 1 to `most`, into which a curved edge must be divided so that no chord is farther
+ * from it than `wanted`. The distance decreases with the square of the number of chords. sagitta: distance of a single
+ * chord, in the same unit. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -60,8 +60,8 @@ status surface_builder_set_chord_tolerance(struct surface_builder *b, const char
                       path, sagitta * b->scale, most);
 }
 
-/* Adds a node to the mesh at X and records the corners parent[parents], at most four, from which it was interpolated.
- * Returns its index. */
+/* Adds a node to the mesh at X, which was interpolated between nodes, and returns its index. parent[parents]: indices
+ * of these nodes, corners of elements, at most four. They are recorded for the new node. */
 static int32_t node_between(struct surface_builder *b, const real *X, const int32_t *parent, int parents)
 {
     const int32_t node = element_mesh_add_node_unchecked(b->m, X, -1);
@@ -96,7 +96,8 @@ static int32_t edge_divide(struct surface_builder *b, int32_t from, int32_t to, 
     return first;
 }
 
-/* Adds an edge in 2D, or a line or point in 3D, to the faces: as straight pieces if it is curved. */
+/* Adds the patch p, an edge in 2D, or a line or point in 3D, to the faces. A curved edge is divided into straight
+ * pieces. */
 static void line_add(struct surface_builder *b, const struct patch *p)
 {
     const int32_t from = p->corner[0], to = p->corner[p->n - 1];
@@ -111,8 +112,8 @@ static void line_add(struct surface_builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of a side of an element with middle nodes; surface_builder_divide_sides divides it into faces
- * later. */
+/* Appends a copy of *p, a side of an element with middle nodes, to the surface. It is divided into faces later, by
+ * surface_builder_divide_sides. */
 void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
@@ -126,7 +127,8 @@ struct patch_key {
     int64_t of; /* index of the patch */
 };
 
-/* Returns the key of a patch: its corners in ascending order and its orientation. of: index of the patch. */
+/* Returns the key by which patches are compared: the corners of p in ascending order, and its orientation. of: index of
+ * the patch p, which is stored in the key. */
 static struct patch_key patch_key_of(const struct patch *p, int64_t of)
 {
     struct patch_key key = {.of = of};
@@ -154,8 +156,8 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes pairs of patches (sides of elements) that coincide with opposite orientation, as two elements add them at
- * an inner face. If several patches with the same corners remain, one of them is retained. */
+/* Removes pairs of patches (sides of elements) with the same corners and opposite orientation. Two elements add such a
+ * pair at the side that they share. If several patches with the same corners remain, only one of them is retained. */
 static void patches_cancel(struct surface_builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -204,14 +206,16 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
-/* Returns edge k of a patch, from corner k to the next one, with its ends and its middle node; not divided yet. */
+/* Returns edge k of a patch, from its corner k to the next one: the nodes at its ends and its middle node. The edge is
+ * marked as not divided. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
     return (struct curve){.low = from < to ? from : to, .high = from < to ? to : from, .middle = p->middle[k]};
 }
 
-/* Returns edge k of a patch in the sorted list of all edges, which must contain it, by bisection. */
+/* Finds edge k of a patch in the sorted list c of all edges, which must contain it, by bisection. Returns a pointer to
+ * its entry. */
 static struct curve *curve_find(const struct curves *c, const struct patch *p, int k)
 {
     const struct curve wanted = curve_of(p, k);
@@ -226,8 +230,8 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
     return &c->curve[low];
 }
 
-/* Returns true if a patch is curved: an edge is off its chord, or the node at its centre is off the mean of its
- * corners, by more than b->sagitta. */
+/* Returns true if a patch is curved: the middle node of an edge is more than b->sagitta away from the chord of the
+ * edge, or the node at its centre is as far from the mean of its corners. */
 static bool patch_curved(const struct surface_builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
@@ -243,8 +247,8 @@ static bool patch_curved(const struct surface_builder *b, const struct patch *p)
     return curved || off2 > square(b->sagitta);
 }
 
-/* Lists the edges of all patches (sides of elements) in *c, sorted, and divides those of curved patches by new
- * nodes. The caller releases c->curve with memory_free. */
+/* Lists the edges of all patches (sides of elements) in *c, sorted. Divides the edges of curved patches by new nodes.
+ * The caller releases c->curve with memory_free. */
 static void curves_make(struct curves *c, struct surface_builder *b)
 {
     int64_t kept = 0;
@@ -317,8 +321,8 @@ static void quad_point_whole(const struct element_mesh *m, const struct patch *p
     for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
 }
 
-/* Returns the index of the node at position (i, j), each 0 .. b->pieces, of the grid that divides a curved patch. On
- * the edges this is the node that neighbouring patches share; inside the patch a new node is added. */
+/* Returns the index of the node at position (i, j), each 0 .. b->pieces, of the grid by which a curved patch is
+ * divided. On an edge it is the node that neighbouring patches share. Inside the patch a new node is added. */
 static int32_t grid_node(struct surface_builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
@@ -335,7 +339,8 @@ static int32_t grid_node(struct surface_builder *b, const struct curves *c, cons
     return node_between(b, X, p->corner, p->n);
 }
 
-/* Adds a curved patch to the faces, divided into triangles. row: working memory for two rows of b->pieces + 1 nodes. */
+/* Divides a curved patch into triangles and adds them to the faces. c: edges of all patches; row: working memory for
+ * two rows of b->pieces + 1 nodes. */
 static void patch_divide(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     const int n = b->pieces;
@@ -353,7 +358,8 @@ static void patch_divide(struct surface_builder *b, const struct curves *c, cons
     }
 }
 
-/* Adds a flat patch, of which some edges are divided, to the faces as triangles around a new node at its centre. */
+/* Divides a flat patch, some edges of which are divided, into triangles around a new node at its centre, and adds them
+ * to the faces. c: edges of all patches. */
 static void patch_star(struct surface_builder *b, const struct curves *c, const struct patch *p)
 {
     real X[DIM_MAX] = {0};
@@ -368,8 +374,9 @@ static void patch_star(struct surface_builder *b, const struct curves *c, const 
     }
 }
 
-/* Adds a patch to the faces as triangles: subdivided if it is curved, around its centre if only its edges are divided,
- * else as it is. row: working memory for two rows of b->pieces + 1 nodes. */
+/* Adds a patch to the faces as triangles. It is subdivided if it is curved, and divided into triangles around its
+ * centre if only its edges are divided. c: edges of all patches; row: working memory for two rows of b->pieces + 1
+ * nodes. */
 static void patch_add(struct surface_builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;

@@ -66,8 +66,8 @@ static status nodes_add(struct exodus *x)
     return s;
 }
 
-/* Finds *kind, the shape of elements, from the name of their type and the number of their nodes. skip: receives true
- * if they have no area or volume and are skipped. Returns REFUSED for unknown types. */
+/* Finds the shape *kind of elements from the name of their type and the number of their nodes. Sets *skip to true if
+ * they have no area or volume, so that they are skipped. Returns REFUSED for unknown types. */
 static status kind_of(const struct exodus *x, const char *type, int64_t nodes, enum element_kind *kind, bool *skip)
 {
     *skip = false;
@@ -88,8 +88,8 @@ static status kind_of(const struct exodus *x, const char *type, int64_t nodes, e
         type, (long long)nodes);
 }
 
-/* Appends an element to the mesh, with the nodes label[nodes], which count from 1. Returns REFUSED if there is no such
- * node. */
+/* Appends an element to the mesh. label[nodes]: its nodes, as numbers in the file, which count from 1. Returns REFUSED
+ * if a node does not exist. */
 static status element_add(struct exodus *x, enum element_kind kind, const int64_t *label, int nodes)
 {
     const int corners = element_corners[kind];
@@ -108,10 +108,10 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
     return OK;
 }
 
-/* Creates the set for item number `row` (from 0) of n items of the file, such as blocks, and stores its index in
- * *set. The name of the set is the one in the file's array `names`. If that is missing or taken by another set, the
- * name is `word` followed by the item's number in the file's array `numbers`, such as block_1. of_nodes: true for a
- * set of nodes. Returns REFUSED if there are too many sets. */
+/* Creates a set for one of n items of the file, such as a block, and stores the index of the set in *set. row: position
+ * of the item in the file, from 0. The name of the set is that in the file's array `names`. If it is missing or another
+ * set has it, the name is `word` followed by the item's number in the file's array `numbers`, such as block_1.
+ * of_nodes: true for a set of nodes, false for one of elements. Returns REFUSED if there are too many sets. */
 static status set_begin(struct exodus *x, const char *names, const char *numbers, const char *word, int64_t row,
                         int64_t n, bool of_nodes, int *set)
 {
@@ -191,9 +191,9 @@ static status side_face_add(struct exodus *x, const struct element *e, int side)
     return OK;
 }
 
-/* Adds a side of an element to a set. set: index of the set; element: index in the mesh; side: number of the side,
- * from 1. Sides 1 and 2 of a surface element in space are its two faces, followed by its edges. Returns REFUSED if
- * the element has no such side. */
+/* Adds a side of an element to the set number `set`. element: index of the element in the mesh; side: number of the
+ * side, from 1. Sides 1 and 2 of a surface element in 3D are its two faces; its edges follow. Returns REFUSED if the
+ * element has no such side. */
 static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
 {
     const struct element e = x->m->element[element];
@@ -211,8 +211,9 @@ static status side_add(struct exodus *x, int set, int64_t element, int64_t side)
     return OK;
 }
 
-/* Finds *element, the index in the mesh of the element with number `label` (from 1) in the file; -1 if it was
- * skipped. set: index of the set that contains it, for the message. Returns REFUSED if there is no such element. */
+/* Finds the element with the number `label` (from 1) in the file and stores its index in the mesh in *element, or -1 if
+ * it was skipped. set: index of the set that contains it, for the message. Returns REFUSED if there is no such
+ * element. */
 static status element_of(const struct exodus *x, int set, int64_t label, int64_t *element)
 {
     if (label < 1 || label > x->elements)
@@ -222,8 +223,8 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
     return OK;
 }
 
-/* Reads side set `number` (from 1) into a set of elements, one per side. An empty side set has no arrays and makes no
- * set. Returns REFUSED for unknown elements or sides. */
+/* Reads side set number `number` (from 1) of the file: creates a set of elements and adds an element for each side. An
+ * empty side set has no arrays and makes no set. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
     const int64_t n = exodus_read_dimension(&x->file, "num_side_ss", number);
@@ -282,8 +283,8 @@ static status element_set_add(struct exodus *x, int64_t number)
     return s;
 }
 
-/* Reads nodes, blocks and sets of the file into the mesh. Side sets are read before node sets: both often have one
- * name, which the side set, with more information, then gets. Returns REFUSED for an invalid file. */
+/* Reads nodes, blocks and sets of the file into the mesh. Side sets are read before node sets, so that a side set gets
+ * the name if both have the same one; it contains more information. Returns REFUSED for an invalid file. */
 static status mesh_read(struct exodus *x)
 {
     const struct exodus_file *f = &x->file;

@@ -17,7 +17,8 @@ struct header {
     bool good;   /* false: it has ended too early, or holds what it must not */
 };
 
-/* Reads an unsigned number of `bytes` bytes at h->at. Returns 0, and sets h->good to false, at the end of the file. */
+/* Reads an unsigned number of `bytes` bytes at the reading position h->at, which advances. Returns 0, and sets h->good
+ * to false, at the end of the file. */
 static uint64_t next_bytes(struct header *h, int bytes)
 {
     uint64_t value = 0;

@@ -41,8 +41,9 @@ static inline void exodus_text_clean(char *text)
     text_replace_controls(text);
 }
 
-/* Reads the header of a classic file: its dimensions and arrays; arrays over time and of more than two dimensions are
- * left out. Returns REFUSED, with a message, if it is damaged or the file is shorter than its arrays. */
+/* Reads the header of a file of the classic netCDF format into f: its dimensions and arrays. Arrays over time and
+ * arrays of more than two dimensions are left out. Returns REFUSED, with a message, if the header is damaged or the
+ * file is shorter than its arrays. */
 status exodus_classic_open(struct exodus_file *f);
 
 /* Copies n numbers of the array `a` of a classic file to real_value[n], or to whole_value[n] if real_value is NULL. */
@@ -63,8 +64,8 @@ int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name);
  * this name, if it has other than one or two dimensions, or if its numbers are not in the file. */
 bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exodus_array *a);
 
-/* Reads all numbers of the array `a` of a netCDF-4 file into real_value, whole_value or letters, of which the caller
- * passes one and NULL for the others. Returns false if HDF5 cannot read them. */
+/* Reads all numbers of the array `a` of a netCDF-4 file into one of the arrays real_value, whole_value and letters. The
+ * caller passes NULL for the other two. Returns false if HDF5 cannot read them. */
 bool exodus_hdf5_read(const struct exodus_file *f, const struct exodus_array *a, real *real_value, int64_t *whole_value,
                       char *letters);
 

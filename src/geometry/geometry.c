@@ -43,8 +43,8 @@ static status check_not_plane(const struct hull *s, const char *path)
     return OK;
 }
 
-/* Returns REFUSED if the surface encloses nothing, is too large, or has such large holes that inside and outside
- * cannot be distinguished. path: its file, for messages. */
+/* Returns REFUSED if a surface encloses nothing, is too large, or has holes so large that inside and outside cannot be
+ * distinguished. path: its file, for messages. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;
@@ -70,8 +70,8 @@ static status check_closed(const struct hull *s, const char *path)
 }
 
 /* Reads the mesh or surface file `path` into g. dim: dimensions of the space; scale: length of the file's unit [m];
- * fine: largest distance of chords from curved edges [m], NAN for the default. Returns REFUSED for an invalid file or a
- * surface that is not closed; g may then be partly filled. */
+ * fine: largest distance between a curved edge and the chords that approximate it [m], NAN for the default. Returns
+ * REFUSED for an invalid file or a surface that is not closed; g may then be partly filled. */
 static status read_elements(struct geometry *g, const char *path, int dim, real scale, real fine)
 {
     const struct format *format = format_of(path);

@@ -57,7 +57,8 @@ struct gmsh {
     int last_set;
 };
 
-/* Returns one number that combines dimension (0 to 3) and tag of an entity. */
+/* Returns a number that identifies an entity of a Gmsh file (point, curve, surface or volume) by its dimension (0 to 3)
+ * and its tag. */
 static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
 /* Sets *type to the row of the table `types` for Gmsh's element type `number`. Returns REFUSED for an unsupported
@@ -77,7 +78,7 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
 }
 
 /* Adds an element to the set of a physical group, which is created if it is new. dim, tag: dimension and number of the
- * group; element: index. Returns REFUSED if there are too many groups. */
+ * group; element: index of the element in the mesh. Returns REFUSED if there are too many groups. */
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
@@ -92,8 +93,8 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
     return OK;
 }
 
-/* Reads the label of a node of an element, and stores the node's index in *index. Returns REFUSED for an unknown
- * node. */
+/* Reads the number (label) of a node of an element from the file, and stores the node's index in *index. Returns
+ * REFUSED for an unknown node. */
 static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
@@ -105,9 +106,9 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* Returns REFUSED unless a node on an edge of an element of order 3 or more is on the straight line between the ends
- * of the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the node on
- * the edge. */
+/* Checks a node on an edge of an element of order 3 or more: returns REFUSED unless it is on the straight line between
+ * the ends of the edge. node: corners of the element; edge: number of the edge in Gmsh's order; between: index of the
+ * node on the edge. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -187,7 +188,8 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
-/* Appends the pair of an entity (its entity_key) and the tag of a physical group to which it belongs. */
+/* Records that an entity of the file belongs to the physical group with the tag `group`. entity: number of the entity,
+ * as returned by entity_key. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
     GROW("gmsh.entities", g->entity, g->links + 1);
@@ -233,9 +235,9 @@ static status entities_read(struct gmsh *g)
 
 /* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
 
-/* Reads a count of format 2.2, which is text even in binary files, into *n, and advances to the next line. what:
- * what is counted, for messages; bytes: least size of one counted item. Returns REFUSED if the file is too short for
- * so many items. */
+/* Reads a count into *n and advances to the next line. In format 2.2 counts are text even in binary files. what: what
+ * is counted, for messages; bytes: least size of one counted item. Returns REFUSED if the file is too short for so many
+ * items. */
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
@@ -260,8 +262,9 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads the tags of an element in format 2.2, of which the first is its physical group (0: none), and then its nodes.
- * label: number of the element in the file; tags: number of tags. Returns REFUSED if it is malformed. */
+/* Reads an element of a file in format 2.2: its tags, of which the first is its physical group (0 for none), and then
+ * its nodes. type: type of the element; label: its number in the file; tags: number of tags. Returns REFUSED if it is
+ * malformed. */
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
@@ -402,8 +405,8 @@ static status format_read(struct gmsh *g)
                     : source_report_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
-/* Skips the rest of section `name`, such as $Nodes: advances behind its last line, such as $EndNodes, or to the end
- * of the file. */
+/* Skips the rest of the section `name`, such as $Nodes: advances to the line after its last one, such as $EndNodes, or
+ * to the end of the file. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];

@@ -48,8 +48,8 @@ static status file_read(struct pages *p, const char *path)
     return result;
 }
 
-/* Appends the pages of the files path[files] to p. dim: dimensions of the space. Returns REFUSED for an invalid
- * file, and for more than one page in 2D. */
+/* Appends the pages of the files path[files] to p. dim: dimensions of the space. Returns REFUSED for an invalid file,
+ * and if there is more than one page in 2D. */
 static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));

@@ -126,9 +126,9 @@ struct planes {
     uint16_t *sample; /* [used][height][width], top row first, left to right */
 };
 
-/* Stores n pixels of row y of the file, from column x on, in p->sample, with the orientation of the page applied.
- * from: the pixels, `stride` samples each; first: which of the samples of a pixel (red, green, blue) the first one
- * of `from` is. */
+/* Stores n pixels of row y of the file, from column x on, in p->sample, with the orientation of the page applied. from:
+ * the pixels, `stride` samples each; first: which sample of a pixel (0 red, 1 green, 2 blue) the first one of `from`
+ * is. */
 static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -144,8 +144,8 @@ static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y
         }
 }
 
-/* Reads all rows or tiles of the page into p->sample. stride: samples per pixel in the rows of the file; first:
- * which of the samples of a pixel (red, green, blue) comes first. Returns false if the file is malformed. */
+/* Reads all rows or tiles of the page into p->sample. stride: samples per pixel in the rows of the file; first: which
+ * sample of a pixel (0 red, 1 green, 2 blue) the rows begin with. Returns false if the file is malformed. */
 static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -187,8 +187,8 @@ static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
     return good;
 }
 
-/* Fills page[height * width] with grey values, from the conversion of a page to RGBA by libtiff. Returns false if
- * the file is malformed. */
+/* Fills page[height * width] with the grey values of a page that libtiff converts to RGBA first. Returns false if the
+ * file is malformed. */
 static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height)
 {
     uint32_t *colour = BARE("image.colours", width * height, uint32_t);

@@ -48,7 +48,7 @@ static int by_centre(const void *a, const void *b)
     return (p->centre[0] > q->centre[0]) - (p->centre[0] < q->centre[0]);
 }
 
-/* Returns true if two faces have the same corners, in any order, to SAME of their size. */
+/* Returns true if two faces have the same corners, in any order, to within SAME times their size. */
 static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int dim)
 {
     for (int c = 0; c < dim; c++) {
@@ -59,8 +59,8 @@ static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int di
     return true;
 }
 
-/* Returns the faces of the surface h that coincide with another face, one of each pair. The caller releases the
- * array `at` of the returned structure with memory_free. */
+/* Returns those faces of the surface h that coincide with another face of h, one of each such pair. The caller releases
+ * the array `at` of the returned structure with memory_free. */
 static struct sheets sheets_doubled(const struct hull *h)
 {
     struct sheets s = {.dim = h->dim};
@@ -80,8 +80,8 @@ static struct sheets sheets_doubled(const struct hull *h)
 
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
-/* If the segments `to` and `by` have a common end and are collinear, extends `to` by `by` and returns true. Else
- * returns false. */
+/* Joins the segment `by` to the segment `to` if they have a common end and are collinear: `to` then extends over both.
+ * Returns true if it did so. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
     const real near = SAME * fmin(to->size, by->size);
@@ -115,7 +115,8 @@ struct flat {
     real (*at)[2];
 };
 
-/* Sets the origin and two orthogonal unit vectors of the plane f from the corners of a face. */
+/* Sets the plane f to that of the face s: its origin and two orthogonal unit vectors in the plane, from the corners of
+ * s. */
 static void flat_axes(struct flat *f, const struct sheet *s)
 {
     real w[3], normal[3];
@@ -127,7 +128,7 @@ static void flat_axes(struct flat *f, const struct sheet *s)
     for (int d = 0; d < 3; d++) f->u[d] /= u, f->v[d] /= v;
 }
 
-/* Computes the coordinates at[2] of X in the plane f [m]. */
+/* Computes the coordinates at[2] [m] of the point X in the plane f. */
 static void flat_place(const struct flat *f, const real *X, real at[2])
 {
     real arm[3];
@@ -148,8 +149,8 @@ static int by_place(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Computes the convex hull of the points in the plane f (Andrew's monotone chain): its corners in corner[2 f->n + 2]
- * and its area in *area [m^2]. size: length to which tolerances refer [m]. Returns the number of corners. */
+/* Computes the convex hull of the points in the plane f (Andrew's monotone chain). Stores its corners in corner[2 *
+ * f->n + 2] and its area in *area [m^2]. size: length to which tolerances refer [m]. Returns the number of corners. */
 static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *area)
 {
     int n = 0;
@@ -195,8 +196,8 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
     return common == 2;
 }
 
-/* Moves all faces that adjoin face number `first` in its plane, directly or through other faces, to the positions
- * after it in the list. Returns their number, `first` included. */
+/* Collects the faces that adjoin face number `first` in its plane, directly or through other faces: moves them to the
+ * positions after it in the list. Returns their number, `first` included. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;
@@ -220,7 +221,7 @@ static void slit_add(struct crack **crack, int *n, int corners)
     (*n)++;
 }
 
-/* Appends a face as a crack to the list *crack of *n cracks. */
+/* Appends the face s as a crack to the list *crack of *n cracks. dim: dimensions of the space. */
 static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, int dim)
 {
     slit_add(crack, n, dim);
@@ -228,8 +229,8 @@ static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, 
         for (int d = 0; d < dim; d++) (*crack)[*n - 1].corner[c][d] = s->corner[c][d];
 }
 
-/* Appends the coplanar faces s[sheets], which are connected, to the list *crack of *n cracks: as one crack if they
- * form a convex polygon, else as one crack per face. */
+/* Appends the faces s[sheets], which are coplanar and connected, to the list *crack of *n cracks. They become one crack
+ * if they form a convex polygon, else one crack per face. */
 static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s, int64_t sheets)
 {
     struct flat f = {.n = 0};

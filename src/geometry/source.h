@@ -13,15 +13,16 @@ struct source {
     bool binary; /* numbers are binary, in this machine's byte order */
 };
 
-/* Reads the whole file `path` into s and sets the reading position to its start. Returns REFUSED, with a message, if
- * the file is unreadable, empty, or too large for the memory; then nothing need be freed. Release with source_close. */
+/* Reads the whole file `path` into s and sets the reading position to its start. Release s with source_close. Returns
+ * REFUSED, with a message and nothing to release, if the file is unreadable, empty, or too large for the memory. */
 status source_open(struct source *s, const char *path);
 
 /* Sets the message `path:line: text` for the reading position of s (`path: text` for binary files) and returns REFUSED.
  * format: text as in printf. */
 status source_report_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Moves the reading position of s over white space to the next word. Returns false at the end of the file. */
+/* Moves the reading position of s over white space to the beginning of the next word. Returns false at the end of the
+ * file. */
 bool source_skip_blanks(struct source *s);
 
 /* Copies the next word of the file s to `word`, which has `capacity` bytes, cut if necessary and ended by a zero byte;

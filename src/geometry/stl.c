@@ -8,8 +8,8 @@
 
 enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
-/* Appends a corner of a triangle at X as a node of its own; every third corner completes a triangle. Returns REFUSED
- * if the mesh is full. */
+/* Appends a corner of a triangle at X as a new node of the mesh m. Every third corner completes a triangle, which is
+ * appended too. s: the file, for messages. Returns REFUSED if the mesh has no space for more. */
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
@@ -115,8 +115,8 @@ static real extent_of(const struct element_mesh *m)
     return extent;
 }
 
-/* Replaces corners that coincide, to SAME_PLACE of the extent, by one node, so that neighbouring triangles share
- * nodes. */
+/* Replaces corners that coincide, to within SAME_PLACE times the extent of the mesh, by one node, so that neighbouring
+ * triangles share nodes. */
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);
