@@ -9,24 +9,27 @@
 
 enum { FOOTER_BYTES = 24 };
 
-/* Appends the footer (magic number, number of preceding bytes, hash) to the temporary file PATH.cleave.tmp and syncs
- * the file to disk. Returns FAILED if the file cannot be written; PATH.cleave.tmp is removed then. */
+/* Appends the footer (magic number, number of the bytes before it, their hash) to PATH.cleave.tmp, the temporary file
+ * of `path`, and synchronises the file with the disk. Returns FAILED, with PATH.cleave.tmp removed, if the file cannot
+ * be written. */
 status file_append_footer(const char *path);
 
-/* Returns true if the regular file `path` ends with a footer, whether or not its bytes are those that were written:
- * Cleave wrote the file. Returns false also if the file cannot be read. */
+/* Returns true if the regular file `path` ends with a footer, so that Cleave wrote it. The hash in the footer is not
+ * checked. Returns false also if the file cannot be read. */
 bool file_has_footer(const char *path);
 
-/* Checks the footer of the file `path`. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in
- * a message, for example "is cut short" (a static text). A file that cannot be read counts as faulty. */
+/* Checks the length and the hash of the file `path` by its footer. Returns NULL if the file is complete and unchanged,
+ * else a static text that completes "PATH ..." in a message, for example "is cut short". A file that cannot be read
+ * counts as faulty. */
 const char *file_describe_damage(const char *path);
 
-/* Checks the footer of the file `path` as file_describe_damage does, but returns NULL also if the file cannot be read,
- * so that only damage that is certain is reported. */
+/* Checks the length and the hash of the file `path` by its footer. Returns NULL if the file is complete and unchanged,
+ * or if it cannot be read; otherwise a static text that completes "PATH ..." in a message. Only damage that is certain
+ * is thus reported. */
 const char *file_describe_certain_damage(const char *path);
 
-/* Returns a hash of `length` bytes from `bytes` on. start: a number that the hash also depends on, as the hash of what
- * precedes these bytes. */
+/* Returns a hash of `length` bytes from `bytes` on. start: a number on which the hash depends, too, for example the
+ * hash of the bytes before these. */
 uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length);
 
 /* Computes a hash of the contents of the regular file `path` and stores it in *hash. Returns REFUSED if the file

@@ -19,11 +19,11 @@ struct folder_kind {
 /* Returns true if `name` is that of a hidden or temporary file, which any output folder may hold. */
 bool file_name_is_ignored(const char *name);
 
-/* Checks that a command may write its files into `folder`: the folder does not exist, holds nothing but hidden and
- * temporary files, or is of the given kind. scene_text: text of the scene, passed to kind->is_sign; may be NULL. Sets
- * *exists to true if the folder exists and is of this kind, else to false. Returns REFUSED, with the name of the entry
- * in the message, if the folder holds a file that Cleave did not write, or if a subfolder listed in kind->inner is a
- * link. */
+/* Checks that a command may write its files into `folder`. It may if the folder does not exist, contains only hidden
+ * and temporary files, or is of the given kind. scene_text: text of the scene, passed to kind->is_sign; may be NULL if
+ * kind->is_sign does not use it. Sets *exists to true if the folder exists and is of this kind, else to false. Returns
+ * REFUSED, with the name of the entry in the message, if the folder contains a file that Cleave did not write, or if a
+ * subfolder listed in kind->inner is a symbolic link. */
 status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *scene_text, bool *exists);
 
 #endif

@@ -28,8 +28,8 @@ status history_read_file(struct history *h, const char *path);
 /* Releases the names and values of the table *h. */
 void history_free(struct history *h);
 
-/* Returns the index of the column called `name` (without unit), or -1 if there is none. A renamed column is found by
- * both of its names (renamed_results.h). */
+/* Returns the index of the column called `name` (without unit), or -1 if there is none. A column that was renamed in a
+ * later version of Cleave is found by both names. */
 int history_find_column(const struct history *h, const char *name);
 
 /* Returns the value in the given row and column of the table, in SI units; NAN if `column` is -1. */

@@ -38,8 +38,8 @@ void json_write_rounded(struct json *j, const char *key, real value, int digits)
  * the entry; NULL in a list. Writes no entry if `value` is NaN or infinite. */
 void json_write_real(struct json *j, const char *key, real value);
 
-/* Writes the dim coordinates x[] of a point as the entries PREFIXx, PREFIXy and PREFIXz of the innermost object,
- * PREFIX being the text `prefix`. */
+/* Writes the coordinates x[dim] of a point as the entries PREFIXx, PREFIXy and PREFIXz of the innermost object, with
+ * PREFIX = prefix. */
 void json_write_point(struct json *j, const char *prefix, const real *x, int dim);
 
 #endif

@@ -76,34 +76,35 @@ void output_configure_hdf5(void);
 
 /* Opens the output of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
  * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With
- * OUTPUT_RESUME and no older run, a new run begins and a line reports it.
- * scene_text: text of the scene with all defaults; a copy is written. compress: compress frames with gzip.
- * Returns REFUSED if another process runs in the folder, if the folder holds files that no run wrote, if it holds a run
- * of another scene (another text in scene.yaml) and `mode` is not OUTPUT_OVERWRITE, if it holds a run of this scene and
- * `mode` is OUTPUT_FIRST, or if `mode` is OUTPUT_RESUME and the older run has lost its checkpoints. Returns FAILED if a
- * file or folder cannot be created. Unless OK is returned, output_close need not be called. */
+ * OUTPUT_RESUME and no older run, a new run begins and a printed line reports it.
+ * scene_text: text of the scene with all defaults, of which a copy is written; compress: true to compress frames with
+ * gzip.
+ * Returns REFUSED if another process runs in the folder, or if it contains files that no run wrote. Returns REFUSED
+ * also if it contains a run of another scene (another text in scene.yaml) unless `mode` is OUTPUT_OVERWRITE; a run of
+ * this scene and `mode` is OUTPUT_FIRST; or an older run without checkpoints and `mode` is OUTPUT_RESUME. Returns
+ * FAILED if a file or folder cannot be created. Unless OK is returned, output_close need not be called. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 
 /* Waits for the thread that writes frames, closes history.csv, unlocks the folder of the run, and frees the memory of
  * *o. */
 void output_close(struct output *o);
 
-/* Checks that the subfolder frames_NAME of the folder of a run can hold frames of a region. name: name of the region.
- * Returns REFUSED if a link or a file has that name. Call it before output_open, which removes the files of an older
- * run. */
+/* Checks that frames of a region can be written to the subfolder frames_NAME of the folder of a run, with NAME = name,
+ * the name of the region. Returns REFUSED if a link or a file has that name. Must be called before output_open, which
+ * removes the files of an older run. */
 status output_check_series_folder(const char *folder, const char *name);
 
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
- * NAME.hdf.series and so on, with NAME = name. region: kept by reference until output_close. Call it after
- * output_open. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
+ * NAME.hdf.series and NAME.xdmf, with NAME = name. region: kept by reference until output_close. output_open must have
+ * been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
 status output_add_frame_series(struct output *o, const char *name, const struct region *region);
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
  * checksums, not by their paths. */
 bool scene_texts_are_equal(const char *a, const char *b);
 
-/* Returns true if the file `path` holds the text of the same scene as scene_text (see scene_texts_are_equal), false
- * also if the file cannot be read. */
+/* Returns true if the file `path` contains the text of the same scene as scene_text, apart from the paths of files with
+ * equal contents. Returns false also if the file cannot be read. */
 bool scene_file_has_text(const char *path, const char *scene_text);
 
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
@@ -113,10 +114,10 @@ bool scene_text_is_from_cleave(const char *text);
  * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
 status output_write_text(const struct output *o, const char *name, const char *text, size_t length);
 
-/* Writes the index files of all series anew, without frames that are missing or incomplete; a frame that was lost at an
- * earlier restart and is there again is listed again. Call it after a restart. lost: receives the number of lost
- * frames. message: receives a message about the first of them and holds `capacity` bytes. Returns FAILED if an index
- * file cannot be written. */
+/* Writes the index files of all series of frames again, without frames that are missing or incomplete. A frame that was
+ * lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number of lost
+ * frames in *lost and a message about the first of them in message[capacity]. Returns FAILED if an index file cannot be
+ * written. */
 status output_index_drop_lost_frames(struct output *o, int *lost, char *message, size_t capacity);
 
 /* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
@@ -164,32 +165,32 @@ struct frame_extra {
 };
 
 /* Writes the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then the
- * index files frames.hdf.series and frames.xdmf. What does not change while the particles stay the same is written
- * before the first of these frames, to a file of its own, to which they link (particles_file.h). Particles are sorted
- * by id; all fields but the reference positions have single precision. scene_text: text of the scene, stored in that
- * file. Returns when the files are complete, FAILED if one cannot be written. */
+ * index files frames.hdf.series and frames.xdmf. Data that do not change while the particles stay the same are written
+ * to a separate file before the first frame, and all frames link to it. Particles are sorted by id. All fields but the
+ * reference positions have single precision. scene_text: text of the scene, stored in the separate file. Returns when
+ * the files are complete, FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
-/* Starts to write the next frame of a series (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
- * time steps, in a separate thread. The fields of p and *extra (NULL: none) are copied before the function returns;
- * scene_text must stay valid until output_wait_for_frame. Contact forces are left out if they are 0 everywhere. Only
- * one frame is written at a time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame
- * in progress, for which it waits, could not be written; a failure of this frame is returned by the call that waits for
- * it. */
+/* Starts to write the next frame of a series at time t [s] after `step` time steps, in a separate thread. series: 0 for
+ * the whole body, 1 .. n_series for regions; extra: quantities that p does not store, NULL for none. The fields of p
+ * and *extra are copied before the function returns; scene_text must stay valid until output_wait_for_frame. Contact
+ * forces are left out if they are 0 everywhere. Only one frame is written at a time: the next frame, checkpoints and
+ * output_close wait for it. Returns FAILED if the previous frame, for which it waits, could not be written. A failure
+ * of this frame is returned by the call that waits for it. */
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
-/* Writes all frames of each series as one temporal file for ParaView, frames.vtkhdf (output_temporal.c), at the end of
- * a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more
- * frames than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
+/* Writes all frames of each series as one file with all times for ParaView, frames.vtkhdf, at the end of a run.
+ * scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more frames
+ * than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
 status output_write_temporal_file(struct output *o, const char *scene_text);
 
-/* Removes the temporal files that output_write_temporal_file of an earlier process wrote to the folder of the run,
- * since they lack the frames of a run that continues. */
+/* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run, since they
+ * lack the frames of a run that continues. */
 void output_remove_temporal_file(const struct output *o);
 
-/* Discards the stored order in which particles are written. Call this function when the number of particles or their
- * ids have changed, after output_wait_for_frame. */
+/* Discards the stored order in which particles are written. Must be called when the number of particles or their ids
+ * have changed, after output_wait_for_frame. */
 void output_discard_particle_order(struct output *o);
 
 /* Waits until the thread that writes a frame has finished. Returns FAILED if the frame could not be written; OK if it
@@ -251,26 +252,27 @@ status frames_list(const char *folder, int *n, struct listed_frame **list);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Type of a function that saves the complete state of a run to the archive if a->saving is set, else restores it from
- * the archive. context: argument of the same name of checkpoint_write or checkpoint_read. */
+/* Type of a function that saves the complete state of a run to the archive a if a->saving is true, else restores it
+ * from a. context: the argument `context` of checkpoint_write or checkpoint_read. Returns FAILED if an entry cannot be
+ * written or read. */
 typedef status archive_all_fn(void *context, struct archive *a);
 
-/* Writes the file checkpoint.h5 after renaming the previous one to checkpoint.previous.h5. The file holds the format
- * version, scene_text, the state that archive_all(context, archive) saves, and a footer that detects damage
- * (checksum.h). Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
+/* Writes the file checkpoint.h5 after renaming the previous one to checkpoint.previous.h5. The file contains the format
+ * version, scene_text, the state that archive_all(context, archive) saves, and a footer with a hash by which damage is
+ * detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
 
-/* Restores the state of a run by archive_all(context, archive) from checkpoint.h5 or, if that file is damaged, from
- * checkpoint.previous.h5, with a line on standard error. scene_text: text of the scene of the run. Returns FAILED if
- * neither file is whole, or if the checkpoint belongs to another scene or format version. */
+/* Restores the state of a run by archive_all(context, archive) from checkpoint.h5. If that file is damaged, uses
+ * checkpoint.previous.h5 and prints a line on standard error. scene_text: text of the scene of the run. Returns FAILED
+ * if both files are damaged or missing, or if the checkpoint belongs to another scene or format version. */
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
 
 /* Returns true if the folder of a run holds checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);
 
-/* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive if
- * a->saving is set, else restores it from the archive. Returns FAILED if an entry is missing or does not fit the files
- * of the run. */
+/* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive a if
+ * a->saving is true, else restores it from a. Returns FAILED if an entry is missing or does not agree with the files of
+ * the run. */
 status output_save_or_load(struct output *o, struct archive *a);
 
 #endif

@@ -19,8 +19,8 @@ struct path path_join(const char *folder, const char *name);
 /* Writes the last part of a path, without slashes behind it, to name[capacity]. Returns name. */
 char *path_last_name(char *name, size_t capacity, const char *path);
 
-/* Returns the path of frame `number` in the folder of a run, frames/NNNNNN.hdf; an empty path if it would be too long.
- */
+/* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = number; an empty
+ * path if it would be too long. */
 struct path run_frame_path(const char *folder, int number);
 
 /* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a
@@ -33,12 +33,13 @@ status folder_make(const char *path);
 /* Returns PATH.cleave.tmp, the temporary name under which a file is written before it is renamed to `path`. */
 struct path path_temporary(const char *path);
 
-/* Returns the temporary name PATH.cleave.tmp and adds `path` to the list of unfinished files. file_replace_by_temporary
- * or file_discard_temporary with the same path removes it from the list. */
+/* Returns the temporary name PATH.cleave.tmp of `path` and adds `path` to the list of unfinished files, whose temporary
+ * files are removed if the program fails. file_replace_by_temporary or file_discard_temporary with the same path
+ * removes it from the list. */
 struct path file_begin_temporary(const char *path);
 
-/* Removes the temporary files of all unfinished files (file_begin_temporary). Call it before the program ends because
- * of an internal fault. */
+/* Removes the temporary files of all files whose writing has begun with file_begin_temporary and is not finished. To be
+ * called before the program ends because of an internal fault. */
 void files_unfinished_remove(void);
 
 /* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is
@@ -58,8 +59,8 @@ bool path_is_folder(const char *path);
  * 0 if unknown. */
 status file_report_write_failure(const char *path, int cause);
 
-/* Checks that the file `path` may be replaced or removed. Returns REFUSED if it is an input of this command, or a
- * pipe, socket or device; OK otherwise, also if there is no such file. */
+/* Checks that the file `path` may be replaced or removed. Returns REFUSED, with a message, if it is an input of the
+ * command that is running, or a pipe, socket or device; OK otherwise, also if there is no such file. */
 status file_check_replaceable(const char *path);
 
 /* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginnings]: the
@@ -79,30 +80,32 @@ status files_visit(const char *folder, bool (*chosen)(const char *name, const ch
  * cannot be read. */
 bool file_has_contents(const char *path, const void *bytes, size_t length);
 
-/* Writes `length` bytes from `bytes` on as the complete file `path`: under a temporary name, which is synced and
- * renamed; then syncs the folder. A file that is an input of this command is never replaced: returns OK if it already
- * has these contents, else REFUSED. Returns FAILED if the file cannot be written. */
+/* Writes `length` bytes from `bytes` on as the complete file `path`: under a temporary name, which is synchronised with
+ * the disk and renamed. Then the folder is synchronised. A file that is an input of the command that is running is
+ * never replaced: returns OK if it already has these contents, else REFUSED. Returns FAILED if the file cannot be
+ * written. */
 status file_write_whole(const char *path, const void *bytes, size_t length);
 
-/* Writes `length` bytes from `bytes` on as the complete file `path` as file_write_whole does, with the same return
- * values, but does not sync the folder. After writing many files to one folder, call file_sync_folder once for one of
- * them. */
+/* Writes `length` bytes from `bytes` on as the complete file `path`, under a temporary name that is synchronised with
+ * the disk and renamed. The folder is not synchronised: after many files in one folder, call file_sync_folder once for
+ * one of them. A file that is an input of the command that is running is never replaced: returns OK if it already has
+ * these contents, else REFUSED. Returns FAILED if the file cannot be written. */
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length);
 
 /* Syncs the folder that holds the file `path`, so that a new name survives a crash of the machine. A folder that may
  * not be read is skipped. Returns FAILED if the sync fails. */
 status file_sync_folder(const char *path);
 
-/* Appends `length` bytes (may be 0) from `tail` on to the temporary file PATH.cleave.tmp and syncs it. Returns FAILED
- * if that is not possible; PATH.cleave.tmp is removed then. */
+/* Appends `length` bytes (may be 0) from `tail` on to PATH.cleave.tmp, the temporary file of `path`, and synchronises
+ * it with the disk. Returns FAILED, with PATH.cleave.tmp removed, if it cannot be written. */
 status file_append_and_sync(const char *path, const void *tail, size_t length);
 
-/* Renames the synced temporary file PATH.cleave.tmp to `path` and syncs the folder. Returns REFUSED if the file `path`
- * must not be replaced (file_check_replaceable), FAILED if the renaming or the sync fails. If the file is not renamed,
- * PATH.cleave.tmp is removed. */
+/* Renames PATH.cleave.tmp, the temporary file of `path`, to `path` and synchronises the folder with the disk. Returns
+ * REFUSED if the existing file `path` must not be replaced (file_check_replaceable), FAILED if the renaming or the
+ * synchronisation fails. If the file is not renamed, PATH.cleave.tmp is removed. */
 status file_replace_by_temporary(const char *path);
 
-/* Removes the temporary file PATH.cleave.tmp and frees its disk space even if the file is still open. */
+/* Removes PATH.cleave.tmp, the temporary file of `path`, and frees its disk space even if the file is still open. */
 void file_discard_temporary(const char *path);
 
 /* Reads the complete regular file `path`. Stores an allocated text in *text, which the caller releases with

@@ -33,8 +33,8 @@ void hdf_open(struct hdf *f, const char *path);
 /* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
 void hdf_close(struct hdf *f);
 
-/* Closes a file that was created under the temporary name of `path`, PATH.cleave.tmp. If a call of HDF5 on the file has
- * failed, removes the incomplete file, sets *broken to true and returns FAILED, with a message. */
+/* Closes the HDF5 file f, which was created under PATH.cleave.tmp, the temporary name of `path`. If a call of HDF5 on
+ * the file has failed, removes the incomplete file, sets *broken to true and returns FAILED, with a message. */
 status hdf_close_written(struct hdf *f, const char *path, bool *broken);
 
 /* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
@@ -44,11 +44,11 @@ void hdf_create_group(struct hdf *f, const char *name);
  * dimension if `columns` is 1. A failure is stored in f->failed. */
 void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 
-/* Writes the dataset `name` of rows x columns numbers of the given type, of which only the first `stored_columns` in
- * each row come from data[rows][stored_columns]; the others are 0 and take no space in the file. The dataset has one
- * dimension if `columns` is 1. Rows are stored in chunks; a chunk that holds one number throughout, 0 or in a dataset
- * of one column the number of its first row, takes no space either, as readers then return the fill value. A failure is
- * stored in f->failed. */
+/* Writes the dataset `name` of rows x columns numbers of the given type. Only the first `stored_columns` numbers of
+ * each row are given, in data[rows][stored_columns]; the others are 0 and take no space in the file. The dataset has
+ * one dimension if `columns` is 1. Rows are stored in chunks. A chunk takes no space either if all its numbers equal
+ * the fill value of the dataset: 0, or in a dataset of one column the number of its first row. A failure is stored in
+ * f->failed. */
 void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
                                 int stored_columns, const void *data);
 
@@ -56,9 +56,8 @@ void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type t
  * folder of f. A failure is stored in f->failed. */
 void hdf_create_link(struct hdf *f, const char *name, const char *file);
 
-/* Returns true if `name` is an external link, and stores the path of the file that it leads to in `file`, which holds
- * `capacity` bytes; an empty text if the path is too long. A failure, also that there is no such name, is stored in
- * f->failed. */
+/* Returns true if `name` is an external link, and stores the path of the file to which it leads in file[capacity]; an
+ * empty text if the path is too long. A failure is stored in f->failed, also if nothing has this name. */
 bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capacity);
 
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
@@ -70,8 +69,8 @@ struct hdf_source {
 
 /* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
  * dataset of the same name in the files source[sources], one after another. type, columns: type of the numbers and
- * numbers per row, equal in all files. Each file contributes its number of rows, source[k].rows, plus `extra_rows`
- * rows. A failure is stored in f->failed. */
+ * numbers per row, equal in all files. From each file source[k].rows + extra_rows rows are taken. A failure is stored
+ * in f->failed. */
 void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
                        const struct hdf_source *source, int sources, int extra_rows);
 

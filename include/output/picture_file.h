@@ -6,13 +6,13 @@
 
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 
-/* Completes the picture in the temporary file PATH.cleave.tmp: checks that it is whole, writes a mark into it by which
- * Cleave recognises its own pictures, syncs it and renames it to `path`. Returns FAILED if the file is missing or
- * incomplete, for example on a full disk; the temporary file is removed then, and an existing file at `path` remains.
- */
+/* Completes the picture in PATH.cleave.tmp, the temporary file of `path`: checks that the file is complete, writes a
+ * mark into it by which Cleave recognises its own pictures, synchronises it with the disk and renames it to `path`.
+ * Returns FAILED if the file is missing or incomplete, for example on a full disk. The temporary file is removed then,
+ * and an existing file at `path` remains. */
 status picture_replace_by_temporary(const char *path, enum picture_format format);
 
-/* Returns true if the file `path` has the mark that picture_replace_by_temporary writes into pictures. */
+/* Returns true if the file `path` has the mark by which Cleave recognises its own pictures. */
 bool picture_has_mark(const char *path);
 
 /* Checks that a picture may be written to the file `path`. Returns REFUSED if there is such a file and it lacks the

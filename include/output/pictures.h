@@ -38,8 +38,8 @@ struct path picture_path_of_frame(const char *folder, enum picture which, int nu
  * an empty path if it would be too long. ending: "png", "svg" and so on. */
 struct path picture_path_of_field(const char *folder, const char *field, const char *ending);
 
-/* Returns true if `name` is the name of a picture or film that Cleave draws, NAME.png or NAME_000012.png, followed by
- * the text `end`. */
+/* Returns true if `name` consists of the name of a picture or film that Cleave draws, such as NAME.png or
+ * NAME_000012.png, and of the text `end` after it. */
 bool is_picture_name(const char *name, const char *end);
 
 #endif
