@@ -59,14 +59,15 @@ struct particle_list {
     int16_t *material_at;          /* column number of the material in this line; NULL for HDF5 */
 };
 
-/* Reads a particle list in `dim` dimensions, in the format that the file name extension implies: .csv, .tsv, .txt,
- * .dat, or .h5, .hdf5, .hdf, or that of an Exodus II file. Returns REFUSED for an invalid value, with file and line or
- * file and entry in the message; nothing has to be released then. An empty list is no error here. Release with
- * particle_list_free. */
+/* Reads a particle list from the file `path`. The format follows from the file name extension: .csv, .tsv, .txt, .dat,
+ * or .h5, .hdf5, .hdf, or that of an Exodus II file. form: unit and column names that the scene gives, or NULL; dim:
+ * coordinates per position. Returns REFUSED for an invalid value, with file and line or file and entry in the message;
+ * nothing has to be released then. An empty list is no error here. Release l with particle_list_free. */
 status particle_list_read(struct particle_list *l, const char *path, const struct particle_list_form *form, int dim);
 
-/* Reads only the names of the columns of a particle list file as particle_list_read does, and stores in *head what the
- * list contains. Returns REFUSED, with a message, as particle_list_read does. */
+/* Reads only the names of the columns from the particle list file `path`, and stores in *head what the list contains.
+ * form: unit and column names that the scene gives, or NULL; dim: coordinates per position. Returns REFUSED, with a
+ * message, for a missing or invalid file. */
 status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
                                int dim);
 

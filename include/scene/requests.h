@@ -64,11 +64,11 @@ enum coupling {
     COUPLING_PGG /* PM and PG on one unified grid, which moves all particles            */
 };
 
-/* Returns true if, with coupling c, the background grid moves peridynamic particles, at least those near the
- * interface. */
+/* Returns true if, with the coupling method c, the background grid moves peridynamic particles, at least those near the
+ * interface to material points. */
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
 
-/* Returns true if, with coupling c, one grid moves all particles, peridynamic ones and material points. */
+/* Returns true if, with the coupling method c, one grid moves all particles, peridynamic ones and material points. */
 static inline bool coupling_has_one_grid(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
 /* Representation of pre-cracks in the reference frame (notch.h): a slit in the mesh, cut bonds, or a choice by rule. */

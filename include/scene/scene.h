@@ -308,38 +308,42 @@ static inline real scene_section_or_thickness(const struct scene *s)
  * that contains X, or `default_material` if no part does. */
 int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
 
-/* Returns true if particles of body b can consist of this material (index into scene.material): it is that of the body
- * or of one of its parts, or the particle list of the body has a column of materials. */
+/* Returns true if particles of body b can consist of the material with the index `material`: it is the material of the
+ * body or of one of its parts, or the particle list of the body has a column of materials. */
 bool scene_body_has_material(const struct scene_body *b, int material);
 
-/* Releases the members of a scene; scene_read.h reads one. */
+/* Releases the members of the scene *s, which was read by a function of scene_read.h. */
 void scene_free(struct scene *s);
 
-/* Prepends a location in the scene file to the stored message of a refusal (status_message), unless it has one: that of
- * the body, boundary, key or group of keys with which the message begins, else the path of the scene file. Does nothing
- * unless `result` is REFUSED. Returns `result`. */
+/* Adds a location in the scene file to the beginning of the stored message of a refusal (status_message), unless it
+ * begins with one. It is the location of the body, boundary, key or group of keys with which the message begins, else
+ * the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
 status scene_prepend_location(const struct scene *s, status result);
 
-/* Returns the reason why body number `body` cannot be in the reference frame with the method, solver, coupling and
- * materials of the scene; NULL if it can. The text is static. */
+/* Returns the reason why shape functions of the body with the index `body` cannot be evaluated at the reference
+ * positions of its material points (frame `reference`), with the method, solver, coupling and materials of the scene.
+ * Returns NULL if they can. The text is static. */
 const char *scene_why_reference_frame_unsupported(const struct scene *s, int body);
 
-/* Returns true if the material of a body in the reference frame yields and the run makes explicit steps. */
+/* Returns true if, with method mpm and explicit time steps, a body yields whose shape functions are evaluated at the
+ * reference positions of its material points (frame `reference`). */
 bool scene_yields_on_mesh(const struct scene *s);
 
-/* Returns the reason why `mpm.frame: auto` does not choose the reference frame for body number `body`; NULL if it does.
- * The text is static. */
+/* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body with the index `body`,
+ * that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is static. */
 const char *scene_why_reference_frame_not_auto(const struct scene *s, int body);
 
-/* Returns the reason why `mpm.frame: reference` is no remedy for a body on the grid of the current frame: that of
- * scene_why_reference_frame_not_auto for the first body that has one, NULL if no body has. The text is static. */
+/* Returns the reason why a message about bodies whose shape functions follow the present positions must not recommend
+ * `mpm.frame: reference`: that which prevents `mpm.frame: auto` from choosing it, for the first body for which there is
+ * one. Returns NULL if there is none for any body. The text is static. */
 const char *scene_why_reference_frame_no_remedy(const struct scene *s);
 
-/* Prints the table of keys of scenes to `out`: all keys (key NULL), the keys below a prefix, or one key. Returns
- * REFUSED for an unknown key, with the most similar key in the message. */
+/* Prints the table of keys of scenes to `out`. key: NULL for all keys, a prefix for the keys below it, or one key.
+ * Returns REFUSED for an unknown key, with the most similar key in the message. */
 status scene_print_help(FILE *out, const char *key);
 
-/* Returns true if `key` is the name of a key of scenes, or a prefix to which several keys belong. */
+/* Returns true if `cleave help` can explain the word `key`: it is the name or the last part of the name of a key of
+ * scenes, a prefix of keys, a value of a key, a former name of a key, or a word of another program. */
 bool scene_has_key(const char *key);
 
 /* Prints the units that numbers in scenes may have to `out`. */
@@ -354,12 +358,12 @@ void scene_print_expressions(FILE *out);
 /* Writes the keys of scenes to `out` in troff, for the manual page. */
 void scene_print_manual_keys(FILE *out);
 
-/* Writes to `out` the names of all keys that the option `-s` can set, one per line, for completion by a shell; an item
- * of a list has the index 0 there. */
+/* Writes to `out` the names of all keys that the option `-s` can set, one per line, for completion by a shell. Items of
+ * lists have the index 0 in these names. */
 void scene_print_override_keys(FILE *out);
 
-/* Writes the reference of all keys as Markdown (inputs/keys.md): first a table of the keys without subkeys, then a
- * table for each key with subkeys. */
+/* Writes the reference of all keys to `out` as Markdown: first a table of the keys at the top of a scene without keys
+ * below them, then a table for each key with keys below it. */
 void scene_print_reference(FILE *out);
 
 #endif

@@ -4,13 +4,15 @@
 
 #include "scene/scene.h"
 
-/* Reads a scene file, applies override[overrides] and checks the scene. Returns REFUSED for an invalid scene, with a
- * message `file:line:column: fault; expected value`, and for `method: auto`, which pilot runs resolve (study/pilot.h);
- * nothing has to be released then. Otherwise release s with scene_free. */
+/* Reads the scene file `path` into *s, applies the overrides override[overrides] and checks the scene. Returns REFUSED
+ * for an invalid scene, with a message `file:line:column: fault; expected value`. Also returns REFUSED for `method:
+ * auto`, which pilot runs have to resolve first (study/pilot.h). Nothing has to be released then. Otherwise release s
+ * with scene_free. */
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
 
-/* Reads and checks a scene from memory as scene_read does from a file. Opens no file, not even to see whether particle
- * lists exist. `name` is the file name in messages. */
+/* Reads a scene from text[length] into *s, applies the overrides override[overrides] and checks the scene. Opens no
+ * file, not even to see whether particle lists exist. name: file name for messages. Returns REFUSED, with a message,
+ * for an invalid scene and for `method: auto`; nothing has to be released then. Otherwise release s with scene_free. */
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
 
@@ -29,9 +31,9 @@ struct pilot_wish {
     struct scene provisional;
 };
 
-/* Reads a scene file with override[overrides] as scene_read does, but accepts `method: auto`: then w->wanted is true,
- * *w describes the requirements on the pilot runs, and *s is empty. Otherwise w->wanted is false and the caller
- * releases *s with scene_free. */
+/* Reads the scene file `path` with the overrides override[overrides]. If it has `method: auto`, sets w->wanted to true,
+ * stores in *w what it requires of the pilot runs, and leaves *s empty. Otherwise sets w->wanted to false and stores
+ * the scene in *s, which the caller releases with scene_free. Returns REFUSED, with a message, for an invalid scene. */
 status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
                                 const struct scene_override *override, int overrides);
 

@@ -5,18 +5,19 @@
 #include "data/softening_states.h"
 #include "scene/scene.h"
 
-/* Returns the peridynamic model of families of material m in the scene: bond-based, or state-based with its moduli over
- * the modulus E' of uniaxial tension. */
+/* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
+ * over the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model(const struct scene *s, const struct material *m);
 
 #define FREE_OF_TRAPPING 2 /* kappa above which the lattice hardly impedes cracks; measured */
 
-/* Returns the horizon at which bonds of material m have the given ratio kappa = (critical stretch/stretch at which
- * softening begins)^2 [1], in metres. Valid if m has an energy release rate. */
+/* Returns the horizon [m] at which bonds of material m have the ratio kappa = (critical stretch/stretch at which
+ * softening begins)^2 [1]. The material must have an energy release rate. */
 real scene_softening_horizon(const struct scene *s, const struct material *m, real kappa);
 
-/* Returns the horizon [m] below which the strength surface of material m starts the softening of bonds in tension and
- * in shear, before their stretch does. Valid if m has an energy release rate. */
+/* Returns the horizon [m] below which bonds of material m begin to soften, in tension and in shear, because the stress
+ * reaches the strength surface. Above it they begin to soften by their own stretch before. The material must have an
+ * energy release rate. */
 real scene_surface_horizon(const struct scene *s, const struct material *m);
 
 #endif

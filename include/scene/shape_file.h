@@ -23,7 +23,8 @@ struct shape_file {
     struct voxel_part **part; /* [parts] ranges of grey values that solids use */
 };
 
-/* Releases all items of the list that begins with `first`. */
+/* Releases all shape files in the linked list that begins with `first`, with the surfaces or voxels that were read from
+ * them. */
 void shape_files_free(struct shape_file *first);
 
 #endif

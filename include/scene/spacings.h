@@ -4,14 +4,15 @@
 
 #include "scene.h"
 
-/* Returns the largest particle spacing between 3/4 `largest` and `largest` [m] at which a lattice fits the bodies that
- * begin with a box: the edges of the boxes, and the positions of gaps and of cracks along the axes in them, are whole
- * numbers of spacings, with `even_edges` the edges of the first box even numbers. If there is none, only the edge of
- * the first box along x is fitted; without such a box, `largest` is returned. */
+/* Returns the largest particle spacing between 3/4 largest and `largest` [m] for which the edges of boxes, and the
+ * positions of gaps in them and of cracks along the axes, are whole numbers of spacings. Only bodies that begin with a
+ * box are considered. even_edges: true if the edges of the first box must be even numbers of spacings. If there is no
+ * such spacing, it fits only the edge of the first box along x; without such a box, returns `largest`. */
 real spacing_that_fits_lattice(const struct scene *s, real largest, bool even_edges);
 
-/* Returns a spacing [m] at which each length that a solution must resolve has a few spacings, or 0 if the scene has no
- * such length: edges of bodies, radii, cracks and their ligaments, pulses and wavelengths, rings of sif probes. */
+/* Returns a spacing [m] at which each length that a solution must resolve has a few spacings: edges of bodies, radii,
+ * cracks and their ligaments, pulses and wavelengths, contours of probes of stress-intensity factors. Returns 0 if the
+ * scene has no such length. */
 real spacing_that_resolves(const struct scene *s);
 
 #endif

@@ -35,9 +35,9 @@ struct unit_row {
 };
 extern const struct unit_row unit_rows[UNITS];
 
-/* Reads `number [/ number] [unit]` from `text` and stores it in *value in SI units, correctly rounded. unit: kind of
- * unit that is expected; allow_infinity: true if inf is allowed. Returns false if the text is not such a number, and
- * writes what is wrong and what is expected to `message` (`capacity` bytes), as the rest of a sentence that begins with
+/* Reads `text` of the form `number [/ number] [unit]` and stores it in *value in SI units, correctly rounded. unit:
+ * kind of unit that is expected; allow_infinity: true if inf is allowed. Returns false if the text has another form or
+ * unit. Then message[capacity] receives what is wrong and what is expected, as the rest of a sentence that begins with
  * the text. */
 bool number_read(real *value, const char *text, enum unit unit, bool allow_infinity, char *message, size_t capacity);
 
