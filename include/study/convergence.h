@@ -49,10 +49,10 @@ struct convergence {
                                          * difference of squares */
 };
 
-/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `runs` runs.
- * value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 .. levels - 1:
- * its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is quantised at this level;
- * NULL if it is not quantised. Stores the results in *c. Returns false if one of the three finest levels has no
+/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `runs` runs, and
+ * stores them in *c. value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k]
+ * = 0 .. levels - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is
+ * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no
  * value. */
 bool convergence_evaluate(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
                           int levels, const double *resolution);
@@ -62,8 +62,8 @@ bool convergence_evaluate(struct convergence *c, const double *spacing, const do
  * `centre` and the result have the unit of the figure. */
 double convergence_half_width(const struct convergence *c, double centre, double probability);
 
-/* Computes order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and errors of
- * its levels. */
+/* Computes the members order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and
+ * errors of its spacing levels. */
 void convergence_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */

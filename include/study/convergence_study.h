@@ -16,9 +16,9 @@ struct spacings {
                                  * have, at at[level][0] [spacings] */
 };
 
-/* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings: `levels` levels
- * whose spacings have the ratio sqrt(2), the finest near `finest` [m], such that the lattice fits the bodies and
- * cracks. */
+/* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings. The spacings of the
+ * `levels` levels have about the ratio sqrt(2); the finest is near `finest` [m]. They are chosen such that the lattice
+ * fits the bodies and cracks. */
 void spacings_choose(struct spacings *spacings, const struct scene *s, int levels, double finest);
 
 /* Parameters in which a run of the study differs from the scene. */
@@ -72,37 +72,38 @@ struct convergence_request {
     struct study_options options;
 };
 
-/* Runs a convergence study as requested by *w and stores its runs and results in *s. Figures of failed runs are NAN in
- * the table. Returns REFUSED if the scene cannot be refined, if its runs cannot have a requested figure, or if the
- * time budget is too small (the message states the required one); FAILED if the coarsest run fails; INTERRUPTED if
- * options.stop is set. Release with convergence_study_free. */
+/* Runs a convergence study as *w requests and stores its runs and results in *s. Figures (scalar results) of failed
+ * runs are NAN in the table s->table. Returns REFUSED if the scene cannot be refined, if its runs cannot have a
+ * requested figure, or if the time budget is too small (the message states the required one). Returns FAILED if the
+ * coarsest run fails, INTERRUPTED if w->options.stop is set. Release s with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
 /* Frees the scene, runs and table of the convergence study *s. */
 void convergence_study_free(struct convergence_study *s);
 
-/* Determines the convergence of the figures (scalar results) that describe the body and have values at all levels.
- * wanted[wanteds]: names of the only figures to treat, none (0): all. Stores an allocated array in *figure, which the
- * caller releases with memory_free, and its length in *figures. Returns REFUSED if a named figure does not exist,
- * FAILED if no figure has values at all levels. */
+/* Determines the convergence of the figures (scalar results) of a study that describe the body and have values at all
+ * spacing levels. wanted[wanteds]: names of the figures to be treated; if wanteds is 0, all are. Stores an allocated
+ * array in *figure, which the caller releases with memory_free, and its length in *figures. Returns REFUSED if a named
+ * figure does not exist, FAILED if no figure has values at all levels. */
 status scalar_results_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                            struct scalar_result_study **figure, int *figures);
 
-/* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if one of
- * these files exists in the folder of a study and Cleave did not write it. Returns OK for any other folder, which
- * study_lock_folder checks. */
+/* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if `folder`
+ * is that of a study and contains one of these files although Cleave did not write it. Returns OK for any other folder,
+ * since study_lock_folder refuses it. */
 status scalar_results_check_replaceable(const char *folder);
 
-/* Writes the table of figure[figures] to the file converge.csv in the folder of the study, and the text of the scene
- * to the file that identifies the study. Returns FAILED if a file cannot be written. */
+/* Writes the table of the figures figure[figures] to the file converge.csv in the folder of the study, and the text of
+ * the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file cannot be written. */
 status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Prints to standard output a table of figure[figures], one sentence on each of them, and the parameter of the
- * discretisation to which they are most sensitive. */
+/* Prints to standard output a table of the figures figure[figures], a sentence on each of them, and the parameter of
+ * the discretisation to which each is most sensitive. */
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Draws figure[figures] over the particle spacing as pictures/convergence.png in the folder of the study and, if the
- * runs have cracks, their paths as pictures/path.png. Returns FAILED if a picture cannot be drawn. */
+/* Draws the figures figure[figures] (scalar results) over the particle spacing as pictures/convergence.png in the
+ * folder of the study. If the runs have cracks, also draws their paths as pictures/path.png. Returns FAILED if a
+ * picture cannot be drawn. */
 status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
 #endif

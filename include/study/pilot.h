@@ -19,17 +19,17 @@ struct pilot {
 
 struct pilot_wish;
 
-/* Prints to `out` which figure the pilot runs of a scene evaluate, which methods and spacings they vary and how much
- * time they take. w: request for pilot runs in the scene; scene: path of the scene file. Returns REFUSED if no pilot
- * runs of the scene are possible. */
+/* Prints to `out` which figure (scalar result) the pilot runs of a scene evaluate, which methods and spacings they vary
+ * and how much time they take. w: what the scene requires of its pilot runs; scene: path of the scene file. Returns
+ * REFUSED if no pilot runs of the scene are possible. */
 status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out);
 
-/* Reads a scene file with the overrides of its keys override[overrides]. If the scene has `method: auto`, makes pilot
- * runs in the folder FOLDER_pilot, FOLDER being that of the run, and stores the chosen method and spacing there; later
- * calls with the same scene and overrides use the stored choice. scene: path of the scene file; folder: folder of the
- * run, NULL for results/NAME; options: only its members quiet and stop are used. Stores the scene in *s and all
- * overrides in *p. Returns REFUSED if the scene is invalid, or if no method reaches the requested accuracy, with the
- * accuracy of each in the message; INTERRUPTED if options.stop is set. Release *p with pilot_free. */
+/* Reads the scene file `scene` with the overrides override[overrides] into *s. If it has `method: auto`, makes pilot
+ * runs in the folder FOLDER_pilot, FOLDER being that of the run, and stores the chosen method and spacing there. Later
+ * calls with the same scene and overrides use the stored choice. folder: folder of the run, NULL for results/NAME;
+ * options: only its members quiet and stop are used. Stores all overrides, those of the user and the chosen ones, in
+ * *p. Returns REFUSED if the scene is invalid, or if no method reaches the requested accuracy (the message states the
+ * accuracy of each), INTERRUPTED if options.stop is set. Release *p with pilot_free. */
 status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,
                         int overrides, const char *folder, struct study_options options);
 

@@ -47,63 +47,65 @@ struct study {
 
 /* ---- values (study_values.c) ------------------------------------------------------------------------------------- */
 
-/* Parses the text `KEY=VALUE,...` and stores the key and its values in *k. Values are separated by commas outside
- * brackets and quotes; `from:to:step` stands for equidistant numbers that include both ends, with at most one unit.
- * Returns REFUSED, with the reason, if the text is malformed. Release with varied_key_free. */
+/* Reads a key and its values from a text `KEY=VALUE,...` and stores them in *k. Values are separated by commas outside
+ * brackets and quotes. A value of the form FROM:TO:STEP, with at most one unit, stands for equidistant numbers that
+ * include both ends. Returns REFUSED, with the reason, if the text is malformed. Release k with varied_key_free. */
 status varied_key_read(struct varied_key *k, const char *text);
 
 /* Frees the key and the values of *k. */
 void varied_key_free(struct varied_key *k);
 
-/* Returns the number at the start of the text `value`, NAN if there is none. *unit receives a pointer to the rest of
- * the text after that number and spaces; the whole text if there is no number. */
+/* Returns the number at the beginning of the text `value`, NAN if there is none. Stores in *unit a pointer to the text
+ * after the number and the spaces that follow it, or to the whole text if there is no number. */
 double value_read_number(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
-/* Initialises a study without runs and creates no folder. scene: path of the scene file, kept by reference. folder:
- * folder of the study; NULL for results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED if the
- * name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release with study_free. */
+/* Initialises a study without runs and creates no folder. scene: path of the scene file, kept by reference; folder:
+ * folder of the study, NULL for results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED if the
+ * name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release s with study_free. */
 status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
 
-/* Initialises a study as study_make does, and stores the text of the scene in s->text, without the keys that vary.
- * folder, kind: as for study_make. key[keys]: keys of the study and their values; a key with a single value overrides
- * the scene in all runs. Returns FAILED or REFUSED if the scene cannot be read, as study_make does. */
+/* Initialises a study without runs, whose keys key[keys] vary between runs, and creates no folder. A key with a single
+ * value overrides the scene in all runs. Stores the text of the scene without the varied keys in s->text. scene: path
+ * of the scene file, kept by reference; folder: folder of the study, NULL for results/NAME_KIND with the name of the
+ * scene and KIND = kind. Returns REFUSED if the name of the folder is empty or too long, FAILED or REFUSED if the scene
+ * cannot be read. Release s with study_free. */
 status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *kind,
                             const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
- * kind, to `folder`, which holds `capacity` bytes. */
+ * kind, to folder[capacity]. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *kind);
 
-/* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
+/* Checks that `folder` may be used for a study of the scene with the text `text`. Returns REFUSED if it contains a
  * study of another scene, or files that Cleave did not write. */
 status study_folder_check_scene(const char *folder, const char *text);
 
-/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it is one already.
- * Returns REFUSED if the folder holds files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
- * link; FAILED if the file cannot be written. */
+/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it exists. Returns
+ * REFUSED if the folder contains files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
+ * symbolic link; FAILED if the file cannot be written. */
 status study_folder_mark(const char *folder);
 
-/* Checks `folder` as study_folder_mark does, but writes nothing. Returns REFUSED if the folder holds files that Cleave
- * did not write, or if its subfolder `logs` or `pictures` is a link. */
+/* Checks that `folder` may be used for a study, without writing anything. Returns REFUSED if it contains files that
+ * Cleave did not write, or if its subfolder `logs` or `pictures` is a symbolic link. */
 status study_folder_check(const char *folder);
 
-/* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */
+/* Returns true if `folder` contains the file STUDY_SCENE of a study of the scene with the text `text`. */
 bool study_has_scene(const char *folder, const char *text);
 
 /* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, a line with the options of
- * the study, then the text of the scene. options: text of study_options_make; NULL: the line is left out. Returns
- * FAILED if the file cannot be written. */
+ * the study, then `text`, the text of the scene. options: options in the form of study_options_make; if NULL, their
+ * line is left out. Returns FAILED if the file cannot be written. */
 status study_write_scene(const char *folder, const char *text, const char *options);
 
-/* Composes the options of the command of a study as words for a shell, as given in argv[argc] behind the name of the
- * command, without the scene and without what changes no result: -o, -q, --overwrite, --list, --collect. scene: the
- * word of argv that names the scene. The caller releases the text with memory_free. */
+/* Composes the options of the command of a study as words for a shell, from argv[argc], the words after the name of the
+ * command. Leaves out the scene, and options that change no result: -o, -q, --overwrite, --list, --collect. scene: the
+ * word of argv that names the scene. Returns an allocated text, which the caller releases with memory_free. */
 char *study_options_make(int argc, char *const *argv, const char *scene);
 
-/* Returns the options with which the study in `folder` was made, as study_options_make composes them, or NULL if they
- * are unknown. The caller releases the text with memory_free. */
+/* Returns the options with which the study in `folder` was made, as words for a shell, or NULL if they are unknown. The
+ * caller releases the text with memory_free. */
 char *study_options_read(const char *folder);
 
 /* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
@@ -112,10 +114,10 @@ void study_print_word(FILE *out, const char *word);
 /* Frees the runs, texts and tables of the study *s and unlocks its folder. */
 void study_free(struct study *s);
 
-/* Adds a run to the study, with copies of the overrides override[overrides] of keys of the scene. name: desired name
- * of its folder, which is restricted to characters that every file system accepts; if it is too long or already taken,
- * the name case-HASH is used, HASH being a hash of the overrides that does not depend on their order. Returns the run,
- * which belongs to the study; the pointer is valid until the next call. */
+/* Adds a run to the study, with copies of override[overrides], its overrides of keys of the scene. name: desired name
+ * of its folder, which is restricted to characters that every file system accepts. If it is too long or already taken,
+ * the name case-HASH is used, with a hash of the overrides that does not depend on their order. Returns the run, which
+ * belongs to the study; the pointer is valid until the next call. */
 struct study_case *study_add_case(struct study *s, const char *name, const struct scene_override *override,
                                   int overrides);
 
@@ -136,16 +138,17 @@ void study_print_equal_scene_count(const struct study *s, FILE *out);
  * The text belongs to the run. */
 const char *study_case_value(const struct study_case *c, const char *key);
 
-/* Closes `to`, a memory stream that memory_stream_open has opened on *text and *length, and writes its *length bytes
- * as the file `name` in the folder of the study; frees *text. Returns FAILED if `to` is NULL because memory was
- * exhausted, or if the file cannot be written. */
+/* Writes the file `name` in the folder of the study from a memory stream. to: the stream, which is closed, or NULL if
+ * there was no memory for it; text, length: its contents *text of *length bytes, which are released. Returns FAILED if
+ * `to` is NULL or the file cannot be written. */
 status study_write_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 
-/* Returns the run whose results stand for those of run c: the run with an equal scene if the state of c is CASE_SAME,
- * else c. */
+/* Returns the run whose results are used for run c: a run with an equal scene if the state of c is CASE_SAME, else c
+ * itself. */
 const struct study_case *study_case_with_results(const struct study *s, const struct study_case *c);
 
-/* Returns the path of the folder that holds the results of run c, that of study_case_with_results. */
+/* Returns the path of the folder with the results of run c; if the state of c is CASE_SAME, it is the folder of the run
+ * with an equal scene. */
 struct path study_case_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
@@ -161,17 +164,17 @@ struct study_options {
 };
 
 /* Locks the folder of the study for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
- * not exist, is that of a single run, holds files that Cleave did not write, is in use by another process or, unless
- * `overwrite` is true, holds a study of another scene. */
+ * not exist, is that of a single run, contains files that Cleave did not write, or is in use by another process. Also
+ * returns REFUSED if it contains a study of another scene, unless `overwrite` is true. */
 status study_lock_folder(struct study *s, bool overwrite);
 
 /* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
  * process. how: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
- * appears on standard error, and the study continues. Returns REFUSED as study_lock_folder does, FAILED if a process
- * cannot be started, INTERRUPTED if how.stop is set. */
+ * appears on standard error, and the study continues. Returns REFUSED if the folder cannot be used (see
+ * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if how.stop is set. */
 status study_run(struct study *s, struct study_options how);
 
-/* Prints to `out` the shell command that executes run c alone, valid in any current folder, with quotes where the
+/* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the
  * shell requires them. how: options of the study. */
 void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out);
 
@@ -186,7 +189,7 @@ struct study_table {
 };
 
 /* Reads all numbers from the summaries of the finished runs of a study into *t. Returns FAILED if a summary cannot be
- * read. Release with study_table_free. */
+ * read. Release t with study_table_free. */
 status study_table_read(struct study_table *t, const struct study *s);
 
 /* Frees the names and values of the table *t. */
@@ -195,25 +198,25 @@ void study_table_free(struct study_table *t);
 /* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
 int study_find_result(const struct study_table *t, const char *name);
 
-/* Checks that runs of the scene s can have a figure (a number in summary.json) called `name` (figure_names.c). Returns
- * REFUSED if not, with the most similar name in the message. */
+/* Checks that runs of the scene s can have a figure (a number in summary.json) called `name`. Returns REFUSED if they
+ * cannot, with the most similar name in the message. */
 status result_name_check(const struct scene *s, const char *name);
 
 /* Returns true if the figure called `name` describes the computation or the discretisation (time, number of particles)
  * instead of the body. */
 bool study_result_is_technical(const char *name);
 
-/* Reads the header of the history.csv of the first run that has such a file into `header`, which holds `capacity`
- * bytes;
- * "" if there is none. study_result_unit takes units from the header. */
+/* Reads the header line of history.csv of the first run of the study that has such a file into header[capacity]; "" if
+ * there is none. study_result_unit takes units from it. */
 void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
-/* Determines the SI unit of the figure called `figure` and writes it to `unit`, which holds `capacity` bytes; "" if the
- * figure has no unit or it is unknown. header: text from study_read_history_header. */
+/* Determines the SI unit of the figure (a number in summary.json) called `figure` and writes it to unit[capacity]; ""
+ * if the figure has no unit or it is unknown. header: header line of history.csv, as study_read_history_header returns
+ * it. */
 void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure);
 
-/* Prints each distinct warning of the runs of a study to `out`: the number of runs that have it, and the text of the
- * first one. */
+/* Prints each kind of warning of the runs of a study to `out`: the number of runs that have it, and the text of the
+ * first one. Warnings that differ only in numbers are of one kind. */
 void study_print_warnings(const struct study *s, FILE *out);
 
 /* Writes the table sweep.csv to the folder of the study, one line for each run: name, state, values of the keys
@@ -221,14 +224,14 @@ void study_print_warnings(const struct study *s, FILE *out);
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
 /* Checks that the table sweep.csv and the pictures of the study may be written, one picture for each of the keys
- * key[keys]. Returns REFUSED if one of these files exists in the folder of a study and Cleave did not write it.
- * Returns OK for any other folder, which study_lock_folder checks. */
+ * key[keys]. Returns REFUSED if the folder is that of a study and contains one of these files although Cleave did not
+ * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files(const struct study *s, const struct varied_key *key, int keys);
 
-/* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the study,
- * and pictures/map.png over two keys. key[keys]: keys of the study and their values; result[results]: names of the
- * figures, up to six; 0: the first ones that differ. Returns REFUSED if there is no such figure, FAILED if a picture
- * cannot be drawn. */
+/* Draws figures of a study (numbers in summary.json) over the values of each of its varied keys, as pictures/KEY.png in
+ * the folder of the study, and over two keys as pictures/map.png. key[keys]: keys of the study and their values;
+ * result[results]: names of the figures, up to six; if results is 0, the first ones that differ between runs are drawn.
+ * Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
                   const char *const *result, int results);
 

@@ -6,12 +6,13 @@
 #include "output/output_files.h"
 #include "step/report.h"
 
-/* Returns the path FOLDER_pilot of the folder that holds the pilot runs of the run in `folder`. */
+/* Returns the path FOLDER_pilot of the folder for the pilot runs of the run in `folder`, with FOLDER = folder. */
 struct path pilot_folder(const char *folder);
 
-/* Reads the half-widths of the 95 % intervals of figures from an existing convergence study of the scene s: that in
- * NAME_converge beside `folder`, the folder of the run, or else that of its pilot runs. Stores at most `capacity`
- * half-widths in bar[]. Returns their number; 0 if there is no study of this scene or it cannot be read. */
+/* Reads the half-widths of the 95 % intervals of figures (scalar results) from an existing convergence study of the
+ * scene s. It is the study in the folder NAME_converge beside `folder`, the folder of the run, or else that of its
+ * pilot runs. Stores at most `capacity` figures with their half-widths in bar[]. Returns their number; 0 if there is no
+ * study of this scene or it cannot be read. */
 int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, const char *folder);
 
 #endif
