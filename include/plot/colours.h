@@ -24,31 +24,33 @@ enum colour_table {
 };
 #define COLOUR_TABLE_WORDS "usual|viridis|cividis|inferno|magma|grey|diverging"
 
-/* Returns the colour at `position`, 0 .. 1, of the colour table `table`; values outside are clamped, NaN and infinity
- * count as 1. */
+/* Returns the colour at `position` in 0 .. 1 of the colour table `table`. Smaller and larger values are treated as 0
+ * and 1, NaN and infinity as 1. */
 struct colour colour_from_table(enum colour_table table, double position);
 
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
- * lightness. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+ * lightness. position: position on the scale, 0 .. 1. Smaller and larger values are treated as 0 and 1, NaN and
+ * infinity as 1. */
 struct colour colour_sequential(double position);
 
 /* Returns a colour of the diverging scale for signed quantities: blue at 0, grey at 0.5, red at 1. position: position
- * on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+ * on the scale, 0 .. 1. Smaller and larger values are treated as 0 and 1, NaN and infinity as 1. */
 struct colour colour_diverging(double position);
 
 /* Returns a colour of the scale for damage: grey at 0, then orange, dark red at 1. position: position on the scale, 0
- * .. 1; values outside are clamped, NaN and infinity count as 1. */
+ * .. 1. Smaller and larger values are treated as 0 and 1, NaN and infinity as 1. */
 struct colour colour_damage(double position);
 
-/* Returns the colour of a peridynamic particle in maps of the particle kind, which darkens from light to dark blue
- * with its damage. position: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
+/* Returns the colour of a peridynamic particle in maps of the particle kind. It goes from light blue at 0 to dark blue
+ * at 1. position: position on this scale, 0 .. 1, which depends on the damage of the particle. Smaller and larger
+ * values are treated as 0 and 1, NaN and infinity as 1. */
 struct colour colour_of_peridynamic_particle(double position);
 
 /* Returns the colour of material points in maps of the particle kind. */
 struct colour colour_of_material_points(void);
 
-/* Returns the colour of the fragment with index `fragment`, 0 for the heaviest; -1: the colour of particles without
- * bonds. */
+/* Returns the colour of the fragment with the index `fragment`, 0 for the heaviest one. -1 denotes particles without
+ * bonds, which belong to no fragment and have a colour of their own. */
 struct colour fragment_colour(int32_t fragment);
 
 /* Returns the colour of the material or body with the index `index` >= 0. The colours are light, so that symbols drawn

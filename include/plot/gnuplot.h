@@ -40,26 +40,28 @@ enum {
 void picture_size_set(struct picture_size size);
 struct picture_size picture_size_get(void);
 
-/* Starts gnuplot to draw the picture `path` of width x height pixels (the size of picture_size_set, if set, is used
- * instead), and sends the style common to all pictures: thin grey axes at the bottom and left, sans-serif font, key
- * outside on the right. Stores the process in *g. Returns REFUSED if the path has control characters or the file must
- * not be replaced (file_check_replaceable), FAILED if gnuplot cannot be started. Close with gnuplot_close. */
+/* Starts gnuplot to draw the picture `path` of width x height pixels, and stores the process in *g. A size that was set
+ * by picture_size_set replaces width and height. Sends the style common to all pictures: thin grey axes at the bottom
+ * and left, sans-serif font, key outside on the right. Returns REFUSED if the path has control characters or is a file
+ * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Starts gnuplot as gnuplot_open does, for a picture that is laid out for width x height pixels. If picture_size_set
- * has set a size, the whole picture, letters and lines included, is scaled from width x height to that size. */
+/* Starts gnuplot to draw the picture `path`, which is laid out for width x height pixels, and stores the process in *g.
+ * If a size was set by picture_size_set, the whole picture, letters and lines included, is scaled from width x height
+ * to that size. Sends the style common to all pictures. Returns REFUSED if the path has control characters or is a file
+ * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
+/* Returns true if the size set by picture_size_set is so narrow that there is no space for a key beside the panels. */
 bool gnuplot_is_narrow(void);
 
 /* Writes the commands for the title of a picture, which begins `left` pixels from its left edge. A title that is too
  * long for one line of letters of legible size is broken into two lines. */
 void gnuplot_write_title(const struct gnuplot *g, const char *text, double left);
 
-/* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if
- * gnuplot is missing (the message names the package) or the picture is missing or incomplete (the message has that of
- * gnuplot); an existing picture remains then. */
+/* Ends the input of gnuplot, waits until the picture is complete, and renames it from its temporary name to its final
+ * path. Returns FAILED if gnuplot is missing (the message names the package to install), or if the picture is missing
+ * or incomplete (the message contains that of gnuplot). An existing picture at the final path then remains. */
 status gnuplot_close(struct gnuplot *g);
 
 /* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`

@@ -27,8 +27,8 @@ struct camera {
 /* Directions of an isometric view. */
 extern const struct camera camera_isometric;
 
-/* Returns the directions of a view along the coordinate axis `axis`, 0 .. 2 for x, y, z. side: +1 if the viewer is on
- * the side of larger coordinates, -1 if on the other side. */
+/* Returns the directions (right, up, towards the viewer) of a view along the coordinate axis `axis`, 0 .. 2 for x, y,
+ * z. side: +1 if the viewer is on the side of larger coordinates, -1 if on the other side. */
 struct camera camera_along_axis(int axis, int side);
 
 struct plot_field;
@@ -84,11 +84,11 @@ status field_draw_picture(const struct plot_request *r);
 /* Returns true if the folder of a run holds a file called `name`. */
 bool run_has_file(const char *folder, const char *name);
 
-/* Returns true if a folder holds a sweep or a convergence study, by its table. */
+/* Returns true if `folder` is that of a sweep or a convergence study, which is recognised by its table. */
 bool folder_holds_study(const char *folder);
 
-/* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
- * be read or is damaged. Release with frame_free. */
+/* Reads the frame with the number `number` in the folder of a run into *f. Returns FAILED, with no memory to release,
+ * if the file cannot be read or is damaged. Release f with frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int number);
 
 /* All frames of a run, and those selected for a picture. */
@@ -99,24 +99,24 @@ struct run_frames {
     struct listed_frame *show; /* [shown] frames of the panels */
 };
 
-/* Lists the frames of the run in r->folder, and selects those that the request r asks for by number or time. Stores
- * both in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
- * list of frames. Release with run_frames_free. */
+/* Lists all frames of the run in r->folder, and selects those that the request r demands by number or time. Stores both
+ * lists in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
+ * list of frames. Release f with run_frames_free. */
 status run_frames_select(struct run_frames *f, const struct plot_request *r);
 
 /* Releases the lists of frames in *f. */
 void run_frames_free(struct run_frames *f);
 
-/* Reads all selected frames of a run into an allocated array *f, [frames->shown]. folder: folder of the run. Returns
- * FAILED, with no memory to release, if a frame cannot be read. Release with frames_free. */
+/* Reads all selected frames of a run. folder: folder of the run. Stores an allocated array of frames->shown frames in
+ * *f, which is released with frames_free. Returns FAILED, with no memory to release, if a frame cannot be read. */
 status frames_read(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
 /* Releases the n frames f[n] and their array. */
 void frames_free(struct output_frame *f, int n);
 
-/* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a link has this name or, unless
- * `overwrite` is true, the folder holds a file with the name of a picture that Cleave did not draw; FAILED if the
- * folder cannot be created. */
+/* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a symbolic link has this name. Also
+ * returns REFUSED if the folder contains a file with the name of a picture that Cleave did not draw, unless `overwrite`
+ * is true. Returns FAILED if the folder cannot be created. */
 status pictures_folder_make(const char *path, bool overwrite);
 
 /* Determines the path of a picture from `option_argument`, the argument of the option -o, and stores it in *path.
@@ -132,9 +132,9 @@ status report_nothing_to_draw(const char *path, const char *why);
 enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
 
-/* Composes the title `name, method: what` of a picture in title[TITLE_LENGTH]. Name and method are read from the run
- * in r->folder; unknown parts are left out. r->title, if given, is the title instead. c: particles of the picture,
- * whose position of the slice and factor on displacements are added; may be NULL. */
+/* Composes the title of a picture in title[TITLE_LENGTH]: `name, method: what`, with name and method of the run in
+ * r->folder; unknown parts are left out. If r->title is given, it is the title. c: particles of the picture, for which
+ * the position of the slice and the factor on displacements are added, or NULL. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *what,
                            const struct plotted_particles *c);
 
@@ -152,8 +152,9 @@ struct unit unit_for_largest_value(double largest, const char *name);
  * with an SI prefix. */
 struct unit unit_for_length(double largest);
 
-/* Returns the unit with the prefix for which the number for `largest` has one to three digits before the point, if
- * `name` is a unit that takes prefixes (s, m, m/s, N, J, Pa, W); else the unit itself. name: unit without prefix. */
+/* Returns a unit for values up to `largest` (in SI units). If `name` is a unit that takes prefixes (s, m, m/s, N, J,
+ * Pa, W), it has the prefix with which `largest` has one to three digits before the decimal point; else it is the unit
+ * itself. name: unit without prefix. */
 struct unit unit_with_allowed_prefix(const char *name, double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
@@ -175,16 +176,17 @@ struct plot_field {
  * name, or if it has no meaning in this dimension. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
 
-/* Writes the name of a field as a picture has it, for example `stress xx`. text: capacity `capacity` [byte]. */
+/* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity]. */
 void plot_field_label(char *text, size_t capacity, const struct plot_field *field);
 
 /* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
  * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
 status plot_field_read(float **value, const struct plot_field *field, const struct output_frame *f, const char *path);
 
-/* Chooses the field of a run that is drawn if none is asked for: damage if bonds have broken up to the last selected
- * frame, else plastic strain, von Mises stress or speed, the first of them that is not 0 everywhere in that frame;
- * damage if all are. Returns FAILED if a frame cannot be read. */
+/* Chooses the field of a run that is drawn if the user names none, and stores it in *field. It is damage if bonds have
+ * broken up to the last selected frame. Otherwise it is the first one of plastic strain, von Mises stress and speed
+ * that is not 0 everywhere in that frame, or damage if all of them are. folder: folder of the run; frames: selected
+ * frames. Returns FAILED if a frame cannot be read. */
 status plot_field_choose(const struct plot_field **field, const char *folder, const struct run_frames *frames);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
@@ -231,21 +233,22 @@ struct plotted_particles {
     struct rigid_shown *rigid; /* [rigids] */
 };
 
-/* Copies the particles of the frame f that a picture shows into *c. projection: slice or outside view of a body in
- * three dimensions; NULL for the slice with the largest damage. Release with plotted_particles_free. */
+/* Copies those particles of the frame f that a picture shows into *c. projection: slice of a body in three dimensions,
+ * or view of it from outside; NULL for the slice with the largest damage. Release c with plotted_particles_free. */
 void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
                             const struct projection *projection);
 
-/* Reads a frame of the run in `folder` and copies the particles that a picture shows into *c, with the values of
- * projection->field if it is set. Returns FAILED, with no memory to release, if the frame cannot be read or lacks the
- * field. Release with plotted_particles_free. */
+/* Reads a frame of the run in `folder` and copies those particles that a picture shows into *c, with the values of
+ * projection->field if it is set. projection: slice of a body in three dimensions, or view of it from outside. Returns
+ * FAILED, with no memory to release, if the frame cannot be read or lacks the field. Release c with
+ * plotted_particles_free. */
 status plotted_particles_read(struct plotted_particles *c, const char *folder, const struct listed_frame *frame,
                               const struct projection *projection);
 
-/* Computes the deformation gradients of all particles of the frame f, [f->n][9], rows along x, y, z [1], as fits to the
- * displacements of near particles that a crack does not separate. spacing: of the particles [m]; displacement_factor:
- * factor on displacements; scene: for its pre-cracks; NULL: none are known. Returns an allocated array, which the
- * caller releases with memory_free, or NULL if no deformation is visible. */
+/* Computes the deformation gradients F of all particles of the frame f, as fits to the displacements of neighbours that
+ * no crack separates. spacing: of the particles [m]; displacement_factor: factor on displacements; scene: for its
+ * pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by rows along x, y, z [1], which
+ * the caller releases with memory_free, or NULL if no deformation is visible. */
 float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
                                   const struct scene *scene);
 
@@ -256,9 +259,10 @@ bool matrix_invert(const double matrix[3][3], double inverse[3][3]);
 /* Releases the arrays of *c. */
 void plotted_particles_free(struct plotted_particles *c);
 
-/* Completes a slice through a body in three dimensions from the particles of the frame f: sets normal and position of
- * the slice if they are not set, else moves the given position to the nearest particles. Does nothing for outside
- * views and lower dimensions. Returns REFUSED if no particle is within one spacing of the given position. */
+/* Completes the slice `projection` through a body in three dimensions from the particles of the frame f. Sets its
+ * normal if it is not set. Sets its position if it is not set, else moves it to the nearest layer of particles. Does
+ * nothing for views from outside and in lower dimensions. Returns REFUSED if no particle is within one spacing of the
+ * given position. */
 status projection_complete_slice(struct projection *projection, const struct output_frame *f);
 
 /* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
@@ -268,11 +272,12 @@ double frame_spacing(const struct output_frame *f);
 /* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
-/* Returns the kind of map that shows a field. */
+/* Returns the kind of map (MAP_...) in which a field is shown. */
 enum map map_of_field(const struct plot_field *field);
 
-/* Adds the rigid bodies of the scene s (NULL: none) at frame `number` of the run in `folder` to the particles of the
- * frame f. Adds none if the run has no files of rigid bodies. s: kept by reference. */
+/* Adds the rigid bodies of the scene s, in their positions at frame number `number` of the run in `folder`, to the
+ * particles c of this frame. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s: kept
+ * by reference. */
 void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
                                   const char *folder, int number);
 
@@ -296,8 +301,8 @@ struct categories {
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
                      const struct plotted_particles *cloud, int clouds);
 
-/* Returns the colour in which a named value (body, material and so on) of the field is drawn. value: index of the
- * body, material and so on. */
+/* Returns the colour in which a value of a field is drawn whose values have names, such as bodies or materials. value:
+ * index of the body, material and so on. */
 struct colour category_colour(const struct plot_field *field, float value);
 
 /* Rectangle of a map and the options of its display. */
@@ -319,59 +324,59 @@ struct view {
  * causes damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
-/* Returns the rectangle in which all particle sets cloud[clouds] are shown: the bounding box of the body with a
- * margin. A few particles that are far from all others may lie outside. */
+/* Returns a view whose rectangle shows all of cloud[clouds], the particles of several frames: the bounding box of the
+ * body with a margin. A few particles that are far from all others may be outside. */
 struct view view_around(const struct plotted_particles *cloud, int clouds);
 
-/* Sets the field that the view v shows and the values at the ends of its colour scale, by field->scale and the values
- * in cloud[clouds]. Extreme values of a few particles are ignored. */
+/* Sets the field that the view v shows, and the values at the ends of its colour scale. These follow from the kind of
+ * scale of the field (field->scale) and its values in cloud[clouds]. Extreme values of a few particles are ignored. */
 void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds);
 
-/* Makes the view *v of cloud[clouds] that the request r asks for: rectangle, ends and table of the colours of its
- * field, pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with a unit of the field,
- * or if they are in the wrong order; FAILED if there are no positions. */
+/* Makes the view *v of cloud[clouds] that the request r demands: its rectangle, the ends and the table of the colours
+ * of its field, and the pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with a unit
+ * of the field, or if they are in the wrong order; FAILED if there are no positions. */
 status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds);
 
 /* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
-/* Returns the colour at position a, 0 .. 1, of the colour scale of a map of the kind `map`. v: view, whose field
- * and table determine the scale of MAP_FIELD. */
+/* Returns the colour at `position` in 0 .. 1 on the colour scale of a map of the kind `map`. v: view, whose field and
+ * table determine the scale if `map` is MAP_FIELD. */
 struct colour map_colour(const struct view *v, enum map map, double position);
 
-/* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
- * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated, that
- * deforms with the body; each pixel shows the nearest particle. Pixels without a particle are white and transparent.
- * Outside views are painted by cubes_paint_particles. */
+/* Paints the particles of c, seen in the rectangle of `view`, into the image pixel[height * width], rows from bottom to
+ * top. map: quantity that the colours show. Each particle covers a square, or a disc if the lattice is rotated, which
+ * deforms with the body. Each pixel shows the particle nearest to it. Pixels without a particle are white and
+ * transparent. For plane bodies and slices; cubes_paint_particles paints views from outside. */
 void raster_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                             const struct plotted_particles *c, enum map map);
 
-/* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. map: quantity that the
- * colours show; view: visible rectangle and range of the colours. Each particle is drawn as a cube that deforms
- * with the body; each pixel shows the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in
- * front of the body in faded colours.
- */
+/* Paints the particles of c, as seen from outside by a camera, into the image pixel[height * width], rows from bottom
+ * to top. map: quantity that the colours show; view: visible rectangle and range of the colours. Each particle is drawn
+ * as a cube that deforms with the body. Each pixel shows the cube nearest to the viewer. In MAP_CRACKS the body is
+ * painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over it. */
 void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                            const struct plotted_particles *c, enum map map);
 
 /* Returns the colour of rigid bodies. */
 struct colour rigid_colour(void);
 
-/* Extends the rectangle of the view v so that it shows the rigid bodies of c near the particles. */
+/* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
 void view_show_rigids(struct view *v, const struct plotted_particles *c);
 
-/* Returns true if a rigid body of c is in a picture of the rectangle of v: in outside views always, else if the body
- * reaches into the plane of the picture, by 300 x 300 samples. */
+/* Returns true if a rigid body of c is visible in the rectangle of v. In views from outside this is assumed for any
+ * rigid body. Otherwise the body must reach into the plane of the picture, which is tested at 300 x 300 points. */
 bool rigids_are_visible(const struct view *v, const struct plotted_particles *c);
 
-/* Paints the rigid bodies of c, seen in the rectangle of v, into pixel[height][width] of a flat map: of a plane body
- * behind the particles, of a slice in front of them. */
+/* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
+ * slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
 void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
                        const struct plotted_particles *c);
 
-/* Paints the rigid bodies of c in an outside view into pixel[height][width], row 0 at the bottom, where they are nearer
- * to the viewer than the depth stored in depth[height][width] [m], which is updated. v: visible rectangle; share:
- * weight of their colour against white, 1 for the full colour. */
+/* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
+ * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
+ * [m], which is then updated. v: visible rectangle; share: weight of the colour of the bodies against white, 1 for the
+ * full colour. */
 void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
                           const struct plotted_particles *c, double share);
 
@@ -381,9 +386,9 @@ struct sheet {
     enum picture_format format;
 };
 
-/* Draws one picture, the file `sheet`, with a panel for each of cloud[clouds], a common colour scale or key, and
- * `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED
- * if gnuplot fails. */
+/* Draws one picture, the file `sheet`, with a panel for each of the frames cloud[clouds], a common colour scale or key,
+ * and `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns
+ * FAILED if gnuplot fails. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct plotted_particles *cloud, int clouds);
 

@@ -6,8 +6,8 @@
 #include "plot/plot.h"
 #include "scene/scene.h"
 
-/* Draws the initial state of the scene in the file `path`, with overrides of its keys override[overrides], and prints
- * what was drawn. Creates the bodies as a run does before its first step. r->out: output file or folder, NULL for
+/* Draws the initial state of the scene in the file `path`, read with the overrides override[overrides], and prints what
+ * was drawn. The bodies are created as for the first step of a run. r->out: output file or folder, NULL for
  * results/NAME_scene.png; r->projection: direction of view of a body in three dimensions. Returns REFUSED if the scene
  * is invalid or r does not suit it, FAILED if gnuplot fails. */
 status scene_draw_picture(const char *path, const struct scene_override *override, int overrides,
