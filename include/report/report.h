@@ -13,10 +13,10 @@ struct report_request {
     bool quiet;         /* do not print the name of the page */
 };
 
-/* Writes the page of the run or study in r->folder: one HTML file that needs no other file and no network. A run may
- * still be running or interrupted. Prints the name of the page and its size. Returns REFUSED if the folder holds
- * neither, or if the page would replace a file that is no page of Cleave; FAILED if a file cannot be read or written.
- */
+/* Writes a page about the run or study in the folder r->folder: one HTML file that needs no other file and no network.
+ * The run may be finished, interrupted or still running. Prints the name of the page and its size. Returns REFUSED if
+ * the folder contains neither a run nor a study, or if the page would replace a file that is no page of Cleave; FAILED
+ * if a file cannot be read or written. */
 status report_write(const struct report_request *r);
 
 #endif
