@@ -21,16 +21,18 @@ struct export_request {
     bool overwrite;       /* replace an older export in the folder */
 };
 
-/* Exports a scene to LAMMPS: writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and
- * prints the estimated cost of the run in LAMMPS. Returns REFUSED, with the reason and without writing anything, if
- * LAMMPS cannot run the scene or would give another result, if the folder holds other files, or if it holds an export
- * and `overwrite` is false; FAILED if a file cannot be written. */
+/* Exports the scene request->scene to LAMMPS: writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into
+ * the folder request->folder, and prints the estimated cost of the run in LAMMPS. Returns REFUSED, with the reason and
+ * without writing anything, if LAMMPS cannot run the scene, or if its results would differ and request->allow_different
+ * is false. Also returns REFUSED if the folder contains other files, or an export and request->overwrite is false.
+ * Returns FAILED if a file cannot be written. */
 status export_lammps(const struct export_request *request);
 
-/* Exports the particles of a scene, or the frames of a run (request->scene: its folder), to the Exodus II file
- * request->folder: spheres in a block for each material, node sets of loads, fields over time. Prints what it holds.
- * Returns REFUSED without writing anything if the scene is faulty, if particles were made during the run, or if the
- * file is there and is no export or `overwrite` is false; FAILED if it cannot be written. */
+/* Exports the particles of a scene, or the frames of a run, to the Exodus II file request->folder. request->scene: the
+ * scene file, or the folder of the run. The file contains particles as spheres in a block for each material, node sets
+ * of loads, and fields over time. Prints these contents. Returns REFUSED without writing anything if the scene is
+ * faulty, if particles were created during the run, if a file exists that is no export, or if an export exists and
+ * request->overwrite is false. Returns FAILED if the file cannot be written. */
 status export_exodus(const struct export_request *request);
 
 #endif
