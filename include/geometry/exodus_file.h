@@ -22,52 +22,58 @@ struct exodus_file {
     int64_t nodes, blocks, node_sets, side_sets, element_sets;
 };
 
-/* Opens the content of the file `path`: content[length], which must outlive f. Returns REFUSED, with a message, if it
- * is no Exodus II file; then nothing need be closed. Close with exodus_close. */
+/* Opens an Exodus II file that has been read into memory. path: its name, for messages; content[length]: its contents,
+ * which must outlive f. Returns REFUSED, with a message, if it is no Exodus II file; then nothing has to be closed.
+ * Close f with exodus_close. */
 status exodus_open(struct exodus_file *f, const char *path, const char *content, int64_t length);
 
-/* Reads the file `path` into memory, registers it as an input and opens it as exodus_open does. Close with
- * exodus_close. */
+/* Reads the Exodus II file `path` into memory and opens it. The file is registered as an input of the command that is
+ * running, so that it is not overwritten. Returns REFUSED, with a message, if it cannot be read or is no Exodus II
+ * file; then nothing has to be closed. Close f with exodus_close. */
 status exodus_open_path(struct exodus_file *f, const char *path);
 
-/* Closes f. */
+/* Closes the file f and releases the memory that it owns. */
 void exodus_close(struct exodus_file *f);
 
-/* Returns true if path ends in one of the endings of Exodus II files: .exo, .e, .ex2, .exii, .g, .gen. */
+/* Returns true if the file name `path` has an extension of Exodus II files: .exo, .e, .ex2, .exii, .g or .gen. */
 bool is_exodus_name(const char *path);
 
 /* Sets the message `path: text` and returns REFUSED. format: text as in printf. */
 status exodus_report_fault(const struct exodus_file *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Returns the length of the dimension that is called `name` followed by `number` (0: without a number), or 0 if the
- * file has no such dimension. */
+/* Returns the length of a dimension of the file, or 0 if it has no such dimension. The dimension is called `name`
+ * followed by `number`, or only `name` if `number` is 0. */
 int64_t exodus_read_dimension(const struct exodus_file *f, const char *name, int64_t number);
 
-/* Returns true if the file has an array that is called `name` followed by `number` (0: without a number). */
+/* Returns true if the file has the array that is called `name` followed by `number`, or only `name` if `number` is
+ * 0. */
 bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t number);
 
-/* Reads the array that is called `name` followed by `number` (0: without a number) into *value, allocated, of `count`
- * finite numbers in all; the caller frees it with memory_free. Returns REFUSED, with a message and *value NULL, if it
- * is missing, is not one of numbers, or has another size. */
+/* Reads an array of `count` finite numbers into a new array *value, which the caller releases with memory_free. It is
+ * called `name` followed by `number`, or only `name` if `number` is 0. Returns REFUSED, with a message and *value NULL,
+ * if it is missing, contains no numbers, or has another size. */
 status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value);
 
-/* Reads an array of `count` whole numbers, as exodus_read_reals does. */
+/* Reads an array of `count` whole numbers into a new array *value, which the caller releases with memory_free. It is
+ * called `name` followed by `number`, or only `name` if `number` is 0. Returns REFUSED, with a message and *value NULL,
+ * if it is missing, contains no numbers, or has another size. */
 status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count,
                             int64_t **value);
 
-/* Reads the coordinates of all nodes [unit of the file] into axis[d], d below f->dim, allocated, f->nodes numbers each;
- * the caller frees them with memory_free, also after a failure. axis[d] are NULL before. Returns REFUSED, with a
- * message, if they are missing or not finite. */
+/* Reads the coordinates of all nodes [unit of the file] into new arrays axis[d], d = 0 .. f->dim - 1, of f->nodes
+ * numbers each. The caller must have set axis[d] to NULL, and releases the arrays with memory_free, also after a
+ * failure. Returns REFUSED, with a message, if coordinates are missing or not finite. */
 status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX]);
 
-/* Reads row `row` of `rows` rows of text in the array that is called `name` followed by `number` into
- * text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such array. */
+/* Reads one row of an array of text into text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such
+ * array. The array is called `name` followed by `number`, or only `name` if `number` is 0. row: number of the row, from
+ * 0; rows: number of rows that the array must have. */
 void exodus_read_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows,
                       char *text);
 
-/* Reads the type, the number of elements and the number of nodes per element of block `number` (from 1).
- * type[NAME_MAX_LENGTH]: in capital letters. Returns REFUSED, with a message, if the block has no list of nodes for
- * each element. */
+/* Reads the properties of the block with the number `number` (from 1). Stores the type of its elements in capital
+ * letters in type[NAME_MAX_LENGTH], their number in *elements and the number of nodes of each in *nodes_per_element.
+ * Returns REFUSED, with a message, if the block has no list of nodes, or does not name the type of its elements. */
 status exodus_read_block_header(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
                                 int64_t *nodes_per_element);
 

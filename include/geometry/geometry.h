@@ -23,11 +23,12 @@ struct geometry {
     struct geometry_set *set;
 };
 
-/* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g; the extension selects the format.
- * scale: metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. chord_tolerance:
- * largest distance between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest
- * sagitta. Returns REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside
- * and outside cannot be distinguished; then nothing need be freed. Release with geometry_free. */
+/* Reads a body and its named parts from a .stl, .msh, .inp or Exodus II file into g. The extension of the name `path`
+ * selects the format. dim: dimensions of the space; if it is 2, the elements must be triangles and quadrilaterals of
+ * equal z. scale: length of the unit of the file [m]. chord_tolerance: largest distance between a curved edge of a
+ * second-order element and the chords that approximate it [m]; NAN for 1/256 of the largest sagitta. Returns REFUSED,
+ * with a message and nothing to release, for a wrong format, a file without a body, or a surface so open that inside
+ * and outside cannot be distinguished. Release g with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
@@ -36,9 +37,10 @@ const struct geometry_set *geometry_find_set(const struct geometry *g, const cha
 /* Releases all arrays of g and zeroes it. */
 void geometry_free(struct geometry *g);
 
-/* Finds pairs of coincident faces of the closed surface h, as at slits with doubled nodes, and appends each as a
- * pre-crack to the array *crack, whose length is *cracks. In 3D adjacent coplanar faces become one crack if they form a
- * convex polygon. The caller releases the array and the `corner` of each crack with memory_free. */
+/* Finds slits in the closed surface h, pairs of faces that coincide because their nodes are doubled. Appends each as a
+ * pre-crack to the array *crack and increases *cracks, the number of its entries. In 3D adjacent coplanar faces become
+ * one crack if they form a convex polygon. The caller releases the array and the `corner` of each crack with
+ * memory_free. */
 void geometry_find_slits(const struct hull *h, struct crack **crack, int *cracks);
 
 #endif

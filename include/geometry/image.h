@@ -6,11 +6,11 @@
 
 #include "data/voxels.h"
 
-/* Reads grey values from `files` image files (PNG, TIFF) into v. dim 2: one image; dim 3: slices from low to high z, in
- * several files or as pages of one file. The last row of an image has the lowest y. voxel_size: edges of a voxel [m];
- * lower_corner: lower corner of the first voxel [m]; dim components each. Returns REFUSED, with a message, for a wrong
+/* Reads grey values from the image files path[files] (PNG, TIFF) into v. dim: 2 for one image, 3 for slices from low to
+ * high z, in several files or as pages of one file. The last row of an image has the lowest y. voxel_size[dim]: edges
+ * of a voxel [m]; lower_corner[dim]: lower corner of the first voxel [m]. Returns REFUSED, with a message, for a wrong
  * format, slices of different sizes, or more voxels than memory allows; FAILED if the PNG library cannot start. After a
- * failure nothing need be freed. Release with voxels_free. */
+ * failure nothing has to be released. Release v with voxels_free. */
 status image_read(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
                   const real *lower_corner);
 
