@@ -234,7 +234,8 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
             more ? "" : "s", length, WAVE, length_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark for each load and initial pulse that is shorter than WAVE spacings. */
+/* Writes a remark to `out` for each load during whose rise time waves travel less than WAVE spacings, and for each
+ * initial pulse that is narrower than WAVE spacings. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_is_dynamic(s); b++) advise_rise(s, tables, b, out);
@@ -430,8 +431,8 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint that the method mpm suffices if a peridynamic method is used although no bond can break. Makes an
- * exception for scenes with rigid bodies, whose contact material points do not support. */
+/* Adds a hint to *to if the scene uses a peridynamic method although no bond can break, so that the method mpm
+ * suffices. Scenes with rigid bodies are excepted, since material points do not support contact with them. */
 static void hint_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -223,8 +223,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the processor time of one step per particle [s] for the scene of `a` with all particles peridynamic and the
- * given spacing [m]; NAN if the steps fail. */
+/* Returns the processor time of one step over the number of particles [s]. It is measured with the scene that is read
+ * by the arguments `a`, with all particles peridynamic and the spacing `spacing` [m]. Returns NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};

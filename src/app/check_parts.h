@@ -60,8 +60,8 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
 
 /* ---- check_precracks.c ------------------------------------------------------------------------------------------- */
 
-/* Prints the length of the smallest pre-crack and its ratio to the horizon, in plane bodies whose bonds soften; else
- * nothing. */
+/* Prints the length of the smallest pre-crack and its ratio to the horizon. Prints nothing unless the body is plane and
+ * its bonds soften. */
 void print_precracks(const struct run *e);
 
 /* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart, so that they affect
@@ -101,8 +101,8 @@ void print_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest edge (mirror images included), diameter or wall of a solid [m]; INFINITY if it has none
- * (check_advice.c). */
+/* Returns the smallest edge, diameter or wall thickness of the solid `a` [m]. An edge that ends at a plane of symmetry
+ * of the scene counts with its mirror image. Returns INFINITY if the solid has none of these. */
 real solid_smallest_edge(const struct run *e, const struct solid *a);
 
 /* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. For a single solid
@@ -116,7 +116,7 @@ void print_incompressible_advice(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
-/* Prints size and number of coarse cells, and why they are used or not. */
+/* Prints size and number of the coarse mesh cells of the run e, and why coarse cells are used or not. */
 void print_levels(const struct run *e);
 
 /* Prints the memory and time that coarse cells of the mesh save. cost: measured cost of the run. */
@@ -124,9 +124,8 @@ void print_levels_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
-/* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that it is
- * represented by a part that is too wide or too narrow. The line has the nearest spacings of which the width is a whole
- * multiple. */
+/* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that the
+ * particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
 void print_section_advice(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */
@@ -143,9 +142,8 @@ struct length_text length_with_unit(real length, int digits, real spacing);
 /* Prints a line for each load and support: particles, area, force and moment. */
 void print_loads(const struct run *e);
 
-/* Prints how much of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary.
- * Prints the share of this part in the area, the mean angle between its normal and the axis, and a region that would
- * exclude it. */
+/* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,
+ * the mean angle between normal and axis there, and a region that would exclude this part of the face. */
 void print_face_off_axis(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
@@ -154,9 +152,9 @@ void print_filled_volume(const struct run *e);
 
 /* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds one line with the keys that the scene gives and that have no effect in it, and lines for materials that no body
- * consists of or whose bonds never break for want of bonds. A scene that gives all keys, as the scene.yaml of a run
- * does, gets no line about keys. */
+/* Adds one line to *to with those keys of the scene that have no effect in it. Adds further lines for materials of
+ * which no body consists, and for fracture criteria in scenes without bonds. No line about keys is added for a scene
+ * that gives all keys, as the scene.yaml of a run does. */
 void hint_idle_keys(const struct scene *s, struct warnings *to);
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
@@ -166,12 +164,12 @@ void hint_signs(const struct run *e, struct warnings *to);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* Writes a line for each part of the scene that limits its accuracy, with the size of the error and a remedy. The run
- * has taken no step. */
+/* Writes to `out` a line for each property of the scene that limits the accuracy of the run e, with the size of the
+ * error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line for each setting of the scene that costs more than necessary or does nothing, and for ends of cracks that
- * are exactly on bonds. The run has taken no step. */
+/* Adds a line to *to for each setting of the scene that costs more than necessary or has no effect, and for each end of
+ * a crack that is exactly on bonds. The run must not have taken a step. */
 void cost_hints_list(const struct run *e, struct warnings *to);
 
 /* Writes to `out` by how much the stiffness of a part that is `layers` particle layers thick differs at most from that

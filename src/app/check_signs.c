@@ -38,7 +38,8 @@ static void hint_pushed(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Adds a hint for friction, gravity, damping and widths of cracks that are larger than any that is known. */
+/* Adds a hint to *to for each value of friction, gravity, damping and widths of cracks that is larger than any known
+ * one. */
 static void hint_sizes(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -189,9 +189,10 @@ void print_load_step_advice(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns an estimate of the number of equilibria that one crack increment takes. In 2D, PAIRS_AT_ONCE pairs of bonds
- * break per equilibrium; in 3D, the largest number that the scene allows. A crack whose direction follows from
- * stress-intensity factors takes LED_EQUILIBRIA. */
+/* Returns an estimate of the number of equilibria that one crack increment requires. It is LED_EQUILIBRIA if the
+ * direction of cracks follows from stress-intensity factors. Otherwise it follows from the number of bonds in an
+ * increment and the number of pairs of bonds that break per equilibrium: PAIRS_AT_ONCE in 2D, the number that the scene
+ * allows in 3D. */
 static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -54,8 +54,8 @@ status command_info(int argc, char **argv);
  * most similar name in the message, if there is none. */
 status command_find(const char *name, const struct command **found);
 
-/* Installs handlers for signals that request the end of the program. Returns the flag that they set; a second interrupt
- * ends the program at once. */
+/* Installs handlers for signals that request the end of the program. Returns a pointer to the flag that the handlers
+ * set. A second interrupt ends the program at once. */
 const volatile sig_atomic_t *stop_signals_install(void);
 
 /* Prints one line with the version of the program and the commit of its source to `out`. */
@@ -73,17 +73,19 @@ static inline bool wants_help(const char *word)
     return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
 }
 
-/* Prints the page `cleave help trust`: guarantees of a run, and the tests that check them. Returns FAILED if it cannot
- * be written, as do the pages below. */
+/* Prints the page `cleave help trust` to `out`: guarantees of a run, and the tests that check them. Returns FAILED if
+ * it cannot be written. */
 status help_trust_print(FILE *out);
 
-/* Prints the page `cleave help theory`: the equations with their sources. */
+/* Prints the page `cleave help theory` to `out`: the equations with their sources. Returns FAILED if it cannot be
+ * written. */
 status help_theory_print(FILE *out);
 
-/* Prints the page `cleave help run`: options, files and exit statuses of a run. */
+/* Prints the page `cleave help run` to `out`: options, files and exit statuses of a run. Returns FAILED if it cannot be
+ * written. */
 status manual_run_print(FILE *out);
 
-/* Prints the manual page cleave.1 (troff). */
+/* Prints the manual page cleave.1 to `out`, in troff. Returns FAILED if it cannot be written. */
 status manual_print(FILE *out);
 
 /* Finds the JSON schema of scenes, in the installation or else in the build folder of the program, and writes its path
@@ -93,8 +95,8 @@ bool schema_path(char *path, size_t capacity);
 /* Prints the kinds of scenes that `cleave new` can write to `out`, separated by blanks. */
 void new_scene_kinds_print(FILE *out);
 
-/* Prints a script to `out` by which the shell `shell`, bash or zsh, completes commands, options, keys and words.
- * Returns REFUSED for another shell. */
+/* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the
+ * shell, bash or zsh. Returns REFUSED for another shell. */
 status completion_print(FILE *out, const char *shell);
 
 #endif
