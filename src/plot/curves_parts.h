@@ -87,9 +87,9 @@ void curves_write_title(const struct gnuplot *g, const char *title, const char *
  * range and label. s: history that is drawn. */
 void curves_write_time_axis(FILE *to, const struct series *s);
 
-/* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
- * picture `sif`. title: heading of the picture; s: history of the run. Returns OK without a picture if the run has no
- * SIF probe, FAILED if gnuplot fails. */
+/* Draws the stress-intensity factors of all probes of this kind over time and, below, the relative differences between
+ * their integration contours, as the picture `sif`. title: heading of the picture; s: history of the run. Returns OK
+ * without a picture if the run has no such probe, FAILED if gnuplot fails. */
 status sif_curves_draw(const char *title, const struct series *s);
 
 /* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle

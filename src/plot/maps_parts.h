@@ -17,15 +17,15 @@ struct layout {
  * layout. left, above: distances of its upper left corner from the left and the upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *to, const struct layout *layout, double left, double above);
 
-/* Writes the gnuplot commands for tics and labels of a panel that shows a plane, not an outside view. c: particles of
- * the panel; metre: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in column 0
- * only); lowest: true if no panel is below it, so that its lower axis has labels. */
+/* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. c: particles of the
+ * panel; metre: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in column 0 only);
+ * lowest: true if no panel is below it, so that its lower axis has labels. */
 void panel_write_axes(FILE *to, const struct layout *layout, const struct view *view, const struct plotted_particles *c,
                       const struct unit *metre, int column, bool lowest);
 
-/* Writes the gnuplot commands that draw the coordinate axes of an outside view as arrows below a panel, and a bar of
- * known length. An outside view shows a three-dimensional body from a camera. metre: unit of the axes of the panel;
- * left, above: distances of its upper left corner from the left and upper edge of the picture [pixel]. */
+/* Writes the gnuplot commands that draw, below a panel with a view of a three-dimensional body from outside, its
+ * coordinate axes as arrows and a bar of known length. metre: unit of the axes of the panel; left, above: distances of
+ * its upper left corner from the left and upper edge of the picture [pixel]. */
 void panel_write_axis_arrows(FILE *to, const struct layout *layout, const struct view *view,
                              const struct plotted_particles *c, const struct unit *metre, double left, double above);
 

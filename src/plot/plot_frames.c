@@ -81,7 +81,8 @@ static void spread_frames(struct run_frames *r, int panels)
         r->show[k] = r->list[r->shown == 1 ? r->listed - 1 : (int)lround((double)k * (r->listed - 1) / (r->shown - 1))];
 }
 
-/* Selects the frames nearest to time[times] [s]. A frame that is nearest to consecutive times is selected once. */
+/* Selects for each of time[times] [s] the frame that is nearest to it. A frame that is nearest to several consecutive
+ * times is selected once. */
 static void nearest_frames(struct run_frames *r, const double *time, int times)
 {
     r->show = NEW("plot.show", times, struct listed_frame);

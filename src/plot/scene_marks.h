@@ -47,7 +47,7 @@ void marks_draw_levels(struct marks *m);
 /* Draws boxes around the named regions of the scene. */
 void marks_draw_regions(struct marks *m);
 
-/* Adds a line with a square in the colour c and the text `text` to the key of the picture. */
+/* Adds an entry to the key of the picture: a square in the colour c and the text `text`. */
 void marks_add_colour_key(struct marks *m, struct colour c, const char *text);
 
 #endif
