@@ -78,8 +78,9 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
 
 /* ---- first reading ----------------------------------------------------------------------------------------------- */
 
-/* Adds a frame to the film: finds or creates its particle set, and updates displacements and ranges of fields. path:
- * file of the frame. */
+/* Adds a frame to the film f: finds or creates the particle set to which it belongs, and updates displacements and
+ * ranges of fields. shown: entry of the frame in the film, in which set and step are stored; path: file of the
+ * frame. */
 static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
 {
     if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {

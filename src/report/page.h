@@ -23,7 +23,7 @@ struct page {
 };
 
 /* Initialises an empty page in memory, with an open JSON object to which entries are added. Returns FAILED if there is
- * no memory for it. Release with page_release. */
+ * no memory for it. Release p with page_release. */
 status page_make(struct page *p);
 
 /* Adds the array values[n], with elements of type `type`, to the page, and a reference {array, type, length} to it to
@@ -34,8 +34,8 @@ void page_add_array(struct page *p, const char *key, enum page_type type, const 
  * name of the reference; NULL if it is an element of a list. Returns FAILED if the file cannot be read. */
 status page_add_picture(struct page *p, const char *key, const char *path);
 
-/* Adds a time to the JSON as text, in UTC to the minute. key: name of the entry. Adds nothing for a time that no
- * calendar has. */
+/* Adds the time `at` to the JSON of the page as text, in UTC to the minute. key: name of the entry. Adds nothing for a
+ * time that has no date in the calendar. */
 void page_add_time(struct page *p, const char *key, time_t at);
 
 /* Adds the text of the file `name` in `folder` to the JSON as a string. key: name of the entry. Adds nothing if there
