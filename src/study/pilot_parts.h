@@ -42,9 +42,9 @@ struct pilot_search {
     int n;
 };
 
-/* Lists the methods that are applicable to the scene in p->at[] and their number in p->n (pilot_plan.c). Returns
- * REFUSED if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of the scene
- * has the requested figure. */
+/* Lists the methods that are applicable to the scene of p in p->at[] and stores their number in p->n. Returns REFUSED
+ * if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of the scene has the
+ * requested figure. */
 status pilot_plan(struct pilot_search *p);
 
 /* Returns the name of the figure (scalar result) whose accuracy the scene requests, or a description of the default

@@ -14,7 +14,7 @@
  * if there are none. */
 uint64_t study_hash(uint64_t hash, const char *text);
 
-/* Enlarges the hash table of the names of runs if it has no room for one more name. */
+/* Enlarges the hash table of the names of the runs of s if it has no space for one more name. */
 void study_grow_name_table(struct study *s);
 
 /* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text `wanted`,
@@ -22,7 +22,7 @@ void study_grow_name_table(struct study *s);
  * with a hash of the overrides o[n] of the run. */
 void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
 
-/* Adds the name of the run with index `number` to the hash table of the names of runs. */
+/* Adds the name of the run with the index `number` of the study s to the hash table of the names of its runs. */
 void study_name_register(struct study *s, int number);
 
 /* Finds which of the keys key[keys] appear in the names of runs, those with several values. Stores their indices in
