@@ -17,8 +17,8 @@ struct csv_file {
     char text[CSV_LINE_LENGTH];
 };
 
-/* Opens the CSV file `path` for reading. contents: what a line of it contains, in words for messages; kept by reference
- * as `path`. Returns REFUSED, with a message, if the file cannot be read. Close with csv_close. */
+/* Opens the CSV file `path` for reading. contents: what a line of it contains, in words for messages. Both texts are
+ * kept by reference. Returns REFUSED, with a message, if the file cannot be read. Close c with csv_close. */
 status csv_open(struct csv_file *c, const char *path, const char *contents);
 
 /* Closes the CSV file c. */
@@ -28,19 +28,21 @@ void csv_close(struct csv_file *c);
  * if the line begins with #. Returns REFUSED, with a message, if the line is too long or cannot be read. */
 status csv_read_line(struct csv_file *c, bool *more, bool *comment);
 
-/* Reads the next line that is neither blank nor a comment into c->text. Sets *more to false at the end of the file. */
+/* Reads the next line that is neither blank nor a comment into c->text. Sets *more to false at the end of the file.
+ * Returns REFUSED, with a message, if the line is too long or cannot be read. */
 status csv_read_data_line(struct csv_file *c, bool *more);
 
 /* Sets the separator of the file from the current line: a semicolon if the line contains one, else a tab if it has more
  * tabs than commas, else a comma. */
 void csv_detect_separator(struct csv_file *c);
 
-/* Cuts the next field off the line *rest and returns it, a part of the same memory, without surrounding blanks and
- * double quotes; quoted text may contain separators. *rest receives the rest of the line, NULL after the last field.
- * Returns NULL if *rest is NULL. */
+/* Cuts the next field off the line *rest and returns it, ended in place, without surrounding blanks and double quotes.
+ * Quoted text may contain separators. *rest receives the rest of the line, or NULL after the last field. Returns NULL
+ * if *rest is NULL. */
 char *csv_cut_field(const struct csv_file *c, char **rest);
 
-/* Cuts the unit off the name of a column, as in `time [us]` or `time (us)`, and returns it; "" if there is none. */
+/* Cuts the unit off the name of a column, such as `time [us]` or `time (us)`, in place, and returns a pointer to the
+ * unit; "" if there is none. */
 char *csv_cut_unit(char *name);
 
 /* Returns REFUSED with the message `file:line:column: TEXT`. field: a field of the current line of c, whose location

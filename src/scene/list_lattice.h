@@ -4,8 +4,9 @@
 
 #include "scene/particle_list.h"
 
-/* Returns true if the positions of each body of a list are whole spacings apart, to a thousandth of a spacing, and all
- * volumes equal `volume`, the volume of a lattice cell [m^3], to a thousandth. */
+/* Returns true if the particles of each body of the list l form a lattice: their positions are whole numbers of
+ * `spacing` [m] apart, to a thousandth of a spacing, and all volumes equal `volume`, the volume of a lattice cell
+ * [m^3], to a thousandth. */
 bool particle_list_is_lattice(const struct particle_list *l, real spacing, real volume);
 
 /* Rounds the n coordinates X [m] of the particles of a body along one axis to exact multiples of `spacing` [m]. The

@@ -34,11 +34,12 @@ extern const struct list_quantity list_quantity[COLUMNS];
  * list_column). */
 real **particle_list_column_array(struct particle_list *l, int column);
 
-/* Returns true for a component of position or velocity along an axis that a space of `dim` dimensions does not have. */
+/* Returns true if `column` (COLUMN_*) is a component of position or velocity along an axis that a space of `dim`
+ * dimensions does not have. */
 bool particle_list_column_is_unused(int column, int dim);
 
-/* Returns why `value` [SI] is invalid in column `column`, as the end of a sentence (a static text), or NULL if it is
- * valid. */
+/* Returns the reason why `value` [SI] is invalid in the column `column` (COLUMN_*), as a static text for the end of a
+ * sentence. Returns NULL if it is valid. */
 const char *particle_list_value_fault(int column, real value);
 
 /* Finds the factor by which a number in the unit `unit` is multiplied to convert it to SI units, and stores it in

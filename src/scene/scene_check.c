@@ -183,10 +183,10 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
 }
 
 /* Sets the default of time.safety, the ratio of the time step to the critical one: 0.5 if bonds can break, else 0.8.
- * Crack lengths and most crack angles are equal at both; in a scene close to two crack paths the path can change above
- * 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and of the energy of taylor_bar 0.09 % are lost
- * in place of 0.04 %; only bars shorter than two diameters gain (say_flow_error), and are told. root: tree of the
- * scene, to see whether the key is given. */
+ * Crack lengths and most crack angles are equal at both. In a scene in which two crack paths are nearly equivalent, the
+ * path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and taylor_bar loses 0.09 %
+ * of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at 0.5, for which
+ * say_flow_error prints a remark. root: tree of the scene, to see whether the key is given. */
 void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;

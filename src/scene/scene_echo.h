@@ -21,16 +21,17 @@ void writer_begin_key(struct writer *w, const char *key);
 /* Begins an item of a YAML list. Its dash is written with its first key. */
 void writer_begin_item(struct writer *w);
 
-/* Writes a number so that it reads back to identical bits. */
+/* Writes a number to the YAML text with so many digits that it reads back to identical bits. */
 void write_real(struct writer *w, real value);
 
 /* Writes a text in double quotes. */
 void write_quoted(struct writer *w, const char *text);
 
-/* Writes n numbers as a list in brackets. */
+/* Writes the numbers value[n] to the YAML text as a list in brackets. */
 void write_list(struct writer *w, const real *value, int n);
 
-/* Writes the value of key k in the form of its type. place: address of the value. */
+/* Writes the value of key k to the YAML text, in the form that the type of the key requires. place: address of the
+ * value. */
 void write_value(struct writer *w, const struct key *k, const void *place);
 
 /* Returns the address of the value of key k in the structure `base` of its group. */
@@ -47,19 +48,19 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
  * contents: hash of the file, which is written as a comment. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
 
-/* Writes the boundary conditions (scene_echo_loads.c). */
+/* Writes all boundary conditions of the scene to the YAML text. */
 void write_boundaries(struct writer *w);
 
 /* Writes the key `key` with a vector: component d is formula[d] if it is given, else the number value[d]. */
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
 
-/* Writes a region as a list of solids (scene_echo_solids.c). */
+/* Writes a region to the YAML text, as a list of its solids. */
 void write_region(struct writer *w, const struct region *region);
 
-/* Writes the regions that have names (scene_echo_solids.c). */
+/* Writes the named regions of the scene to the YAML text. */
 void write_regions(struct writer *w);
 
-/* Writes a solid from a file, such as `stl: {..}` (scene_echo_shapes.c). */
+/* Writes the solid s, which was read from a file, to the YAML text, for example as `stl: {..}`. */
 void write_shape_file(struct writer *w, const struct solid *s);
 
 #endif

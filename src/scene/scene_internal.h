@@ -115,7 +115,8 @@ const char *key_present_name(const char *path);
  * struct yaml_node. */
 const char *origin_file_name(const struct reader *r, int origin);
 
-/* Returns the length of the folder at the beginning of a path, with its final slash; 0 if there is none. */
+/* Returns the number of characters of the folder at the beginning of `path`, with its final slash; 0 if there is no
+ * folder. */
 int folder_length(const char *path);
 
 /* Reads the whole file `path` into an allocated array *bytes of *length bytes, which the caller releases with
@@ -199,12 +200,14 @@ enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
                        struct expression *e);
 
-/* Evaluates an expression without x, y, z and t and stores its value and unit in *quantity. On failure returns false
- * and writes the fault to message[capacity], as the rest of a sentence that begins with `text`. */
+/* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. On
+ * failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with
+ * `text`. */
 bool quantity_evaluate_text(struct reader *r, const char *text, struct quantity *quantity, char *message,
                             size_t capacity);
 
-/* Returns true if messages about this text should treat it as an expression, not as a number. */
+/* Returns true if messages about `text` should call it an expression, not a number: it contains operators or brackets,
+ * or begins with a name. */
 bool looks_like_expression(const struct reader *r, const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
@@ -232,8 +235,8 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
  * Returns NULL for other names. */
 const char *unit_meant_by_word(const char *text);
 
-/* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
- * messages; NULL for other words. */
+/* Returns the meaning of the word `name`, such as "a unit", for messages, if it is reserved in expressions and thus
+ * cannot name a variable. Returns NULL for other words. */
 const char *reserved_word_meaning(const char *name);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
@@ -396,7 +399,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
  * extrusion. */
 const char *space_for_message(const struct reader *r);
 
-/* Returns REFUSED if n is no list or has not as many items as the range of key k allows. */
+/* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key
+ * k. */
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name from node n: searches the folder of the scene, then the current folder. Stores the path in *path

@@ -81,7 +81,8 @@ void resolve_safety_factor(struct reader *r, const struct yaml_node *root);
  * for contact with a static solver, and for friction without contact. */
 status resolve_contact(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED if bodies have more particles than 32-bit indices can count. Call it after bodies are read. */
+/* Returns REFUSED if the bodies of the scene would have more particles than 32-bit indices can count. Bodies must have
+ * been read before. root: tree of the scene, for the location in the message. */
 status check_particle_count(struct reader *r, const struct yaml_node *root);
 
 /* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the scene. Returns REFUSED,
@@ -92,8 +93,8 @@ status read_interfaces(struct reader *r, const struct yaml_node *root);
  * the scene. */
 status check_joined_bodies(struct reader *r, const struct yaml_node *root);
 
-/* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
- * space of the scene [1]. */
+/* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
+ * horizon and space of the scene s. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
 /* Reports the largest spacing with which a material can have its strength [m] to a search for the spacing: reduces
@@ -127,7 +128,8 @@ status check_one_softening(struct reader *r, const struct yaml_node *n, int k);
  * with planes of symmetry. root: tree of the scene. */
 status check_friction(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, for absorbing boundaries in a static problem. */
+/* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the scene, for the
+ * location in the message. */
 status check_absorbing(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED for loads that static solvers, or particles at randomly shifted positions, do not support. root: tree
@@ -143,13 +145,15 @@ void resolve_reference_frames(struct scene *s);
  * depends on it. Bodies must have been read before. root: tree of the scene, to see which keys are given. */
 void resolve_particle_lists(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED for keys that static solvers do not support. Call it after materials and probes are read. */
+/* Returns REFUSED, with a message, for keys that static solvers do not support. Materials and probes must have been
+ * read before. root: tree of the scene. */
 status check_solver(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, for keys that load steps do not support (scene_steps.c). */
+/* Returns REFUSED, with a message, for keys that the solver with load steps does not support. root: tree of the
+ * scene. */
 status check_load_steps(struct reader *r, const struct yaml_node *root);
 
-/* Returns true if the scene has load steps and a material whose bonds soften (scene_steps.c). */
+/* Returns true if the scene is solved in load steps and has a material whose bonds soften. */
 bool steps_soften(const struct scene *s);
 
 /* Returns REFUSED if the scene gives settings of load steps but has another solver, unless all of them have their

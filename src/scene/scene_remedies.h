@@ -7,30 +7,32 @@
 /* Returns true if at least one material of the scene has the key `key`. root: tree of the scene. */
 bool scene_material_gives(const struct yaml_node *root, const char *key);
 
-/* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by the node n,
- * and a remedy. The material must have been read. */
+/* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by node n, and
+ * how the scene can be changed to have it. The material must have been read before. */
 status refuse_poisson(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED with the message that materials cannot yield with a state-based model, and a remedy. n: node that
- * makes the material yield. */
+/* Returns REFUSED with the message that materials cannot yield with a state-based model, and how the scene can be
+ * changed. n: node that makes the material yield. */
 status refuse_state_yield(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED with the message that the plastic law at node n requires method mpm, and a remedy. */
+/* Returns REFUSED with the message that the plastic law at node n requires the method mpm, and how the scene can be
+ * changed. */
 status refuse_flow_law(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED with the message that bonds cannot soften with the method or model of the scene, and a remedy. n:
- * node of the tensile strength. */
+/* Returns REFUSED with the message that bonds cannot soften with the method or model of the scene, and how the scene
+ * can be changed. n: node of the tensile strength. */
 status refuse_softening(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED with the message that method mpm, or the solver of one static equilibrium, allows no rigid bodies,
- * and a remedy. n: list of bodies. */
+/* Returns REFUSED with the message that the method mpm, or the solver of a single static equilibrium, allows no rigid
+ * bodies, and how the scene can be changed. n: node of the list of bodies. */
 status refuse_rigid(struct reader *r, const struct yaml_node *n);
 
-/* Returns REFUSED with the message that method adaptive allows no interfaces, and a remedy. n: list of interfaces. */
+/* Returns REFUSED with the message that the method adaptive allows no interfaces, and how the scene can be changed. n:
+ * node of the list of interfaces. */
 status refuse_interfaces(struct reader *r, const struct yaml_node *n);
 
-/* Returns a text for the end of a message that advises to check the units of a strength, if the horizon that it
- * requires, `horizon` [m], is less than a thousandth of the horizon of the scene; else "". The text is static. */
+/* Returns a static text for the end of a message, which advises to check the units of a strength, if that strength
+ * requires a horizon `horizon` [m] of less than a thousandth of the horizon of the scene. Otherwise returns "". */
 const char *strength_unit_hint(const struct scene *s, real horizon);
 
 #endif
