@@ -41,8 +41,8 @@ static void say_frames(const struct run *e)
                (long long)e->frame->mesh.points);
 }
 
-/* Prints the names of bodies with the indices from..end-1 of a scene: the first six, and the number of further ones.
- * Bodies that are joined are printed as one name a+b. */
+/* Prints the names of the bodies of a scene with the indices `from` to end - 1: the first six, and the number of
+ * further ones. Joined bodies are printed as one name a+b. */
 static void say_names(const struct scene *s, int from, int end)
 {
     enum { NAMED = 6 };

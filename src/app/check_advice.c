@@ -119,7 +119,7 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
-/* Returns a positive number rounded down to two significant digits, with a tolerance for round-off. */
+/* Returns the positive number `value` rounded down to two significant digits, with a tolerance for round-off. */
 static real two_digits_down(real value)
 {
     const real digit = pow(10, floor(log10(value)) - 1);
@@ -186,8 +186,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
     return stepped;
 }
 
-/* Writes a remark for each point probe of stress at a curved or slanted face. The error in the text was measured with
- * the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
+/* Writes a remark to `out` for each point probe of stress at a curved or slanted face. The error in the text was
+ * measured with the elliptic membrane LE1 of NAFEMS, with 20 to 80 points across. */
 static void advise_faces(const struct scene *s, FILE *out)
 {
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
@@ -249,7 +249,8 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 length_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Writes a remark if bodies collide so fast that oscillations behind the wave front can break or yield them. */
+/* Writes a remark to `out` if bodies collide so fast that oscillations behind the wave front can break or yield
+ * them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = scene_fastest_collision(s);
@@ -262,8 +263,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
             shock.speed, shock.share, shock.remedy);
 }
 
-/* Writes a remark if the scene prescribes a number of levels of coarse cells, and the cells of the coarsest level are
- * too large for the loads or for the thin parts of the body. */
+/* Writes a remark to `out` if the scene prescribes a number of levels of coarse cells, and the cells of the coarsest
+ * level are too large for the loads or for the thin parts of the body. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -271,7 +272,7 @@ static void advise_levels(const struct run *e, FILE *out)
     if (frame_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Writes a remark if a formula of a load or support has no finite value at some time of the run. */
+/* Writes a remark to `out` if a formula of a load or support has no finite value at some time of the run. */
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {

@@ -175,7 +175,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 
 /* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of neighbours of a particle inside the body, from the volume of a full family. */
+/* Returns the number of neighbours within the horizon that a particle far from surfaces has: the volume of its family
+ * over that of a lattice cell. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
 /* Returns an estimate of the time for writing the output of a run [s]: all frames including the one at the start, two

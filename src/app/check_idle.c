@@ -119,7 +119,7 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
                          s->material[m].name);
 }
 
-/* Adds a hint for each material that no body consists of. */
+/* Adds a hint to *to for each material of which no body consists. */
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {

@@ -9,8 +9,8 @@
 /* Approximate number of particles that are examined; largest number of layers that is counted. */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if a particle of the body is within PROBE spacings of the point X[dim] [m], so that X counts as inside
- * the body. Also returns true if more particles are near X than can be tested. */
+/* Returns true if a particle of the body with the index `body` is within PROBE spacings of the point X[dim] [m], so
+ * that X counts as inside the body. Also returns true if more particles are near X than can be tested. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };

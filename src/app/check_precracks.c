@@ -67,7 +67,7 @@ void advise_precracks(const struct scene *s, const struct fracture_state *fractu
     }
 }
 
-/* Returns the index of the body of particle i. Bodies that are joined have one index. */
+/* Returns the index of the body to which particle i belongs. For joined bodies it is the same index. */
 static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
 {
     return scene->body[part->body[i]].joined;

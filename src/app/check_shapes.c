@@ -6,7 +6,7 @@
 #include "geometry/geometry.h"
 #include "scene/shape_file.h"
 
-/* Returns the number of slits in a mesh: free surfaces inside the mesh, on which nodes are doubled. */
+/* Returns the number of slits in the surface h of a mesh: free surfaces inside the mesh, at which nodes are doubled. */
 static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;

@@ -15,8 +15,8 @@
 /* Returns true if the components of a boundary are given as numbers. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
-/* Adds a hint for each pressure that is negative, and for each pair of tractions on opposite faces that point in the
- * same direction along their normals. */
+/* Adds a hint to *to for each pressure that is negative, and for each pair of tractions on opposite faces that point in
+ * the same direction along their normals. */
 static void hint_pushed(const struct scene *s, struct warnings *to)
 {
     for (int k = 0; k < s->boundaries; k++) {
@@ -63,7 +63,7 @@ static void hint_sizes(const struct run *e, struct warnings *to)
                          k + 1, s->crack[k].width, longest);
 }
 
-/* Adds a hint if the frames of the run take much space on the disk. */
+/* Adds a hint to *to if the frames of the run take much space on the disk. */
 static void hint_frames(const struct run *e, struct warnings *to)
 {
     const double steps = (double)e->clock.steps, frames = e->scene->frames < steps ? e->scene->frames : steps;

@@ -52,8 +52,8 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Returns the length of the pre-crack behind a tip that is inside bodies [m]; INFINITY if the pre-crack is bent, in 3D,
- * or not found. */
+/* Returns the length of that part of the pre-crack behind a crack tip that is inside bodies [m]. Returns INFINITY if
+ * the pre-crack is bent, in 3D, or if none is found. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
@@ -126,7 +126,8 @@ static void advise_growth(const struct run *e, FILE *out)
             falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
 }
 
-/* Writes a remark for each crack tip with fewer than FEW spacings of crack behind it or of body ahead of it. */
+/* Writes a remark to `out` for each crack tip with fewer than FEW spacings of crack behind it or of body ahead of
+ * it. */
 static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
@@ -158,8 +159,8 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Writes a remark for each support that is meant as a pin or roller but constrains rotation: it holds more columns of
- * particles than a pin, but too few for a grip. */
+/* Writes a remark to `out` for each support that is meant as a pin or roller but constrains rotation: it holds more
+ * columns of particles than a pin, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {

@@ -125,7 +125,7 @@ struct length_unit {
     const char *name;
 };
 
-/* Returns the largest unit of length in which the number for a spacing is at least 0.1. */
+/* Returns the largest unit of length (m, mm, ...) in which the number for `spacing` [m] is at least 0.1. */
 static struct length_unit unit_of_spacing(real spacing)
 {
     static const struct length_unit unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};

@@ -357,8 +357,8 @@ static void compare_time(const struct pair *p)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the two folders of the runs from the words of the command line, argv[argc], into p->folder. REFUSED if there
- * are options or not exactly two words, or if a folder contains no run. */
+/* Reads the two folders of the runs from the words of the command line, argv[argc], into p->folder. Returns REFUSED if
+ * there are options or not exactly two words, or if a folder contains no run. */
 static status read_words(struct pair *p, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)
@@ -375,8 +375,8 @@ static status read_words(struct pair *p, int argc, char **argv)
     return OK;
 }
 
-/* Prints name, method and state of the run in a folder, after the letter A or B. FAILED if its summary exists and
- * cannot be read. */
+/* Prints name, method and state of the run in a folder, after the letter A or B. Returns FAILED if its summary exists
+ * and cannot be read. */
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];

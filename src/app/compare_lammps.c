@@ -16,8 +16,8 @@ bool lammps_run_exists(const char *folder)
     return run_has_file(folder, "plate.dump") && run_has_file(folder, "in.lammps");
 }
 
-/* Reads the time step [s] from the LAMMPS script in.lammps of a folder into *dt. FAILED if the script has no such
- * line. */
+/* Reads the time step [s] from the LAMMPS script in.lammps of a folder into *dt. Returns FAILED if the script has no
+ * such line. */
 static status lammps_time_step(const char *folder, double *dt)
 {
     struct path path = path_join(folder, "in.lammps");

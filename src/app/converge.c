@@ -26,7 +26,7 @@ struct converge_arguments {
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
 /* Reads the time that the study may take from the value of --budget, such as "10 min", into w->budget [s], and sets
- * w->finer, so that finer spacings use this time. REFUSED unless it is a positive time. */
+ * w->finer, so that finer spacings use this time. Returns REFUSED unless it is a positive time. */
 static status budget_read(struct convergence_request *w, const char *text)
 {
     char what[256];
@@ -98,8 +98,8 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Sets the folder of the results, by default one named after the scene, and checks that it can be used. REFUSED if it
- * contains files that do not belong to a study, or the study of another scene without --overwrite. */
+/* Sets the folder of the results, by default one named after the scene, and checks that it can be used. Returns REFUSED
+ * if it contains files that do not belong to a study, or the study of another scene without --overwrite. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_request *w = &a->wish;

@@ -19,7 +19,7 @@ static const struct target {
 } targets[] = {{"lammps", export_lammps}, {"exodus", export_exodus}};
 
 /* Reads the options that only `cleave export` has into r, and removes them from argv, so that the remaining words can
- * be read as those of `cleave run`. REFUSED if --style has an unknown value, or if --resume or -q is given. */
+ * be read as those of `cleave run`. Returns REFUSED if --style has an unknown value, or if --resume or -q is given. */
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;

@@ -57,8 +57,8 @@ static const char *topic_answer(const char *word)
     return NULL;
 }
 
-/* Prints where the manual treats a word, and the description of the key of this name. REFUSED if the word is neither a
- * topic nor a key. */
+/* Prints where the manual treats a word, and the description of the key of this name. Returns REFUSED if the word is
+ * neither a topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);

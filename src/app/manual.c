@@ -181,7 +181,7 @@ static void wrapped(FILE *out, const char *text, int indent)
 
 /* ---- usage ------------------------------------------------------------------------------------------------------- */
 
-/* Prints the text of `cleave --help`. */
+/* Prints the text of `cleave --help` to `out`. */
 void usage_print(FILE *out)
 {
     fprintf(out, "cleave: dynamic fracture by peridynamics and the material point method\n\n");

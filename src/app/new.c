@@ -30,8 +30,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of scene with the given name and stores it in *found. REFUSED with the nearest name if there is
- * none. */
+/* Finds the kind of scene with the given name and stores it in *found. Returns REFUSED with the nearest name if there
+ * is none. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -44,7 +44,7 @@ static status kind_find(const char *name, const struct kind **found)
 }
 
 /* Finds the name of a new scene in its path: *name points to the first letter of the file name in `path`, *length is
- * the length of `path` without the ending .yaml. REFUSED unless the name is valid as the name of a run. */
+ * the length of `path` without the ending .yaml. Returns REFUSED unless the name is valid as the name of a run. */
 static status check_path(const char *path, int *length, const char **name)
 {
     const char *slash = strrchr(path, '/');
@@ -78,7 +78,7 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
         fputs(k->text, out);
 }
 
-/* Creates and opens a new file for writing. REFUSED if the file exists or cannot be created. */
+/* Creates and opens a new file for writing. Returns REFUSED if the file exists or cannot be created. */
 static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
@@ -106,8 +106,8 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind reads one. REFUSED if the file exists,
- * FAILED if it cannot be written. */
+/* Writes the surface NAME.stl that belongs to the scene at `path`, if its kind reads one. Returns REFUSED if the file
+ * exists, FAILED if it cannot be written. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

@@ -25,7 +25,7 @@ enum { FILM_FRAMES_MAX = 100000 };
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* Reads the value of --frames, which is `all`, `last`, or the number of frames. REFUSED for other texts. */
+/* Reads the value of --frames, which is `all`, `last`, or the number of frames. Returns REFUSED for other texts. */
 static status read_frames_option(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -36,8 +36,8 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads the value of --times into w: numbers with units separated by commas, `all`, or `last`. REFUSED if the text
- * contains anything that is no time, or more than PANELS_MAX times. */
+/* Reads the value of --times into w: numbers with units separated by commas, `all`, or `last`. Returns REFUSED if the
+ * text contains anything that is no time, or more than PANELS_MAX times. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -59,7 +59,7 @@ static status read_times(struct plot_words *w, const char *text)
     return s;
 }
 
-/* Reads the value of --slice: `z=4mm`, or `z` for the slice normal to z with the most damage. REFUSED for other
+/* Reads the value of --slice: `z=4mm`, or `z` for the slice normal to z with the most damage. Returns REFUSED for other
  * texts. */
 static status read_slice(struct plot_words *w, const char *text)
 {
@@ -103,7 +103,7 @@ static status read_format(struct plot_words *w, const char *text)
 }
 
 /* Reads the value of --range, LOW:HIGH, and stores both as texts. Their unit is that of the field and is checked when
- * the field is known. REFUSED unless there are two texts. */
+ * the field is known. Returns REFUSED unless there are two texts. */
 static status read_range(struct plot_words *w, const char *text)
 {
     const char *colon = strchr(text, ':');
@@ -117,8 +117,8 @@ static status read_range(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads the value of --crop, the rectangle X:X,Y:Y of lengths. REFUSED for other texts, and unless the lower end of
- * each axis comes first. */
+/* Reads the value of --crop, the rectangle X:X,Y:Y of lengths. Returns REFUSED for other texts, and unless the lower
+ * end of each axis comes first. */
 static status read_crop(struct plot_words *w, const char *text)
 {
     char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "X:X,Y:Y of lengths is expected";
@@ -141,7 +141,8 @@ static status read_crop(struct plot_words *w, const char *text)
                                       printable_name(text).text, what);
 }
 
-/* Reads a positive number of at most `most` into *value. option: its name, for the message. REFUSED for other texts. */
+/* Reads a positive number of at most `most` into *value. option: its name, for the message. Returns REFUSED for other
+ * texts. */
 static status read_positive(double *value, const char *option, const char *text, double most)
 {
     char *end;
@@ -166,9 +167,9 @@ static status read_fps(struct plot_words *w, const char *text)
     return option_read_count(&w->request.fps, "plot: --fps", text, 1, 240);
 }
 
-/* Reads the value of --size into w: width and height as 1200x800 [pixel] or as 90mmx60mm. REFUSED unless the width is
- * from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space beside its
- * letters. */
+/* Reads the value of --size into w: width and height as 1200x800 [pixel] or as 90mmx60mm. Returns REFUSED unless the
+ * width is from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space
+ * beside its letters. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
     enum { WIDTH_LEAST = 300, HEIGHT_LEAST = 226, MOST = 10000 };
@@ -244,8 +245,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
-/* Sets the format of the picture from the file name extension of -o, unless --format is given. REFUSED if the extension
- * is unknown, or differs from --format. */
+/* Sets the format of the picture from the file name extension of -o, unless --format is given. Returns REFUSED if the
+ * extension is unknown, or differs from --format. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
@@ -259,8 +260,8 @@ static status settle_format(struct plot_words *w)
                       printable_name(out).text, w->format);
 }
 
-/* Checks the options of `cleave plot` together. REFUSED if two of them exclude each other, or if neither a folder nor
- * --scene is given. */
+/* Checks the options of `cleave plot` together. Returns REFUSED if two of them exclude each other, or if neither a
+ * folder nor --scene is given. */
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;

@@ -25,7 +25,8 @@ struct sweep_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads a key with its values from the text of -s and appends it to a->key. REFUSED if the key is given twice. */
+/* Reads a key with its values from the text of -s and appends it to a->key. Returns REFUSED if the key is given
+ * twice. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
     TRY(varied_key_read(&a->key[a->keys], text));
@@ -37,7 +38,7 @@ static status key_add(struct sweep_arguments *a, const char *text)
 }
 
 /* Appends the name of a figure, the value of an option --of, to the list a->of. name: NULL if the option has no value.
- * REFUSED if name is NULL or the list already has FIGURES_MOST figures. */
+ * Returns REFUSED if name is NULL or the list already has FIGURES_MOST figures. */
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
     TRY(option_has_value("--of", name != NULL, usage));
@@ -121,8 +122,8 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     return done;
 }
 
-/* Prints the commands of the runs of a study, one per line, without duplicates. REFUSED if the folder of the study is
- * in use for something else. */
+/* Prints the commands of the runs of a study, one per line, without duplicates. Returns REFUSED if the folder of the
+ * study is in use for something else. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
     TRY(a->options.overwrite ? study_folder_check(s->folder) : study_folder_check_scene(s->folder, s->text));
