@@ -145,7 +145,7 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
 /* Draws the profiles of a bar with the closed-form solution of the EXACT probe called `probe`. Leaves out the frame at
- * t = 0 if there are others. FAILED if a profile cannot be read or gnuplot fails. */
+ * t = 0 if there are others. Returns FAILED if a profile cannot be read or gnuplot fails. */
 static status plot_draw_bar(const struct plot_request *r, const struct run_frames *frames, const char *probe)
 {
     char title[TITLE_LENGTH];
@@ -155,8 +155,8 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
 
-/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles. FAILED
- * if a frame cannot be read or gnuplot fails. */
+/* Draws profiles of a bar: with the closed-form solution if the run has an EXACT probe, else from the particles.
+ * Returns FAILED if a frame cannot be read or gnuplot fails. */
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
@@ -173,8 +173,8 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
 /* Draws the maps of a run in two or three dimensions: those of a slice and, in 3D, of an outside view. last: the last
- * selected frame. REFUSED if no particle is in the requested slice, or the request does not suit the field; FAILED if a
- * frame cannot be read or gnuplot fails. */
+ * selected frame. Returns REFUSED if no particle is in the requested slice, or the request does not suit the field;
+ * FAILED if a frame cannot be read or gnuplot fails. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;

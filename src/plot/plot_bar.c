@@ -25,8 +25,8 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder`. FAILED if there is
- * none. Release h with history_free. */
+/* Reads the profile of the EXACT probe called `probe` at frame `number` of the run in `folder`. Returns FAILED if there
+ * is none. Release h with history_free. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -129,7 +129,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Sends a number to gnuplot, or NaN, which leaves a gap in a curve. */
+/* Sends the number `a` to gnuplot. If it is not finite, sends NaN, which leaves a gap in a curve. */
 static void send_number(FILE *to, double a)
 {
     if (isfinite(a))
@@ -191,8 +191,8 @@ static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int
     putc('\n', to);
 }
 
-/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. FAILED if
- * gnuplot fails. */
+/* Draws all panels of a bar with its closed-form solution. h[frames]: profiles of the frames show[frames]. Returns
+ * FAILED if gnuplot fails. */
 static status plot_bar_draw(struct sheet sheet, const char *title, const struct history *h,
                             const struct listed_frame *show, int frames)
 {

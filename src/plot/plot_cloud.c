@@ -13,8 +13,8 @@ static const double COMPARISONS = 2e7;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns how many of n particles are sampled to estimate the spacing, so that the number of distance comparisons,
- * samples * n, is limited. */
+/* Returns how many of n particles are sampled to estimate the spacing. The number is such that the distance
+ * comparisons, samples * n, are at most about COMPARISONS. */
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));

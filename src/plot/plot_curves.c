@@ -84,7 +84,7 @@ static bool column_varies(const struct history *h, int column)
 }
 
 /* Draws the crack length and the share of peridynamic particles over time, each only if it changes. The crack length of
- * a bar is never drawn. Prints a message if neither changes. FAILED if gnuplot fails. */
+ * a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -164,7 +164,7 @@ static void plot_energies(FILE *to, const struct energies *e)
     fputs(") with lines lw 1.6 dt (6,4) lc rgb '#3d3d3d' title 'sum'\n", to);
 }
 
-/* Returns a distance of tics, 1, 2 or 5 times a power of ten, that places one or two tics between 0 and `top`. */
+/* Returns a distance of tics, 1, 2 or 5 times a power of ten, with which one or two tics are between 0 and `top`. */
 static double coarse_tic_distance(double top)
 {
     const double decade = pow(10, floor(log10(top))), lead = top / decade;
@@ -193,7 +193,7 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
 }
 
 /* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
- * all energies are 0. FAILED if gnuplot fails. */
+ * all energies are 0. Returns FAILED if gnuplot fails. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;

@@ -13,7 +13,7 @@
 #include "scene/scene_read.h"
 
 /* Determines the path of the picture of a field: the option -o, or a file in DIR/pictures, a folder that is created.
- * field: name of the field. REFUSED if the file may not be replaced. */
+ * field: name of the field. Returns REFUSED if the file may not be replaced. */
 static status field_path(struct path *path, const struct plot_request *r, const char *field)
 {
     const char *ending = picture_ending[r->format];

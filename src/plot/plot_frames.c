@@ -95,7 +95,7 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
 }
 
 /* Checks that the requested times time[times] [s] are within the range of the frames, extended by the mean time between
- * frames at both ends. REFUSED otherwise. */
+ * frames at both ends. Returns REFUSED otherwise. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;

@@ -269,8 +269,8 @@ static void draw_bar_label(FILE *to, const struct layout *l, const char *label, 
                 (x + letter * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
 }
 
-/* Draws the colour bar as a narrow panel on the right beside the first row. particles: number of particles of a frame,
- * of which the share beyond the ends is printed. */
+/* Draws the colour bar as a narrow panel on the right beside the first row of panels. particles: number of particles of
+ * a frame, from which the shares beyond the ends of the bar are computed, which are printed there. */
 static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct view *view, enum map map,
                                int64_t particles)
 {
@@ -336,7 +336,7 @@ static void draw_rigid_key(FILE *to, const struct layout *l, const struct view *
               "rigid");
 }
 
-/* Draws the key of named values on the right, in place of the colour bar. */
+/* Draws the key k of named values (such as materials) with their colours on the right, in place of the colour bar. */
 static void draw_categories(FILE *to, const struct layout *l, const struct categories *k)
 {
     const double x = l->width - l->right + BAR_FROM;

@@ -170,8 +170,8 @@ static int find_tip_paths(struct tip_path *w, const char *folder, const struct h
     return n;
 }
 
-/* Sends the k-th path w as the data block $wK: the tip position of each sample, without repeated positions. factor:
- * unit of length [m]. */
+/* Sends the path w to gnuplot as the data block $wK (K is the number k): the tip position of each sample, without
+ * repeated positions. factor: unit of length [m]. */
 static void send_tip_path(FILE *to, const struct history *h, const struct tip_path *w, int k, double factor)
 {
     double last = -1;

@@ -24,7 +24,8 @@ bool run_has_load_steps(const char *folder)
     return in_steps;
 }
 
-/* Sets the distance of the tics of a horizontal axis from 0 to `high`, so far apart that their numbers do not touch. */
+/* Writes the gnuplot command for the tics of a horizontal axis from 0 to `high`, so far apart that their numbers do not
+ * touch. l: layout of the picture. */
 static void write_horizontal_tics(FILE *to, const struct curves_layout *l, double high)
 {
     const double letters = 2 + fmax(floor(log10(high)), 0); /* of the longest number, with a space */

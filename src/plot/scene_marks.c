@@ -65,7 +65,7 @@ void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Sends the outline of a crack as a line, which is closed for a polygon in 3D. */
+/* Sends the outline of the crack c to the current data block as a line, which is closed for a polygon in 3D. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
     for (int k = 0; k < c->n; k++) marks_add_point(m, c->corner[k], NULL);
@@ -101,7 +101,8 @@ void marks_draw_cracks(struct marks *m)
  * circle. */
 enum { PROBES_NAMED = 10, CIRCLE = 48 };
 
-/* Sends the edges of the box from[dim]..to[dim] as lines: four in 2D, twelve in 3D. */
+/* Sends the edges of the box with the corners from[dim] and to[dim] [m] to the current data block as lines: four in 2D,
+ * twelve in 3D. */
 static void box_lines(struct marks *m, const real *from, const real *to, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -221,7 +222,7 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
     return corner;
 }
 
-/* Draws the outlines of all coarse cells of a level. Returns their number. */
+/* Draws the outlines of all coarse cells of the refinement level `level`. Returns their number. */
 static int64_t level_cells_draw(struct marks *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;

@@ -31,8 +31,8 @@ static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the material of particle i, or of its body if all bodies have the same material. It determines
- * the colour. */
+/* Returns the number that determines the colour of particle i: the index of its material, or of its body if all bodies
+ * have the same material. */
 static int part_number(const struct scene *s, const struct particles *p, int64_t i)
 {
     return s->materials > 1 ? p->material[i] : p->body[i];
@@ -140,8 +140,8 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of particles with the material or body `number` (see part_number), without those in coarse
- * cells. */
+/* Returns the number of particles of the material with the index `number`, or of the body with this index if all bodies
+ * have the same material. Particles in coarse cells are not counted. */
 static int64_t count_part(const struct particles *part, const struct scene *scene, int number)
 {
     int64_t n = 0;
@@ -190,7 +190,8 @@ static void key_of_parts(struct marks *m)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Returns the view of a scene, with a margin of the length of an arrow [m] around the body. */
+/* Returns a view of the particles c of a scene whose rectangle has a margin of `arrow` [m], the length of the longest
+ * arrow, around the body. */
 static struct view scene_view(const struct plotted_particles *c, double arrow)
 {
     struct view v = view_around(c, 1);
@@ -295,7 +296,7 @@ static void draw_marks(struct marks *m)
 }
 
 /* Draws the particles c and the marks m of a scene. metre: unit of the axes; data: gnuplot commands with the data of
- * the marks; elements: arguments of the plot command for the marks. FAILED if gnuplot fails. */
+ * the marks; elements: arguments of the plot command for the marks. Returns FAILED if gnuplot fails. */
 static status draw_collected(struct sheet sheet, const struct marks *m, const struct view *v,
                              const struct plotted_particles *c, const struct unit *metre, const char *data,
                              const char *elements)
@@ -337,8 +338,8 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */
 
-/* Determines the path of the picture of a scene: the option -o, or a file in results/. REFUSED if the file may not be
- * replaced. */
+/* Determines the path of the picture of a scene: the option -o, or a file in results/. Returns REFUSED if the file may
+ * not be replaced. */
 static status scene_sheet(struct path *path, const struct scene *s, const struct plot_request *r)
 {
     char name[sizeof s->name + 16];
@@ -346,8 +347,8 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_choose_path(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
-/* Creates the run e of the scene, draws it and prints what was drawn. REFUSED for an outside view of a scene that is
- * not three-dimensional; FAILED if the run cannot be created or gnuplot fails. */
+/* Creates the run e of the scene, draws it and prints what was drawn. Returns REFUSED for an outside view of a scene
+ * that is not three-dimensional; FAILED if the run cannot be created or gnuplot fails. */
 static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;
