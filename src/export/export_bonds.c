@@ -37,8 +37,8 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Returns true if the weight of a bond of particle i equals the weight that LAMMPS would use, to within the relative
- * tolerance WEIGHT_NEAR. */
+/* Returns true if the weight of `bond`, a bond of particle i, equals the weight that LAMMPS would use, to within the
+ * relative tolerance WEIGHT_NEAR. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;

@@ -68,8 +68,8 @@ static void variables_add(struct exodus_export *x, int field)
     }
 }
 
-/* Lists the frames of the run in x->folder, and the variables from the fields of the first frame. REFUSED without
- * frames, FAILED if the frame cannot be read. */
+/* Lists the frames of the run in x->folder, and the variables from the fields of the first frame. Returns REFUSED
+ * without frames, FAILED if the frame cannot be read. */
 static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
@@ -90,7 +90,7 @@ static status frames_open(struct exodus_export *x)
 }
 
 /* Checks that a frame has the particles of the exported mesh, as an Exodus file has one list of elements for all times.
- * REFUSED otherwise. */
+ * Returns REFUSED otherwise. */
 static status frame_check(const struct exodus_export *x, const struct output_frame *f)
 {
     const struct particles *p = &x->mesh.e->part;
@@ -244,7 +244,7 @@ static void all_define(struct exodus_export *x, const struct netcdf_attribute *a
 
 /* ---- contents ---------------------------------------------------------------------------------------------------- */
 
-/* Writes spacing, horizon and materials of the scene as lines of text, the array info_records. */
+/* Writes spacing, horizon and materials of the scene as lines of text to the array info_records of the file. */
 static void info_write(struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;
@@ -371,9 +371,9 @@ static status exodus_check_name(const char *path)
     return status_set(REFUSED, "%s: a name that ends in .exo, .e or .g is expected", path);
 }
 
-/* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. REFUSED if there are
- * too many particles for the format. REFUSED or FAILED if the scene or a frame cannot be read, or the file cannot be
- * written. */
+/* Creates the particles of the scene, lists the frames if a run is exported, and writes the file. Returns REFUSED if
+ * there are too many particles for the format. Returns REFUSED or FAILED if the scene or a frame cannot be read, or the
+ * file cannot be written. */
 static status exodus_make(struct exodus_export *x, const struct export_request *scene)
 {
     TRY(export_mesh_make(&x->mesh, scene));

@@ -16,7 +16,7 @@
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
 /* Reads the scene of the request with the overrides of the user, with bonds in the whole body, and with the settings
- * `with` that the export needs. REFUSED or FAILED if it cannot be read. */
+ * `with` that the export needs. Returns REFUSED or FAILED if it cannot be read. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
