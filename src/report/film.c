@@ -134,7 +134,7 @@ void film_free(struct film *f)
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Selects at most `most` of the frames that were read, evenly spread, and sets f->used to their number. */
+/* Selects at most `most` of the frames that were read, evenly spread, to be shown, and sets f->used to their number. */
 static void frames_use(struct film *f, int most)
 {
     for (int k = 0; k < f->frames; k++) f->frame[k].used = false;
@@ -193,8 +193,8 @@ void film_fit_to_budget(struct film *f, int64_t budget)
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
-/* Writes the reference positions of the shown groups of a particle set along axis d: the mean of the particles of each
- * group, as 16 bits between the smallest and the largest one. */
+/* Writes the reference positions of the shown groups of the particle set s along axis d: the means over the particles
+ * of each group, as numbers of 16 bits between the smallest and the largest mean. */
 static void write_positions(struct page *p, const struct film_set *s, int d)
 {
     double *mean = NEW("report.mean", s->groups, double), low = INFINITY, high = -INFINITY;
