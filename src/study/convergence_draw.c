@@ -252,7 +252,7 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
 }
 
 /* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
- * extent determines its height. FAILED without memory or if gnuplot fails. */
+ * extent determines its height. Returns FAILED without memory or if gnuplot fails. */
 static status draw_paths(const struct convergence_study *s)
 {
     const struct path picture = convergence_picture(s->study.folder, "path.png");

@@ -287,8 +287,8 @@ static void plan_print(const struct convergence_study *s)
 }
 
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads
- * their figures into s->table. REFUSED or FAILED if the study cannot be planned, its first run fails, or a summary
- * cannot be read. INTERRUPTED after a stop signal. */
+ * their figures into s->table. Returns REFUSED or FAILED if the study cannot be planned, its first run fails, or a
+ * summary cannot be read. Returns INTERRUPTED after a stop signal. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;

@@ -49,7 +49,8 @@ static char *question_text(const struct pilot_search *p)
 
 /* ---- the answer -------------------------------------------------------------------------------------------------- */
 
-/* Copies the file `from` in a folder to the file `name` in the same folder. FAILED if it cannot be read or written. */
+/* Copies the file `from` in a folder to the file `name` in the same folder. Returns FAILED if it cannot be read or
+ * written. */
 static status file_copy(const char *folder, const char *from, const char *name)
 {
     char *text;

@@ -69,8 +69,8 @@ static bool scene_acts(const struct scene *s)
 
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
-/* Lists the methods that are applicable to the scene in p->at. REFUSED if there is none, or if pilot runs are not
- * possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies. */
+/* Lists the methods that are applicable to the scene in p->at. Returns REFUSED if there is none, or if pilot runs are
+ * not possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies. */
 status pilot_plan(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;

@@ -85,7 +85,7 @@ static void panels_choose(struct study_picture *p)
     panel_add(p, study_find_result(t, "loop_seconds"));
 }
 
-/* Chooses the figures with the names of[asked] for the panels. REFUSED if one is not in the table of the study. */
+/* Chooses the figures with the names of[asked] for the panels. Returns REFUSED if the table of the study lacks one. */
 static status panels_of(struct study_picture *p, const char *const *of, int asked)
 {
     const struct study_table *t = p->table;

@@ -279,7 +279,7 @@ static void cases_kill(struct runner *r)
 }
 
 /* Runs all waiting runs of a study, as many at a time as requested. After an error, a stop signal or the end of the
- * budget it starts no more runs and stops the running ones. FAILED or REFUSED if a process cannot be started,
+ * budget it starts no more runs and stops the running ones. Returns FAILED or REFUSED if a process cannot be started,
  * INTERRUPTED after a stop signal. */
 static status cases_run(struct runner *r)
 {
