@@ -315,7 +315,8 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads a list of words, `none` or `all` from node n: one bit of *bits per word of k->words. REFUSED for others. */
+/* Reads a list of words of k->words, `none` or `all` from node n: one bit of *bits per word. Returns REFUSED for
+ * others. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
