@@ -25,8 +25,9 @@ static bool spins(const struct scene *s)
     return any;
 }
 
-/* Warns of FLIP for rotating bodies on the grid: it does not conserve their angular momentum. The figures in the
- * warning were measured with a plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
+/* Adds a warning to *to if bodies rotate on the grid and velocities are transferred by FLIP, which does not conserve
+ * their angular momentum. The figures in the warning were measured with a plate that rotates freely, with edges at 30
+ * m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
@@ -35,8 +36,8 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
                      "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
 }
 
-/* Warns of pre-cracks in scenes without bonds, which have no effect there, and of coupling methods that differ from
- * their published definition or do not derive from an energy. kind: coupling method. */
+/* Adds warnings to *to about pre-cracks in scenes without bonds, which have no effect there, and about coupling methods
+ * that differ from their published definition or do not derive from an energy. kind: coupling method. */
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
@@ -72,7 +73,7 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
                      s->cell);
 }
 
-/* Warns of keys for coarse cells and slits that have no effect in this scene. */
+/* Adds warnings to *to about keys for coarse cells and slits that have no effect in this scene. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
@@ -93,7 +94,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                      s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
 }
 
-/* Warns of materials whose points convert at a stress above the one at which bonds break. */
+/* Adds warnings to *to about materials whose points convert at a stress above the one at which bonds break. */
 static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
@@ -123,7 +124,7 @@ static bool region_is_met(const struct reference_frame *frame, const struct part
     return any;
 }
 
-/* Warns of SIF probes if a material yields: stress-intensity factors have no meaning there. */
+/* Adds warnings to *to about SIF probes if a material yields: stress-intensity factors have no meaning there. */
 static void warn_of_probes(const struct scene *s, struct warnings *to)
 {
     bool yields = false;
@@ -136,15 +137,15 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
                          s->probe[k].name);
 }
 
-/* Warns of columns of particle lists that are not read, or for which a default is used. */
+/* Adds warnings to *to about columns of particle lists that are not read, or for which a default is used. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].list.note[0]) warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
-/* Warns that plastic strain is requested for frames although no material yields. asked: fields of frames (bits
- * ASK_...). */
+/* Adds a warning to *to if plastic strain is requested for frames although no material yields. asked: fields that the
+ * scene requests for frames (bits ASK_...). */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
@@ -152,7 +153,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
         warnings_add(to, "output.fields: no material yields, so frames will have no plastic_strain");
 }
 
-/* Warns of output regions that contain no particle. */
+/* Adds warnings to *to about output regions that contain no particle. */
 static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
                             struct warnings *to)
 {
@@ -161,7 +162,7 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
             warnings_add(to, "output.regions: %s holds no particle: its frames will be empty", s->series[k].name);
 }
 
-/* Warns of boundaries with prescribed motion that contain no particle. */
+/* Adds warnings to *to about boundaries with prescribed motion that contain no particle. */
 static void warn_of_boundaries(const struct scene *s, const struct loads *l, const struct particles *p,
                                struct warnings *to)
 {
@@ -173,7 +174,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
                          particles_extent_text(p).text);
 }
 
-/* Warns of a time step above the critical time step, with which a dynamic run is unstable. */
+/* Adds a warning to *to about a time step above the critical time step, with which a dynamic run is unstable. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
@@ -186,7 +187,8 @@ static void warn_of_step(const struct scene *s, const struct run_clock *clock, s
 
 #define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
 
-/* Warns of a horizon so small that a particle has bonds only to its neighbours along the axes of the lattice. */
+/* Adds a warning to *to about a horizon so small that a particle has bonds only to its neighbours along the axes of the
+ * lattice. */
 static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;

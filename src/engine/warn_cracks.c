@@ -59,8 +59,8 @@ static real crack_distance(const struct crack *c, const struct particles *p)
     return least;
 }
 
-/* Warns of the first pre-cracks that are farther from all particles than `reach`, the length of the longest bonds [m].
- * For many cracks only bounding boxes are compared. Returns true if there are any. */
+/* Adds warnings to *to about the first pre-cracks that are farther from all particles than `reach`, the length of the
+ * longest bonds [m]. For many cracks only bounding boxes are compared. Returns true if there are any. */
 static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
 {
     enum { SEARCHED = 16, NAMED = 3 };
@@ -81,7 +81,8 @@ static bool warn_of_far_cracks(const struct scene *s, const struct particles *p,
     return far > 0;
 }
 
-/* Warns of probes of crack tips and first breaks if no bond of the scene can break and no crack is grown. */
+/* Adds warnings to *to about probes of crack tips and first breaks if no bond of the scene can break and no crack is
+ * grown. */
 static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
 {
     const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
@@ -93,8 +94,8 @@ static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
                                                    "critical_stretch");
 }
 
-/* Warns of cracks with prescribed growth that begin outside of all bodies or after the end of the run, grow by less
- * than a spacing, or grow faster than Rayleigh waves. */
+/* Adds warnings to *to about cracks with prescribed growth that begin outside of all bodies or after the end of the
+ * run, grow by less than a spacing, or grow faster than Rayleigh waves. */
 static void warn_of_growths(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     real rayleigh = 0;

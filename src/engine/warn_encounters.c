@@ -83,8 +83,8 @@ static bool fly_freely(const struct scene *s)
     return freely;
 }
 
-/* Warns if body a, which moves in one direction as a whole, meets no other body within the duration. f[b]: bounding box
- * and velocity of each body b. */
+/* Adds a warning to *to if body a, which moves in one direction as a whole, meets no other body within the duration.
+ * f[b]: bounding box and velocity of each body b. */
 static void warn_of_flight(const struct scene *s, const struct flight *f, int a, struct warnings *to)
 {
     real soonest = INFINITY;

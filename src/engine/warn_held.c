@@ -7,7 +7,7 @@
 
 enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which the motions of two supports are compared */
 
-/* Warns if load l prescribes zero displacement in all components for all particles. */
+/* Adds a warning to *to if load l prescribes zero displacement in all components for all particles. */
 static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
 {
     const struct boundary *b = l->boundary;
@@ -41,8 +41,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Warns if loads a and b prescribe different motions in the same components of the same particles. Only if these are at
- * least half of the particles of one of the loads: faces that meet at an edge share fewer. */
+/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles. No
+ * warning is added if these are fewer than half of the particles of each load, as for faces that meet at an edge. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {

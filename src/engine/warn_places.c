@@ -41,8 +41,8 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     return found;
 }
 
-/* Warns of the overlap of two bodies. inner: number of the body with particles inside the other one; outer: number of
- * the other body; found: those particles. */
+/* Adds a warning to *to about the overlap of two bodies. inner: number of the body with particles inside the other one;
+ * outer: number of the other body; found: those particles. */
 static void warn_of_overlap(const struct scene *s, const struct particles *p, int inner, int outer,
                             const struct overlap *found, struct warnings *to)
 {

@@ -44,7 +44,8 @@ static bool point_found(const struct solid *solid, const struct region *before, 
     return false;
 }
 
-/* Warns if solid k of the shape of body b, which is subtracted, removes nothing from the solids before it. */
+/* Adds a warning to *to if solid k of the shape of body b, which is subtracted, removes nothing from the solids before
+ * it. */
 static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};
@@ -61,7 +62,8 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
                      b->name, k + 1);
 }
 
-/* Warns if solid k of the shape of body b, which is added, is completely inside the solids before it. */
+/* Adds a warning to *to if solid k of the shape of body b, which is added, is completely inside the solids before
+ * it. */
 static void warn_of_added(const struct scene_body *b, int k, int dim, struct warnings *to)
 {
     const struct region before = {.n = k, .solid = b->shape.solid};

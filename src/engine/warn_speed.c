@@ -75,8 +75,8 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Warns of the load of d, which acts on bodies that move freely, if its velocity changes by more than d->limit within
- * the time in which a wave crosses these bodies. Slower changes hardly strain them. */
+/* Adds a warning to *to about the load of d, which acts on bodies that move freely, if its velocity changes by more
+ * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {
@@ -90,8 +90,9 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                      d->load->boundary->name, change, within, d->limit);
 }
 
-/* Warns of boundaries that move particles, or change their velocity at t = 0, by more than the speed at which bonds
- * next to them break. A face moved at speed v strains the material behind it by v/c at once, c being the wave speed. */
+/* Adds warnings to *to about boundaries that move particles, or change their velocity at t = 0, by more than the speed
+ * at which bonds next to them break. A face moved at speed v strains the material behind it by v/c at once, c being the
+ * wave speed. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                   struct warnings *to)
 {

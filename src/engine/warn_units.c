@@ -59,8 +59,9 @@ static const struct {
                       "its times (us?) and duration"},
 };
 
-/* Warns if `value` is outside least .. most, unless the scene accepts implausible values of the quantity k. subject:
- * part of the scene that has this value; note: text with the numbers from which the value is computed, or "". */
+/* Adds a warning to *to if `value` is outside least .. most, unless the scene accepts implausible values of the
+ * quantity k. subject: part of the scene that has this value; note: text with the numbers from which the value is
+ * computed, or "". */
 static void units_judge_between(const struct scene *s, enum accept k, real least, real most, const char *subject,
                                 real value, const char *note, struct warnings *to)
 {
@@ -73,9 +74,9 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
                  (int)strcspn(word, "|"), word);
 }
 
-/* Warns if `value` is outside the plausible range of the quantity k in the table `rule`, unless the scene accepts
- * implausible values of k. subject: part of the scene that has this value; note: text with the numbers from which the
- * value is computed, or "". */
+/* Adds a warning to *to if `value` is outside the plausible range of the quantity k in the table `rule`, unless the
+ * scene accepts implausible values of k. subject: part of the scene that has this value; note: text with the numbers
+ * from which the value is computed, or "". */
 static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -84,8 +85,8 @@ static void units_judge(const struct scene *s, enum accept k, const char *subjec
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Warns if the wave speed of material m is implausible. The message blames the units, or Poisson's ratio near 1/2, if
- * that alone makes waves fast. subject: name of the material in messages. */
+/* Adds a warning to *to if the wave speed of material m is implausible. The message blames the units, or Poisson's
+ * ratio near 1/2, if that alone makes waves fast. subject: name of the material in messages. */
 static void units_of_waves(const struct scene *s, const char *subject, const struct material *m, struct warnings *to)
 {
     const real bar = sqrt(m->young / m->density), usual = bar * sqrt(0.6 / (1.4 * 0.2)); /* at 0.4, in 3D */
@@ -98,8 +99,8 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
-/* Warns of implausible wave speeds, densities, energy release rates, specific heats, yield stresses and critical
- * stretches of the materials. */
+/* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
+ * and critical stretches of the materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -120,9 +121,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Warns of rigid bodies whose mass does not fit their volume. Their density should be within that of matter,
- * rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should be within a factor
- * UNLIKE of these. */
+/* Adds warnings to *to about rigid bodies whose mass does not fit their volume. Their density should be within that of
+ * matter, rule[ACCEPT_MASS]. If the densities of the materials are outside, too (other units), it should be within a
+ * factor UNLIKE of these. */
 static void units_of_rigids(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -141,8 +142,8 @@ static void units_of_rigids(const struct scene *s, struct warnings *to)
     }
 }
 
-/* Warns of materials whose energy release rate does not fit their tensile strength: a crack in them would need a body
- * many times as large. longest: longest edge of the box around all particles [m]. */
+/* Adds warnings to *to about materials whose energy release rate does not fit their tensile strength: a crack in them
+ * would need a body many times as large. longest: longest edge of the box around all particles [m]. */
 static void units_of_brittleness(const struct scene *s, real longest, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -170,8 +171,8 @@ static real factor_largest_until(const struct time_function *f, real t_end)
     return most;
 }
 
-/* Warns of loads and supports that reach only a small part of their largest value by the end of the run, and of those
- * whose function of time ends long before the first time step of dt [s]. */
+/* Adds warnings to *to about loads and supports that reach only a small part of their largest value by the end of the
+ * run, and about those whose function of time ends long before the first time step of dt [s]. */
 static void units_of_times(const struct scene *s, real dt, struct warnings *to)
 {
     static const char *const early[] = {[TIME_STEP] = "it never acts",
@@ -291,10 +292,10 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Warns if the largest stress of the run is too small to make a crack grow. It is so if a crack as long as the longest
- * edge a of the body would release less energy in Griffith's plate (1921), G = pi sigma^2 a/E, than the smallest energy
- * release rate of a material. The stress is raised by the slenderness of the body, because bending is not computed.
- * stress: stress that the loads cause [Pa]. */
+/* Adds a warning to *to if the largest stress of the run is too small to make a crack grow. It is so if a crack as long
+ * as the longest edge a of the body would release less energy in Griffith's plate (1921), G = pi sigma^2 a/E, than the
+ * smallest energy release rate of a material. The stress is raised by the slenderness of the body, because bending is
+ * not computed. stress: stress that the loads cause [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
@@ -313,9 +314,10 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
 }
 
-/* Warns if the largest stress of the run cannot break any material, or is far above the strength. The stress is
- * estimated from tractions, from rho c v of speeds v and from E u/L of displacements u of bodies of length L. In a body
- * in motion displacements may grow after the first bonds have broken, so they are not reported as too large. */
+/* Adds a warning to *to if the largest stress of the run cannot break any material, or is far above the strength. The
+ * stress is estimated from tractions, from rho c v of speeds v and from E u/L of displacements u of bodies of length L.
+ * In a body in motion displacements may grow after the first bonds have broken, so they are not reported as too
+ * large. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -351,7 +353,8 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
-/* Warns of tractions and pressures that are implausible relative to the smallest Young's modulus of the materials. */
+/* Adds warnings to *to about tractions and pressures that are implausible relative to the smallest Young's modulus of
+ * the materials. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -369,9 +372,9 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
-/* Warns of implausibly few or many time steps, of waves that travel less than a spacing during the run, and of waves
- * that cross the bodies very often. wave_speed: speed of the fastest wave [m/s]; longest: longest edge of the box
- * around all particles [m]. */
+/* Adds warnings to *to about implausibly few or many time steps, about waves that travel less than a spacing during the
+ * run, and about waves that cross the bodies very often. wave_speed: speed of the fastest wave [m/s]; longest: longest
+ * edge of the box around all particles [m]. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, real longest,
                           struct warnings *to)
 {
@@ -406,7 +409,8 @@ real engine_count_particles_across(const struct scene *s, real low, real high, i
     return n;
 }
 
-/* Warns if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. name: name of the body. */
+/* Adds a warning to *to if the body in the box low[dim] .. high[dim] [m] has few particles along an axis. name: name of
+ * the body. */
 static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
                           struct warnings *to)
 {
@@ -432,7 +436,8 @@ bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, 
     return high[0] >= low[0];
 }
 
-/* Warns of bodies with a pre-crack if they have few particles along an axis. Joined bodies count as one. */
+/* Adds warnings to *to about bodies with a pre-crack if they have few particles along an axis. Joined bodies count as
+ * one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
@@ -445,8 +450,8 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-/* Warns of a plate in plane stress that is much thicker than its longest edge. longest: longest edge of the box around
- * all particles [m]. */
+/* Adds a warning to *to about a plate in plane stress that is much thicker than its longest edge. longest: longest edge
+ * of the box around all particles [m]. */
 static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
 {
     char note[80];
