@@ -315,8 +315,7 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads a list of words of k->words, `none` or `all` from node n: one bit of *bits per word. Returns REFUSED for
- * others. */
+/* Reads words of key k, `none` or `all` from node n into *bits, one bit per word. Returns REFUSED for other texts. */
 static status read_set(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned *bits)
 {
     const char *words = words_for_message(r, k->words);
