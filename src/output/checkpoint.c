@@ -97,8 +97,8 @@ static status state_write(struct output *o, const char *path, const char *scene_
     return f.failed ? file_report_write_failure(path, f.cause) : s;
 }
 
-/* Syncs history.csv to the disk: a checkpoint may only be written after the samples that precede it. Returns FAILED
- * if that is not possible. */
+/* Synchronises history.csv with the disk. It is done before a checkpoint is written, since the run may be resumed only
+ * from a checkpoint whose earlier samples are in the file. Returns FAILED if it is not possible. */
 static status history_sync(const struct output *o)
 {
     if (!o->history || (fflush(o->history) == 0 && fsync(fileno(o->history)) == 0)) return OK;

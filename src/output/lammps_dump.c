@@ -99,7 +99,7 @@ static status head_next(struct dump *d, struct dump_head *h, bool *more)
     return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
 }
 
-/* Skips n lines of the dump. Returns false if the file ends before. */
+/* Skips n lines of the dump d. Returns false if the file ends before the last of them. */
 static bool skip_rows(struct dump *d, int64_t n)
 {
     bool more = true;

@@ -188,7 +188,7 @@ bool file_has_contents(const char *path, const void *bytes, size_t length)
 
 /* ---- whole files ------------------------------------------------------------------------------------------------- */
 
-/* Writes `length` bytes to the open file fd. Returns 0, or an errno on a fault. */
+/* Writes `length` bytes from `bytes` on to the open file fd. Returns 0, or the errno of a failed write. */
 static int write_all(int fd, const char *bytes, size_t length)
 {
     while (length > 0) {
@@ -203,8 +203,9 @@ static int write_all(int fd, const char *bytes, size_t length)
     return 0;
 }
 
-/* Opens the file `path` with additional `flags` of open(2), writes `length` bytes at its end, syncs and closes it.
- * With O_EXCL an existing file is removed first. Returns 0, or an errno on a fault. */
+/* Opens the file `path` with the additional flags `flags` of open(2), writes `length` bytes at its end, synchronises it
+ * with the disk and closes it. With O_EXCL an existing file is removed first. Returns 0, or the errno of a failed
+ * call. */
 static int write_synced(const char *path, int flags, const void *bytes, size_t length)
 {
     if (flags & O_EXCL) unlink(path); /* left by a killed run; a link of this name is not followed */
@@ -216,8 +217,8 @@ static int write_synced(const char *path, int flags, const void *bytes, size_t l
     return fault;
 }
 
-/* Syncs the folder that contains `path`, so that a rename survives a crash. Returns 0, or an errno on a fault. File
- * systems that cannot sync a folder return EINVAL, which is not a fault. */
+/* Synchronises the folder that contains `path` with the disk, so that a rename survives a crash. Returns 0, or the
+ * errno of a failure. File systems that cannot do so return EINVAL, which is not a failure. */
 static int sync_folder_of(const char *path)
 {
     struct path folder = path_compose(path, "", "");
@@ -231,8 +232,8 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* Converts the errno `fault` of a write (0: none) to a status. On a fault, removes the incomplete temporary file of
- * `path` and returns FAILED with a message. */
+/* Returns the status of a write from its errno `fault`: OK if it is 0. Otherwise removes the incomplete temporary file
+ * of `path` and returns FAILED with a message. */
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;

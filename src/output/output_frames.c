@@ -43,8 +43,8 @@ struct frame_job {
     char message[512];
 };
 
-/* Returns true if the frame of a job stores field k itself. Fields that do not change are stored in the particles
- * file instead. */
+/* Returns true if the frame of a job itself contains field number k. Fields that do not change from frame to frame are
+ * in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
 /* Copies the rows of those fields that are stored in the frame itself, not in the particles file, to o->frame_copy.
@@ -68,7 +68,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     }
 }
 
-/* If all contact forces of a frame are 0, removes their field from the frame and marks the frame as one without
+/* Removes the field of contact forces from the frame of a job if all of them are 0, and marks the frame as one without
  * contact. */
 static void job_drop_contact(struct frame_job *job)
 {
@@ -222,8 +222,8 @@ static void write_marks(struct hdf *f, const struct frame_job *job)
     if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
 }
 
-/* Writes the frame of a job to PATH.cleave.tmp and renames it to PATH, after the particles file, if that is new.
- * Returns FAILED if a file cannot be written. */
+/* Writes the particles file of the frame of a job if it is new, then the frame, under its temporary name
+ * PATH.cleave.tmp, which is renamed to PATH. Returns FAILED if a file cannot be written. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;

@@ -178,8 +178,8 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
 
 /* ---- times of frames --------------------------------------------------------------------------------------------- */
 
-/* Reads the next entry of the text of frames.hdf.series at *at into f, and advances *at behind it. Returns false if
- * there is no further entry. */
+/* Reads one entry of the text of frames.hdf.series, from *at on, into f, and sets *at to the text after it. Returns
+ * false if there is no further entry. */
 static bool next_frame(const char **at, struct listed_frame *f)
 {
     static const char name[] = "frames/", key[] = "\"time\":";

@@ -91,7 +91,8 @@ static void write_virtual(struct hdf *f, const struct temporal *a, const struct 
     hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, more);
 }
 
-/* Writes points, cells and fields of all frames as virtual datasets. number: working memory of n entries. */
+/* Writes points, cells and fields of all frames to f as virtual datasets. number: working memory with an entry for each
+ * frame. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -111,8 +112,8 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Writes the units of the fields and the text of the scene as field data that all times share. number: working memory
- * of 2 n entries. */
+/* Writes the units of the fields and the text of the scene to f as field data that all times share. number: working
+ * memory with two entries for each frame. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};
@@ -134,8 +135,8 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     }
 }
 
-/* Writes the temporal file under the temporary name of `path` and renames it. Returns FAILED on a fault; if HDF5 has
- * failed, sets *broken to true and removes the incomplete file. */
+/* Writes the file of all frames for VTK under the temporary name of `path` and renames it. scene_text: text of the
+ * scene. Returns FAILED on a fault. If HDF5 has failed, sets *broken to true and removes the incomplete file. */
 static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
 {
     static const int32_t version[2] = {2, 0};

@@ -76,8 +76,8 @@ static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
     return length - (int64_t)(have - own + e->end_length);
 }
 
-/* Writes the mark of Cleave into the complete picture fd of format e, and syncs the file. Returns 0, an errno, or -1 if
- * the picture is incomplete. */
+/* Writes the mark of Cleave into the complete picture fd of format e, and synchronises the file with the disk. Returns
+ * 0, the errno of a failure, or -1 if the picture is incomplete. */
 static int mark_and_sync(int fd, const struct picture_end *e)
 {
     char bytes[2 * END_LENGTH];

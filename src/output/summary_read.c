@@ -49,8 +49,8 @@ static bool escape(struct reader *r)
     return true;
 }
 
-/* Parses a JSON string. *from, *to: receive its beginning and its end in the text, without the quotes; escapes are
- * not replaced. Returns false if the string is malformed. */
+/* Parses a JSON string. Stores pointers to its beginning and its end in the text, without the quotes, in *from and *to.
+ * Escapes are not replaced. Returns false if the string is malformed. */
 static bool string(struct reader *r, const char **from, const char **to)
 {
     if (!summary_read_take(r, '"')) return false;
