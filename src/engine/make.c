@@ -154,7 +154,8 @@ static void make_family(const struct scene *s, struct bond_source *source)
     source->material = s->material, source->materials = s->materials;
 }
 
-/* Creates the planes of symmetry, and the mirror images of pre-cracks, which cut bonds across these planes. */
+/* Creates the planes of symmetry of the scene, and the mirror images of pre-cracks, which cut bonds across these
+ * planes, in `source` and `tables`. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -229,7 +230,8 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Returns the set of optional arrays of particles that a material with this law needs, as bits WITH_... */
+/* Returns the set of optional arrays of particles that a material with the flow law `law` requires, as a sum of
+ * WITH_*. */
 static int law_arrays(const struct law *law)
 {
     if (!law->given) return 0;
@@ -237,7 +239,7 @@ static int law_arrays(const struct law *law)
            (law_heats_material(law) ? WITH_TEMPERATURE : 0);
 }
 
-/* Returns the set of optional arrays of particles that scene s needs, as bits WITH_... */
+/* Returns the set of optional arrays of particles that the scene s requires, as a sum of WITH_*. */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);

@@ -106,8 +106,8 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Writes figures that depend on the machine to JSON object j: processor, commit, threads, kernels, times and memory.
- * steps: number of steps of the run; spent: times of the run [s]. */
+/* Writes the results that depend on the machine to the JSON object j: processor, commit, threads, kernels, times and
+ * memory. steps: number of steps of the run; threads: number of threads; spent: times of the run [s]. */
 static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads,
                         const struct run_seconds *spent)
 {

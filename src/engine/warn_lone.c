@@ -19,7 +19,7 @@ static void lone_add(struct lone *l, int64_t i)
     if (l->n++ == 0) l->first = i;
 }
 
-/* Returns true if row `row` of the bonds, that of one particle, has no bond. */
+/* Returns true if the particle to which row `row` of the stored bonds belongs has no bond. */
 static bool row_empty(const struct bonds *b, int64_t row)
 {
     struct bond_iterator it = bond_iterator_of_row(b, row);
