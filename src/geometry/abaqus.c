@@ -106,7 +106,7 @@ static status deck_label(const struct source *s, const char *field, int32_t *lab
 
 /* ---- keywords ------------------------------------------------------------------------------------------------- */
 
-/* Copies a word to to[FIELD] in capitals and without blanks. */
+/* Copies the word `from` to to[FIELD] in capitals and without blanks. */
 static void word_plain(char *to, const char *from)
 {
     size_t n = 0;
