@@ -12,16 +12,17 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i already had a row in `old` that holds bonds to all particles within the cutoff, as rows
- * of peridynamic particles do. For an image, the row of the particle that it mirrors is tested. */
+/* Returns true if particle i has a row in the previous bonds `old` with bonds to all particles within the cutoff, as
+ * rows of peridynamic particles have. Rows of material points have bonds to peridynamic neighbours only. For an image,
+ * the row of the particle that it mirrors is tested. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_source_particle(p, s->image, i);
     return old->row_of[i] >= 0 && old->whole[old->row_of[i]];
 }
 
-/* Returns true if rows of `old` can be reused: `old` is not NULL, and no particle whose row holds bonds to all its
- * neighbours (a peridynamic particle then) has become a material point again. */
+/* Returns true if rows of the previous bonds `old` can be used again: `old` is not NULL, and no particle that was
+ * peridynamic in `old`, with bonds to all its neighbours, is a material point now. */
 static bool rows_reusable(const struct bonds *old, const struct particles *p)
 {
     if (!old) return false;
@@ -150,8 +151,8 @@ struct rows_pass {
     bool count;                     /* first pass: columns are only counted */
 };
 
-/* Returns true if one of the particles particle[rows] was in a row block of the previous rows whose weights have
- * changed since it was made. */
+/* Returns true if one of the particles particle[rows] had its row in a row block (bonds of eight particles) of the
+ * previous bonds `old` in which weights have changed since it was made, because a bond broke or softened. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -226,8 +227,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Finds for each row block the unchanged one of the previous rows that is taken over (pass->kept), and lists the row
- * blocks that must be made in pass->list. Threads then share the list evenly. */
+/* Finds for each row block of the new rows the unchanged one of the previous rows whose contents are copied
+ * (pass->kept, -1: none). Lists the other row blocks, which must be made, in pass->list. Threads then share the list
+ * evenly. */
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;

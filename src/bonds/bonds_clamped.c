@@ -67,8 +67,9 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Lists n reactions in c->end, sorted by the particle on which they act; reactions on one particle remain in the order
- * of the bonds. end[n]: unsorted reactions; of[n]: particle of each; particles: number of particles of the body. */
+/* Lists n reactions in c->end, sorted by the particle on which they act, and sets c->particle and c->first, the range
+ * of each particle. Reactions on one particle remain in the order of their bonds. end[n]: unsorted reactions; of[n]:
+ * particle of each reaction; particles: number of particles of the body. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);

@@ -12,7 +12,8 @@ struct holes_by_size {
     int32_t most;
 };
 
-/* Inserts hole k, a range of unused columns, in the list of its size. */
+/* Inserts hole number k in the list of the holes of its size. A hole is a range of unused columns of the bond
+ * arrays. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -125,9 +126,9 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Assigns to each row block its first column in the arrays of the previous rows: that of row block kept[g] of `old`
- * which it takes over, else a hole (range of unused columns), else the end of the arrays, which are extended if
- * necessary. */
+/* Assigns to each row block g of b its first column in the arrays of the previous rows `old`: that of row block kept[g]
+ * of `old` if g keeps its columns, else that of a range of unused columns (hole), else the end of the arrays, which are
+ * extended if necessary. kept[g]: -1 if row block g is rebuilt. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);

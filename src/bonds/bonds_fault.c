@@ -3,8 +3,9 @@
 
 #include "bonds_parts.h"
 
-/* Returns a text about what is wrong with the order of rows and particles, or NULL: rows must ascend by particle,
- * row_of must be the inverse of particle, and padding rows must repeat the last one. */
+/* Checks the order of rows and particles: rows must ascend by particle, row_of must be the inverse of `particle`, and
+ * the padding rows behind the last one must repeat its particle. Returns a text that names the first fault, or NULL if
+ * there is none. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -27,8 +28,8 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
     return NULL;
 }
 
-/* Returns a text about what is wrong with a stored column, or NULL: the common properties of its eight bonds must agree
- * with each bond. */
+/* Checks that the common properties of a stored column (b->common[column]) agree with each of its eight bonds. Returns
+ * a text that names the first fault, or NULL if there is none. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];

@@ -51,8 +51,8 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Allocates the softening data of the bonds b. previous: bonds before a rebuild, NULL if there are none; source: inputs
- * of the bonds. Does nothing if all bonds are brittle. */
+/* Allocates the softening data of the bonds b of the particles p. Does nothing if all bonds are brittle. previous:
+ * bonds before a rebuild, whose softening is kept, NULL if there are none; source: inputs of the bonds. */
 void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                               const struct particles *p);
 
@@ -74,9 +74,10 @@ bool row_has_closed(const struct bonds *b, int64_t row);
 void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
                               const struct bonds *previous, int64_t from, const int32_t *new_index);
 
-/* Saves the softening state of all bonds, and which row blocks (bonds of eight particles) have begun to soften or are
- * due for examination, to the archive `a` if a->saving, else restores them from it. To be called after the columns of
- * changed row blocks are restored. Returns FAILED if an entry is missing or its size differs. */
+/* Saves the softening state of all bonds to the archive `a` if a->saving, else restores it from there, and with it two
+ * marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
+ * begin to before the next computation of forces. To be restored after the columns of changed row blocks. Returns
+ * FAILED if an entry is missing or its size differs. */
 status softening_save_or_load(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
@@ -118,10 +119,10 @@ struct row_block_found *row_neighbours_save(const struct row *row, int rows);
 /* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
 void row_neighbours_restore(const struct row_block_found *found, struct row *row, int rows);
 
-/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept: for each
- * row block the number of the previous row block in maker->old whose columns it keeps in place, -1 if it is rebuilt.
- * Rebuilt row blocks use columns of removed row blocks if these are enough, else columns behind all others
- * (bonds_columns.c). */
+/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept[row
+ * blocks]: number of the previous row block in maker->old whose columns are used again in place, -1 for a row block
+ * that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use columns of removed row blocks if these
+ * are enough, else columns behind all others (bonds_columns.c). */
 void bonds_assign_columns(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
 
 /* Sets the pointers in `previous` to NULL for those arrays that b has taken over, so that releasing `previous` does not
@@ -178,9 +179,9 @@ struct stencil_cache *stencil_cache_make(const struct site_map *map);
 void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache for a row block whose bonds equal the bonds b of particles i to i + 7 bit by bit (lengths, weights
- * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of that row block; -1 if there is
- * none, or if the lattice is not uniform. Bonds that were not found in a uniform lattice are added to the cache.
- * weights: inputs on which weights depend besides lattice sites; NULL: none. */
+ * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of the row block found; -1 if
+ * there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not found are added to the
+ * cache. weights: inputs besides lattice sites on which weights depend; NULL if there are none. */
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
 
 /* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
@@ -270,9 +271,9 @@ void stencil_make(struct stencil *p, int columns);
 /* Releases the arrays of the stencil p. */
 void stencil_free(struct stencil *p);
 
-/* Appends the column `from` of the row block whose first particle is i to the stencil `to`. Bonds with w = 0 and
- * inverse_length = 0 do not exist. Returns false, without a usable stencil, if the neighbours are not consecutive, or
- * bonds differ in length or are cut. */
+/* Appends the column `from` (eight bonds) of the row block with the consecutive particles i to i + 7 to the stencil
+ * `to`. A lane of `from` with w = 0 and inverse_length = 0 has no bond. Returns false, and leaves an unusable stencil,
+ * if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
 bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
                         const struct column_copy *from);
 
@@ -281,9 +282,9 @@ bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct 
 const struct stencil *stencil_find_or_add(struct stencils *all, const struct stencil *stencil,
                                           const struct stencil *likely);
 
-/* Sets the stencil of row block `row_block` to that of the row block that contains particle `cached`, so that
- * `row_block` needs no stored columns; its breaking limits and family volumes are copied, too. cached = -1: uses the
- * stencil that `row_block` already has. Returns false, without a change, if there is no stencil. */
+/* Makes row block `row_block` use the stencil of the row block that contains particle `cached`, so that it needs no
+ * stored columns; breaking limits and family volumes are copied from there, too. If cached = -1, `row_block` uses the
+ * stencil that it already has. Returns false, and changes nothing, if there is no stencil. */
 bool row_block_use_stencil(struct bonds *b, int64_t row_block, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */

@@ -110,9 +110,9 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Lists in row->nbr[capacity] the neighbours with which particle i has bonds: of a peridynamic particle all within
- * the cutoff, of a material point the peridynamic ones only. Stores the volume of all neighbours within the cutoff
- * in row->family_volume [m^3]. map: lattice sites. */
+/* Lists the neighbours with which particle i has bonds in row->nbr[capacity]: all within the cutoff if it is
+ * peridynamic, only the peridynamic ones if it is a material point. Sets row->n and row->family_volume, the volume of
+ * all neighbours within the cutoff [m^3]. map: map of lattice sites to particles. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
@@ -170,8 +170,9 @@ real bond_breaking_test_stretch(const struct bond_source *source, const struct p
     return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
-/* Computes lengths and weights of the bonds of particle i, whose neighbours row_search has found. Bonds that a
- * pre-crack cuts get weight 0 and a negative inverse length. */
+/* Computes lengths and weights of the bonds from particle i to the row->n neighbours in row->nbr. A bond that a
+ * pre-crack cuts gets weight 0 and a negative inverse length. pairs: stiffness by pair of materials over that of
+ * material 0. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {

@@ -4,7 +4,8 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns true if row->n == n and the neighbours of the row have the indices particle + offset[0 .. n - 1]. */
+/* Returns true if the neighbours of `particle` in *row, n of them, are particle + offset[0], .., particle + offset[n -
+ * 1] in this order, and no others. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -13,8 +14,9 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
     return other == 0;
 }
 
-/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block (rows of eight particles)
- * in g->offset, ascending. particle[rows]: its particles. Returns their number. */
+/* Lists the distinct index distances (neighbour minus particle) of all bonds of a row block in g->offset, ascending,
+ * and returns their number. A row block has the bonds of up to eight particles: particle[rows]. g: working memory, with
+ * the bonds of these particles in g->row[rows]. */
 static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
@@ -77,9 +79,10 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if bond number `used` of row l (0 to 7), the first one that has no column yet, belongs to column k.
- * With by_offset it must have the index distance of the column (neighbour minus particle); else any bond belongs to
- * it. particle[8]: particles of the row block. */
+/* Returns true if column k of a row block contains the next bond of row l that has no column yet. used: index of this
+ * bond in the row, and number of its bonds that already have a column; l: 0 to 7; particle[8]: particles of the rows.
+ * by_offset: true if all bonds of a column must have its index distance (neighbour minus particle), room->offset[k];
+ * false if a column takes any bond. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -212,9 +215,9 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or
- * begin to soften [1]. bonds: the bonds of the eight particles; m: inputs from which rows are made, with the
- * strengths of bonds. */
+/* Computes trigger[l] for particle i + l, l = 0 .. 7: the smallest stretch at which one of its bonds may break or begin
+ * to soften [1], INFINITY without bonds. bonds: neighbours of these eight particles; m->source, m->p: critical
+ * stretches of the materials and relative strengths of the particles. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -228,8 +231,9 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
     }
 }
 
-/* Returns true if the eight particles of a row block have bonds to all particles within the cutoff, as peridynamic
- * particles have. */
+/* Returns true if each of eight consecutive particles is bonded to all particles within its cutoff, as peridynamic
+ * particles are. Material points are bonded to peridynamic particles only. bonds: neighbours and bonds of the eight
+ * particles. */
 static bool whole_families(const struct regular_bonds *bonds)
 {
     unsigned without = 0;

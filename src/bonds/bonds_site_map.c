@@ -32,8 +32,9 @@ int64_t site_map_find_site(const struct site_map *map, const struct particles *p
     return site;
 }
 
-/* Computes the box of all lattice sites of the body: lower corner l->low and index strides l->stride, with a margin
- * as wide as the longest bond. Returns the number of sites, or 0 if there are too many for a map. */
+/* Computes the smallest box of lattice sites that contains the body and a margin of l->reach sites, the longest bond:
+ * its lower corner l->low [m] and the index strides l->stride. Returns the number of sites in the box, or 0 if there
+ * are too many for a map. */
 static int64_t box_sites(struct site_map *l, const struct particles *p)
 {
     real site_map = 1;
@@ -47,8 +48,8 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
     return (int64_t)site_map;
 }
 
-/* Lists in l->row the segments of lattice rows within the cutoff of a site, ascending. Returns false if a site is so
- * close to the cutoff that round-off would decide whether it is inside. */
+/* Lists in l->row the sites within the cutoff of a site, as one segment on each lattice row along x, in ascending
+ * order. Returns false if a site is so close to the cutoff that round-off would decide whether it is inside. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -68,8 +69,9 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Enters all particles and images in the map. Returns false if the map cannot be used: a particle is off the lattice,
- * two are at one site, there are several bodies, or particles are not in the order of their sites. */
+/* Enters all particles and images in the array l->at of the map of lattice sites. Returns false if the map cannot be
+ * used, because a particle or image is off the lattice or shares its site with another, because there are several
+ * bodies, or because the particles are not numbered in the order of their sites. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
@@ -88,8 +90,9 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the coordinates of the particles along axis d are whole multiples of one step, in units of the
- * last place of the largest coordinate. Equal lattice distances are then equal to the last bit everywhere. */
+/* Returns true if the coordinates of all particles along axis d are multiples of one step. Both are taken as whole
+ * numbers of units in the last place of the largest coordinate. Equal lattice distances then are equal to the last bit
+ * everywhere. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
@@ -177,9 +180,10 @@ int site_map_find_neighbours(const struct site_map *map, const struct particles 
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 to their neighbours on one lattice row to *to. site: index of the site
- * of particle i in the map; row: the lattice row, relative to that site; number: how many sites of a full family
- * precede this lattice row. Returns false if the particles on the lattice row do not have consecutive indices. */
+/* Appends the bonds of particles i .. i + 7 to their neighbours on one lattice row along x to *to. l: map of lattice
+ * sites; site: index in the map of the site of particle i; row: the lattice row, as a segment relative to that site;
+ * number: number of neighbours in a full family on the lattice rows before this one. Returns false if the particles on
+ * the lattice row do not have consecutive indices. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {
@@ -201,8 +205,8 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
-/* Returns true if each of the eight particles has a neighbour at every index distance (neighbour minus particle) of
- * b. */
+/* Returns true if each of the eight particles has a neighbour at every index distance (neighbour minus particle) in
+ * b->offset. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;

@@ -95,8 +95,8 @@ void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i
     }
 }
 
-/* Copies the softening of the bond at entry q of the rows `old` to the bond in row `row` of b whose neighbour is
- * nbr. State-based models also copy its weight. Does nothing if b has no such bond. */
+/* Copies the softening of the bond with entry q of the previous rows `old` to the bond of b in row `row` whose
+ * neighbour is nbr, in state-based models together with its weight. Does nothing if b has no such bond. */
 static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struct bonds *old, int64_t q)
 {
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
@@ -157,8 +157,8 @@ status softening_save_or_load(struct bonds *b, struct archive *a)
     return s;
 }
 
-/* Returns half the energy that the bonds of row block g (rows of eight particles) have dissipated by softening [J], as
- * a term of reproducible_sum. context: the bonds. */
+/* Returns half of the energy that the bonds of row block g (bonds of eight particles) have dissipated by softening [J],
+ * because each bond is in two rows. It is a term of reproducible_sum. context: the bonds (struct bonds). */
 static real row_block_spent(const void *context, int64_t g)
 {
     const struct bonds *b = context;

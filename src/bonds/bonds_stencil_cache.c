@@ -36,7 +36,8 @@ void stencil_cache_free(struct stencil_cache *t)
     memory_free(t);
 }
 
-/* Returns true if two groups of eight particles have neighbours at equal index distances in equal lanes. */
+/* Returns true if two groups of eight consecutive particles have neighbours at the same index distances, and each of
+ * the eight particles lacks the same ones. */
 static bool same_sites(const struct regular_bonds *a, const struct regular_bonds *b)
 {
     return a->n == b->n && arrays_equal(a->offset, b->offset, a->n, sizeof *a->offset) &&

@@ -23,7 +23,8 @@
 #define SUDDEN 1e-4     /* relative distance of onset and end of a bond that is started beyond its critical stretch */
 #define SPANS 1e-6      /* least determinant of a moment over that of an isotropic one; below it, directions lack */
 
-/* One evaluation of the strength surfaces (failure criteria in stress) of particles. Rows are those of the bonds b. */
+/* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row holds
+ * the bonds of one particle. Strains are averaged over the family as many times as the material requires. */
 struct evaluation {
     const struct bonds *b;
     const struct particles *p;
@@ -140,8 +141,9 @@ static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g,
     }
 }
 
-/* Computes the symmetric components strain[SYM_MAX] of the strain E of a row from the sums over its bonds [1].
- * Overwrites *sum. The strain is 0 if the bonds do not span the space. */
+/* Computes the symmetric components strain[SYM_MAX] of the strain E of a particle [1] from the sums *sum over the bonds
+ * of its row (moment matrices of reference and present bond vectors), which are overwritten. E is 0 if the bonds do not
+ * span the space. dim: number of dimensions, a compile-time constant. */
 static ALWAYS_INLINE void moments_strain(struct moments *sum, real *strain, const int dim)
 {
     matrix inverse, F, R, back, E;
@@ -202,8 +204,9 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
     return row >= 0 && e->b->whole[row] ? row : -1;
 }
 
-/* Sets e->distance to `distance` for the rows of all neighbours to which intact bonds of a row lead, where it is
- * still 0. Several threads may set one row. */
+/* Marks the rows of all neighbours to which intact bonds of a row lead: sets their e->distance to `distance` where it
+ * is still 0. distance: number of bonds between a marked row and the nearest row to be evaluated, plus 1. Several
+ * threads may mark one row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
@@ -235,8 +238,8 @@ static void row_average(struct evaluation *e, int64_t row)
     for (int s = 0; s < count; s++) e->strain[1][row][s] = sum[s] / terms;
 }
 
-/* Returns the stress of the particle of a row relative to its strength surface, from the strain e->strain[0]; 1: on
- * the surface [1]. */
+/* Returns the stress of the particle of a row over the stress on its strength surface [1]: 1 on the surface. The stress
+ * follows from the strain e->strain[0] by linear elasticity. */
 static real row_share(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
@@ -256,8 +259,8 @@ static const struct material *row_material(const struct evaluation *e, int64_t r
     return material_has_surface(m) ? m : NULL;
 }
 
-/* Returns the relative strength of the particle of a row [1]: the stress over that on the strength surface at which
- * its bonds begin to soften. */
+/* Returns the factor on the strength of the particle of a row, its relative strength in p->strength [1]: bonds begin to
+ * soften at this multiple of the stress on the strength surface. 1 if particles have no such factors. */
 static real row_strength(const struct evaluation *e, int64_t row)
 {
     return e->p->strength ? e->p->strength[e->b->particle[row]] : 1;
@@ -289,9 +292,9 @@ static void evaluation_free(struct evaluation *e)
 /* Returns true if a particle of row block g (the bonds of eight particles) may have reached its strength surface. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Computes the strains of the rows of row block g whose material has a strength surface and that have a bond which
- * has not begun to soften. Sets the distance of those that are beyond the surface to 1. Returns true if there is
- * one. */
+/* Computes the strains of those rows of row block g (bonds of eight particles) whose material has a strength surface
+ * and in which a bond has not begun to soften. Sets e->distance to 1 for those that are on their strength surface or
+ * beyond. Returns true if there is one. */
 static bool row_block_find(struct evaluation *e, int64_t g)
 {
     const struct bonds *b = e->b;
@@ -307,8 +310,8 @@ static bool row_block_find(struct evaluation *e, int64_t g)
     return any;
 }
 
-/* Sets e->distance to 1 for all rows that are beyond their strength surface by their own strain, and that have a
- * bond which has not begun to soften. Returns true if there is one. */
+/* Sets e->distance to 1 for all rows whose own strain, not averaged over the family, is on their strength surface or
+ * beyond, and in which a bond has not begun to soften. Returns true if there is one. */
 static bool find_candidates(struct evaluation *e)
 {
     bool any = false;
@@ -318,9 +321,9 @@ static bool find_candidates(struct evaluation *e)
     return any;
 }
 
-/* Computes e->share, stress relative to the strength surface, of all rows with e->distance 1, from their strains
- * averaged as many times as their material requires. For these averages, strains are computed of all rows that are
- * at most e->means bonds away. */
+/* Computes e->share, the stress over that on the strength surface, of all rows with e->distance 1. Their strains are
+ * first averaged over the families as many times as the material requires, at most e->means times. Strains of all rows
+ * at most e->means bonds away are computed for these averages. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;
@@ -364,8 +367,8 @@ void bonds_surface_shares(const struct bonds *b, const struct particles *p, cons
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the least stretch at which bonds of particle or image j begin to soften now, because its stress is on its
- * strength surface [1]; INFINITY if it is not. */
+/* Returns the lower limit of the stretch at which bonds of particle or image j begin to soften, if the stress of the
+ * particle has reached its strength surface [1]; INFINITY if it has not. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);
@@ -375,9 +378,9 @@ static real start_of(const struct evaluation *e, int32_t j)
     return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
 }
 
-/* Returns the state of the bond from particle i that begins to soften because a strength surface is reached. It
- * begins at its present stretch, but not below the smaller of `least` and the stretch at which its material softens
- * [1]. */
+/* Returns the softening state with which a bond of particle i begins to soften when a strength surface is reached. The
+ * softening begins at its present stretch; if that is smaller than `least` and than the stretch at which the material
+ * softens, at the smaller of these two [1]. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;

@@ -39,8 +39,8 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Replaces entries of volume[n], volumes of families [m^3], that equal the full volume up to round-off by `full`
- * exactly: weights inside a body are then 1, and columns need none (kernels/pd/bond_column.h). */
+/* Sets those of the n family volumes volume[n] [m^3] that equal the volume `full` of a full family up to round-off
+ * exactly to `full`. Bonds inside a body then have weight 1, which need not be stored (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -82,8 +82,9 @@ void bonds_compute_neighbour_volume(real *volume, const struct particles *p, con
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns an upper bound of omega^2 m for particle i of mass m [N/m], with its largest angular frequency omega, from
- * the springs of the bonds in its row. stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Returns an upper bound of omega^2 m for particle i [N/m], where omega is its largest angular frequency and m its
+ * mass. It is the bound of the largest eigenvalue for the springs that its bonds in `row` are. stiffness: force per
+ * stretch of a bond of weight 1 [N]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -116,9 +117,9 @@ struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the first eight particles. inverse[8]:
- * inverse lengths of the bonds [1/m]; w[8]: their weights [1], 0 for no spring; stiffness: force per stretch of a
- * bond of weight 1 [N]; dim: number of dimensions, a constant of the compiler. */
+/* Adds the eight springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound of particles i .. i + 7.
+ * inverse[8]: inverse lengths of the bonds [1/m]; w[8]: their weights [1], 0 for no spring; stiffness: force per
+ * stretch of a bond of weight 1 [N]; dim: dimensions, a compile-time constant. */
 static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                                      const real *inverse, const real *w, real stiffness, const int dim)
 {
@@ -132,9 +133,9 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds springs from particles i .. i + 7 to j .. j + 7 to the sums *bound of the first eight particles. Calls the
- * copy of bounds_add that is compiled for the dimensions of p. inverse[8]: inverse lengths of the bonds [1/m]; w[8]:
- * their weights [1]; stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Adds the eight springs from particle i + l to particle j + l, l = 0 .. 7, to the sums *bound of particles i .. i + 7,
+ * by the code compiled for the number of dimensions of p. inverse[8]: inverse lengths of the bonds [1/m]; w[8]: their
+ * weights [1], 0 for no spring; stiffness: force per stretch of a bond of weight 1 [N]. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -165,9 +166,9 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2] from their
- * bonds, which follow from the map of lattice sites; no rows are made. pairs: stiffness ratios by materials;
- * stiffness: force per stretch of a bond of weight 1 [N]. */
+/* Returns an upper bound of the largest squared angular frequency omega^2 of particles i .. i + 7 [1/s^2]. bonds: their
+ * neighbours on the lattice; the weights of the bonds are computed here, and no rows are stored. pairs: stiffness by
+ * pair of materials over that of material 0; stiffness: force per stretch of a bond of weight 1 [N]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -212,9 +213,9 @@ real bonds_critical_time_step_of_rows(const struct bonds *b, const struct partic
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns the stiffnesses of bonds for all pairs of materials, divided by that of material 0, for bounds of
- * frequencies. State-based models have the mean of both materials, because each row of a bond responds with its own
- * modulus. Release the array `ratio` of the table with memory_free. */
+/* Returns the table of bond stiffnesses by pair of materials, divided by that of material 0, as bounds of frequencies
+ * require them. In state-based models the entry of two materials is the mean of both, since each row of a bond responds
+ * with its own modulus. Release the array `ratio` of the table with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = material_pair_table_make(s);

@@ -8,8 +8,9 @@
 
 #define DISTANCE_TOLERANCE 1e-7 /* relative: lattice points at exactly the horizon belong to the family */
 
-/* Returns the volume share of a neighbour at distance r [m] by the linear ramp, which falls from 1 to 0 over one
- * spacing about the horizon [1]. It is rounded to 1e-9, so that distances equal on paper have equal weights. */
+/* Returns the share of a neighbour's volume that counts [1], at distance r [m]. It falls linearly from 1 to 0 over one
+ * spacing about the horizon. It is rounded to 1e-9: lattice distances that are equal except for round-off then have
+ * equal weights. */
 static real ramp(const struct family *f, real r)
 {
     /* rounded, so that distances equal on paper have equal weights */
@@ -38,8 +39,8 @@ static real influence(const struct family *f, real r)
     }
 }
 
-/* Returns the distance r [m] without the round-off of positions, if the lattice has such a distance, else r. Bonds
- * of equal length then have weights that are equal to the last bit. */
+/* Returns the distance r [m] with the round-off of positions removed: the lattice distance spacing sqrt(k) nearest to
+ * it, if it is one up to round-off, else r. Bonds of equal length then have weights that are equal to the last bit. */
 static real true_length(const struct family *f, real r)
 {
     const real squares = square(r / f->spacing), whole = floor(squares + 0.5);
@@ -68,7 +69,8 @@ struct lattice_sums {
     real axial[2], mixed[2]; /* sums of r V beta n1^4 and of r V beta n1^2 n2^2, by class of direction */
 };
 
-/* Adds the lattice point at xi[dim] [m] to the sums over a family, if it is within the cutoff. */
+/* Adds the lattice point at xi[dim] [m] relative to the particle to the sums *s over a family, if it is within the
+ * cutoff. */
 static void sum_point(const struct family *f, const real *xi, int dim, struct lattice_sums *s)
 {
     real r = sqrt(dot(xi, xi, dim)), V = f->cell_volume;
@@ -83,7 +85,7 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
-/* Returns the sums over all lattice points of a full family. */
+/* Returns the sums over all lattice points of a full family f, on which the constants of the family depend. */
 static struct lattice_sums lattice_sums(const struct family *f)
 {
     struct lattice_sums s = {0};

@@ -30,8 +30,8 @@ static int later(const void *a, const void *b)
     return (x->breaks < y->breaks) - (x->breaks > y->breaks);
 }
 
-/* Lists in c the bonds that cross a plane from a particle of a full lattice at `height` [m] above the plane. Returns
- * their number. c must have room for a whole family. */
+/* Lists in c the bonds that cross a plane from one particle of a full lattice at `height` [m] above the plane. c must
+ * have room for all neighbours of a full family f. Returns the number of bonds. */
 static int crossings(const struct family *f, real height, struct crossing *c)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), depth = dim > 2 ? reach : 0;
@@ -48,10 +48,11 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, for
- * the critical stretch 1: the integral of dW over the opening, with the energy density W of a particle. The sum runs
- * from the last bond that breaks back to the first. m: constants of the state-based law; local: true if the weighted
- * volume Q is that of the intact bonds; c: working memory for the bonds that cross the plane. */
+/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, for the
+ * critical stretch 1: the integral of dW over the opening of the plane, with the energy density W of a particle. The
+ * sum runs from the last bond that breaks back to the first. f: family; m: constants of the state-based law; local:
+ * true if the weighted volume Q is summed over the intact bonds only; c: working memory for the bonds that cross the
+ * plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -81,11 +82,12 @@ real family_separation_work_per_area(const struct family *f, const struct state_
 
 enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give 1e-5 less */
 
-/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, if
- * bonds soften: the integral over the opening D of dW/dD at constant damage. W = D^2/2 [A (sum q w z/Q)^2 + B/Q sum
- * q w |e/D|^2] is the energy density of a particle, q the share of its stiffness that a bond keeps at the stretch D
- * z/r^2. m: constants of the state-based law; rotates: true for a model with rotations; curve, range: softening
- * curve and its stretches; c: working memory for the bonds that cross the plane. */
+/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, if bonds
+ * soften: the integral of dW/dD, at constant damage, over the opening D of the plane. W = D^2/2 [A (sum q w z/Q)^2 +
+ * B/Q sum q w |e/D|^2] is the energy density of a particle. A bond that crosses the plane has the stretch D z/r^2, and
+ * q is the share of its stiffness that it then keeps. m: constants of the state-based law; rotates: true for a model
+ * with particle rotations; curve, range: softening curve and the stretches between which bonds soften; c: working
+ * memory for the bonds that cross the plane. */
 static real layer_softening_work(const struct family *f, real height, const struct state_modulus *m, bool rotates,
                                  const struct softening_curve *curve, struct softening_range range, struct crossing *c)
 {

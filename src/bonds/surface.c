@@ -6,9 +6,10 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-/* Fills the tables to->factor [classes, offsets], factors of bonds, and to->weighted [classes], weighted volumes. A
- * class consists of particles with equal surroundings. factor[groups]: factor of each group of bonds that share one;
- * bonds that are in no group have factor 1. */
+/* Fills two tables of `to` for classes of particles with equal surroundings: factor[classes, offsets], the factor on
+ * the weight of the bond at each offset of a class, and weighted[classes], the weighted volume sum w r^2 of a class
+ * [m^2]. b: particles near faces; a: their classes; f: family. factor[groups]: factor of each group of bonds that share
+ * one; bonds in no group have factor 1. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {

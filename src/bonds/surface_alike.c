@@ -11,7 +11,8 @@
 
 enum { RADIUS = 2 };
 
-/* Returns the hash of Fowler, Noll and Vo, extended by `word`. */
+/* Returns `hash` after one more 64-bit `word` has been added to it: a step of the hash of Fowler, Noll and Vo, followed
+ * by an exclusive or with its upper bits. */
 static uint64_t mixed(uint64_t hash, uint64_t word)
 {
     hash = (hash ^ word) * UINT64_C(0x100000001b3);
@@ -46,8 +47,9 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
     for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
-/* Returns the hash of the kinds (particles with equal surroundings) of particle t (index among those near faces) and
- * its neighbours: the sum of their products with the random words factor[offsets]. */
+/* Returns a hash of the kinds of particle t and of its neighbours (particles of one kind have equal surroundings): a
+ * sum with one term for each neighbour, its kind and mirrors times the random word factor[k] of its offset k. t: index
+ * among the particles near faces. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -74,8 +76,9 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Returns the hash of the surroundings (colour) of particle t, reflected by the axes in `mirrors`, from the colours of
- * its neighbours, which are one family less deep. */
+/* Returns the hash of the surroundings of particle t (its colour), reflected by the axes in `mirrors`. It is computed
+ * from the present colours s->colour of the particle and its neighbours, and covers one family more than these do. t:
+ * index among the particles near faces. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -104,9 +107,9 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
     memory_free(slot);
 }
 
-/* Divides the kinds (particles with equal surroundings) by the kinds of their neighbours, so that surroundings are
- * compared one family deeper. colours: true to compute also the colours of the new kinds, hashes of their
- * surroundings. */
+/* Divides the kinds of particles (particles of one kind have equal surroundings) by the kinds of their neighbours:
+ * surroundings are then equal one family further out. colours: true to compute also the colours of the new kinds, the
+ * hashes of their surroundings in all mirrors. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;

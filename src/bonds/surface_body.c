@@ -130,9 +130,9 @@ static void search_turn(struct search *search, const struct near_faces *b, int64
     search->eight = regular_bonds_find_uncut(search->map, b->source, b->p, first, &search->regular);
 }
 
-/* Finds the neighbours of particle i, one of the eight of the last search_turn, from the families that the map of
- * lattice sites gave. Stores them by offset in to[offsets] unless `to` is NULL. near: true if a pre-crack may
- * separate some of them. Returns their number. */
+/* Finds the neighbours of particle i among the sites in search->regular, which a map of lattice sites gave for eight
+ * particles that contain i (search_turn). near: true if a pre-crack may separate some of them, which are then left out.
+ * Stores the neighbours by offset in to[offsets] unless `to` is NULL. Returns their number. */
 static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
                               int32_t *to)
 {
@@ -151,9 +151,10 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
     return kept;
 }
 
-/* Finds the neighbours of particle i, one of the eight of the last search_turn, that no pre-crack separates from it.
- * Stores them by offset in to[offsets], -1 for offsets without a neighbour; if `to` is NULL, only counts them.
- * Returns their number, or -1 if a neighbour is not on the lattice of the particle. */
+/* Finds the neighbours of particle i that no pre-crack separates from it. i must be one of the eight particles for
+ * which `search` was prepared last (search_turn). Stores the neighbours by offset in to[offsets], -1 for offsets
+ * without a neighbour; if `to` is NULL, only counts them. Returns their number, or -1 if a neighbour is not on the
+ * lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -281,8 +282,8 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return neighbours_list(b, map);
 }
 
-/* Finds the first pair of neighbours that is not a whole number of spacings apart along each axis, and is not separated
- * by a pre-crack. apart[2]: receives both particles, -1 if there is none. */
+/* Finds the first pair of neighbours whose distance along some axis is not a whole number of spacings, and which no
+ * pre-crack separates. apart[2]: receives both particles, -1 if there is none. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

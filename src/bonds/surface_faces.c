@@ -40,7 +40,8 @@ static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
     return near_face_neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle or image j, as seen through its mirrors; of area 0 if the particle is near no face. */
+/* Returns the face of particle or image j (its position and area vector, reflected by the mirrors of an image). The
+ * area is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -57,8 +58,8 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
     return f;
 }
 
-/* Returns the weight of a neighbour at offset k [1]. It falls linearly with the distance to 0 one spacing beyond the
- * largest component of an offset. */
+/* Returns the weight of a neighbour at offset number k [1]: 1 - r/(reach + 1), but at least 0, with its distance r and
+ * the largest component `reach` of an offset [spacings]. */
 static real nearness(const struct offsets *o, int k) { return fmax(1 - o->length[k] / (o->reach + 1), 0); }
 
 /* Mean over the faces whose normals are less than 90 degrees from that of a particle: normal, and variance of their
@@ -112,8 +113,9 @@ struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes the projection of face areas and the contribution to N (x) N of particle t, where N is the mean normal of
- * the faces nearby; without a face the identity and 0. */
+/* Computes, for particle t, the matrix that projects the areas of its lattice faces onto the mean face nearby, and the
+ * contribution of the particle to N (x) N, where N is the mean normal of the faces nearby. Without a face they are the
+ * identity and 0. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -133,8 +135,8 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
         }
 }
 
-/* Returns the sum of the weights of all faces of particles on an infinite plane face, as a particle of its first
- * layer weighs them: linearly falling with distance [1]. */
+/* Returns the sum of the weights of all faces on an infinite plane, as seen from a particle of its first layer [1]. The
+ * weight of a face falls linearly to 0 with its distance. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -150,8 +152,8 @@ struct smooth_faces {
     struct smooth *smooth; /* [n] */
 };
 
-/* Computes the smoothed faces (struct smooth) of all particles with faces, and s->at, the index of each particle near
- * faces among them. */
+/* Computes the smoothed faces (struct smooth) of all particles that have faces. s->at: receives for each particle near
+ * faces its index among these, as not every particle near faces has one. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;

@@ -135,10 +135,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns alpha, the increase of the target of the fourth moments, (1 + alpha dipole) M, near a face, for bonds
- * without rotation. dipole is 1 in the first layer and -1 in the second; M is the moment of a full family. alpha is
- * the value for a plane face along which the body is stretched; in an isotropic family it is the same for shear
- * along the face. */
+/* Returns alpha, a constant of models without particle rotations: near a face the fourth moments of the bonds shall be
+ * (1 + alpha dipole) M, where M is the moment of a full family, and the dipole is 1 in the first layer of particles and
+ * -1 in the second. alpha is the value for a plane face along which the body is stretched; in an isotropic family it is
+ * the same for shear along the face. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -368,8 +368,8 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal lower and upper bounds: to
- * the factor of the volume method (Le & Bobaru 2018), or to 1 if `one`. */
+/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal lower and upper bounds: at 1
+ * if `one`, else at the factor of the volume method (Le & Bobaru 2018). */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;
@@ -383,11 +383,11 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors of bonds at ends of cracks and in thin parts, which have too few layers of particles: to those
- * of the volume method, or to 1 for models with rotations (`rotates`). Bonds at ends of cracks also get factor 1 if
- * bonds may break: they break next, and the critical stretch is calibrated for factor 1 (otherwise Kalthoff's crack
- * turns to 61 degrees at 1 mm). Thin parts are treated last, so that a bond between both does not depend on the
- * order of its particles. */
+/* Fixes the factors of bonds at ends of cracks and in thin parts, which have too few layers of particles: to those of
+ * the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations. Bonds at ends of
+ * cracks also get factor 1 if bonds may break. They break next, and the critical stretch is calibrated for factor 1
+ * (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated last, so that a bond between both
+ * does not depend on the order of its particles. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

@@ -19,9 +19,9 @@
 #define ROUGH 0.1   /* largest residual of a linear system, relative to R */
 #define STEEP 0.1   /* largest slope after a step, relative to that before it */
 #define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
-/* SHORTENINGS: largest number of shortenings of a Newton step. BLOCK: numbers in the lower triangle of a class's
- * block of the matrix. TOGETHER: number of classes whose blocks are stored interleaved, so that vector instructions
- * solve with all of them at once. A class consists of particles with equal surroundings. */
+/* Limits of the solver. SHORTENINGS: largest number of times that one Newton step is shortened. BLOCK: numbers in the
+ * lower triangle of the matrix block of one class, which consists of particles with equal surroundings. TOGETHER:
+ * number of classes whose blocks are stored interleaved, so that vector instructions solve with all of them at once. */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
@@ -60,10 +60,9 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: the scalar products of the moments of each bond of a class (particles with equal
- * surroundings) with the vector by[thirds + fourths]. changes[offsets/2]: pairs of opposite bonds whose mark is 0
- * are skipped; NULL: none is. thirds, fourths: numbers of moments of third and fourth rank, constants of the
- * compiler. */
+/* Computes value[offsets]: for each bond of a class (particles with equal surroundings) the scalar product of its
+ * moments and the vector by[thirds + fourths]. thirds, fourths: numbers of third and fourth moments of a bond,
+ * compile-time constants. changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -161,7 +160,8 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of d->value over the entries of group g of bonds, which share one factor. */
+/* Returns the sum of d->value over all table entries (class and offset) of bonds in group g. The bonds of a group share
+ * one factor. */
 static real group_sum(const struct descent *d, int64_t g)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -170,8 +170,8 @@ static real group_sum(const struct descent *d, int64_t g)
     return sum;
 }
 
-/* Computes d->factor, the factors of the bonds, from the multipliers x[classes, moments], and residual[classes,
- * moments] of the least-squares problem from x and these factors. */
+/* Computes d->factor, the factors of the bonds that belong to the multipliers x[classes, moments] of the dual problem,
+ * and residual[classes, moments], the residual of the least-squares problem, from x and these factors. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -183,7 +183,7 @@ static void residual_make(struct descent *d, const real *x, real *residual)
     d->products++;
 }
 
-/* Computes d->image = A d->direction with the matrix A of the linear system. */
+/* Computes d->image = A d->direction, where A is the matrix of the linear system of a Newton step. */
 static void image_make(struct descent *d)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -233,8 +233,8 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Counts in d->images, for each bond of a class (particles with equal surroundings), the bonds of this class that
- * share its factor: the bond itself and its mirror images. */
+/* Counts for each bond of a class (particles with equal surroundings) the bonds of the class that share its factor, the
+ * bond and its mirror images, and stores the numbers in d->images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -244,9 +244,10 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of bond k in the block of its class (particles with equal surroundings) of the preconditioner;
- * 0 if its factor is at a bound. If n bonds of the class are mirror images of each other, each has n times its
- * weight: that is exact for multipliers with the symmetry of the class. */
+/* Returns the weight of bond k of a class in the diagonal block that the class has in the preconditioner: n/prior, or 0
+ * if the factor of the bond is at a bound. A class consists of particles with equal surroundings. n: number of bonds of
+ * the class that share the factor, mirror images of each other. This weight is exact for multipliers that have the
+ * symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
