@@ -104,22 +104,22 @@ struct pd_motion {
     bool diverged;         /* result: a particle has diverged */
 };
 
-/* Computes the force of all intact bonds on the particle of every active row (a row: all bonds of one particle),
- * overwriting p->f there, then breaks bonds stretched beyond `limit`. A breaking bond acts until the time within the
- * step at which it exceeds its limit (pd/bond_last.h), so that crack path and fracture energy are of second order in
- * the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion of neither particle is prescribed), damage,
- * counts of broken bonds and fracture energy. motion: step sizes, with which active peridynamic particles that are
- * neither on the grid nor motion->loaded are also moved in this loop (pd/sweep.h); NULL: none is moved. Returns the
- * number of directed bonds broken. */
+/* Computes the force of all intact bonds on the particle of every active row into p->f, then breaks bonds that are
+ * stretched beyond `limit`. A row holds all bonds of one particle; it is active unless the region is still at rest. A
+ * breaking bond acts until the time within the step at which it exceeds its limit (pd/bond_last.h), so that crack path
+ * and fracture energy are of second order in the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion of
+ * neither particle is prescribed), damage, counts of broken bonds and fracture energy. motion: step sizes, with which
+ * active peridynamic particles that are neither on the grid nor marked in motion->loaded are also moved in this loop
+ * (pd/sweep.h); NULL: no particle is moved. Returns the number of directed bonds broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`. Adds
- * the reactions of bonds to mirror images in clamped planes (planes of symmetry along which motion is prevented, too)
- * to the forces on the sources of these images (pd/clamp_force.c). motion: step sizes with which particles are moved in
- * the same loop; NULL: none is moved. Particles with such bonds, and these sources, must be set in motion->loaded, so
- * that they are moved later. Returns the number of directed bonds broken. All callers compute bond forces through this
- * function. */
+/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`. For
+ * bonds to mirror images in clamped planes (planes of symmetry along which motion is prevented, too), adds the reaction
+ * on the image to the force on the particle that it mirrors (pd/clamp_force.c). motion: step sizes with which particles
+ * are moved in the same loop; NULL: no particle is moved. Particles with such bonds, and those that the images mirror,
+ * must be set in motion->loaded, so that they are moved later. Returns the number of directed bonds broken. All callers
+ * compute bond forces through this function. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
@@ -134,12 +134,12 @@ KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const
  * across the bond allows to soften. Needs no preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Increases the damage of bonds of state-based models that have begun to soften to that of the present positions, where
- * that sets energy free (pd/state_soften.c), and breaks those at the end of their softening. The pressures, springs and
- * rotations in b->state must be those of the present positions. *changed: set to true if the damage of a bond has
- * changed; the states in row blocks (bonds of eight particles) with b->soft.begun must then be recomputed. Row blocks
- * with bonds beyond their onset are marked (b->soft.due) for bonds_begin_to_soften. Returns the number of directed
- * bonds broken. */
+/* Increases the damage of bonds that have begun to soften to that of the present positions, where this sets energy free
+ * (pd/state_soften.c), and breaks bonds at the end of their softening; for state-based models. The pressures, springs
+ * and rotations in b->state must be those of the present positions. *changed: set to true if the damage of a bond has
+ * changed; the states of those row blocks (bonds of eight particles) that have b->soft.begun set must then be computed
+ * again. Row blocks with bonds beyond their onset of softening that have not begun are marked in b->soft.due for
+ * bonds_begin_to_soften. Returns the number of directed bonds broken. */
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
@@ -148,8 +148,9 @@ KERNEL(int64_t, state_soften,
  * energy before, and marks the bond in the row of its other particle likewise. */
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
 
-/* Breaks the bonds whose largest stretch has reached the end of their softening: all they have dissipated becomes
- * fracture energy of their rows. For load steps, between two equilibria. Returns the number of directed bonds. */
+/* Breaks the bonds whose largest stretch has reached the end of their softening. The energy that such a bond has
+ * dissipated becomes fracture energy of its row. For load steps, between two equilibria. Returns the number of directed
+ * bonds broken. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
 /* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it
@@ -163,9 +164,9 @@ KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
- * to the fracture energy of their rows; their force on the particle is replaced by that of the step in which they break
- * (pd/bond_last.h). The forces of the row block must be up to date. Slow, since it computes bond by bond: call it only
- * where a bond may break. Returns the number of directed bonds broken. */
+ * to the fracture energy of their rows. The forces p->f of the row block must be up to date; the contribution of a
+ * broken bond to them is replaced by the share that acts until it breaks within the step (pd/bond_last.h). Slow, since
+ * it computes bond by bond: call it only where a bond may break. Returns the number of directed bonds broken. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
@@ -180,8 +181,8 @@ KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int6
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
 /* Breaks the bond with index q in the row (all bonds of one particle) `row` at the present positions, whatever its
- * stretch, and adds its energy to the fracture energy of the row. limit: supplies the rule for its force in this step.
- * The caller breaks the bond in the row of its other particle likewise. */
+ * stretch, and adds its energy to the fracture energy of the row. limit->last_force: rule for the share of its force
+ * that acts in the step in which it breaks. The caller breaks the bond in the row of its other particle likewise. */
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
@@ -332,12 +333,12 @@ KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 /* Sets the forces on all nodes of the mesh to 0. */
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
-/* Adds the internal forces of the active cells (active_set.h) of the mesh to its nodes, and marks in `stressed` where a
- * point may exceed its conversion stress. p: read for the bond reactions on bonded points (particles.end_*); if p has
- * plastic_correction, points beyond the yield stress flow, and their plastic state is updated (mesh_flow.h), except by
- * flow laws of mode LAW_EXPLICIT, whose points keep the state of the last mesh_points_flow. m: elastic constants by
- * material. finite: true for Biot strain in axes that rotate with the cell, false for the symmetric displacement
- * gradient (mesh_law.h). */
+/* Adds the internal forces of all cells of the mesh that are not at rest to the nodes. Marks the cells in which a point
+ * may exceed its conversion stress, for mesh_points_mark. p: gives the reactions of bonds on material points
+ * (particles.end_*); if it has plastic_correction, points beyond the yield stress flow, and their plastic state is
+ * updated (mesh_flow.h). Points of flow laws with mode LAW_EXPLICIT keep the state of the last mesh_points_flow
+ * instead. m: elastic constants by material. finite: true for Biot strain in axes that rotate with the cell, false for
+ * the symmetric displacement gradient (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples

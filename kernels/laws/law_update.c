@@ -24,7 +24,8 @@ enum { STEPS_PLANE_STRESS = 8 };
  * strength is 0. */
 #define LEAST_YIELD 1e-10
 
-/* Returns the number of components of the relative stress that relative_stress computes in `space`: 6, 4, 3 or 1. */
+/* Returns the number of independent components that relative_stress computes in `space`: 6 in 3D, 4 in plane strain, 3
+ * in plane stress, 1 in 1D. */
 static ALWAYS_INLINE int components(const enum space space)
 {
     return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
@@ -38,8 +39,8 @@ static ALWAYS_INLINE int tensor_components(const enum space space)
 }
 
 /* Computes the independent components xi[] of the relative stress s - g X of eight points [Pa], with their trial stress
- * s and back stress X: in 3D and plane strain of its deviator, in plane stress sum, difference and shear, in 1D the
- * uniaxial one. g: factor of the back stress [1]. */
+ * s and back stress X. 3D and plane strain: components of its deviator; plane stress: xx + yy, xx - yy and xy; 1D: the
+ * uniaxial stress. g: factor of the back stress [1]. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
@@ -56,9 +57,9 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
     for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
-/* Computes the scalar products 3/2 x:y of two relative stresses of eight points (components as in relative_stress)
- * [Pa^2]: *even receives the part of xi_xx + xi_yy in plane stress and of xi in 1D, *odd that of all other
- * components. */
+/* Computes the products 3/2 x:y of two relative stresses x, y of eight points, in two parts [Pa^2]: *even, the part of
+ * the sum xi_xx + xi_yy in plane stress, in 1D the whole product, else 0; *odd, the part of all other components. x, y:
+ * components as from relative_stress. */
 static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
                                            const enum space space)
 {
@@ -78,8 +79,9 @@ struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the equation for t = da/q of eight points, with their back stress multiplied by the factor g [1]. Stores the
- * relative stress of the points in xi[] [Pa]. stiffness: kinematic modulus that acts over the step [Pa]. */
+/* Returns the equation for t = da/q of eight points, where da is the increment of plastic strain and q the equivalent
+ * relative stress. Stores their relative stress, with the back stress multiplied by the factor g [1], in xi[] [Pa].
+ * stiffness: kinematic hardening modulus that acts over the step [Pa]. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -92,15 +94,16 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the rate A or B [Pa] by which the relative stress shrinks, in a space in which all its components shrink at
- * one rate: A in 1D, B in 3D and plane strain. Not for plane stress. */
+/* Returns the rate r [Pa] by which plastic flow reduces the relative stress, xi/(1 + r t) with t = da/q (da: increment
+ * of plastic strain, q: equivalent relative stress). It is e->A in 1D and e->B in 3D and plane strain. Not for plane
+ * stress, which has both rates. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns the equivalent relative stress q of the equation *e at t [Pa]. *fall: receives -q dq/dt [Pa^3], in plane
- * stress only. */
+/* Returns the equivalent relative stress q(t) of the equation *e [Pa] for eight points. t: increment of plastic strain
+ * over q [1/Pa]; *fall: receives -q dq/dt [Pa^3], in plane stress only. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
 {
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
@@ -110,9 +113,10 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
         lanes_max(e->even * u * u + e->odd * v * v, lanes_broadcast(1e-200))); /* points without stress */
 }
 
-/* Returns for eight points the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where
- * q(0) is below bound. bound: yield stress at the start [Pa]; slope: its derivative by the plastic strain [Pa]. In
- * closed form where all components shrink alike, else by Newton's method from t = 0. */
+/* Returns for eight points the solution t of 1 - slope t - bound/q(t) = 0, or 0 where q(0) is below bound. With t =
+ * da/q, the increment da of plastic strain over the equivalent relative stress q, it means q = bound + slope da. bound:
+ * yield stress at the start [Pa]; slope: its derivative by the plastic strain [Pa]. In plane stress t follows from
+ * Newton's method, started at t = 0, else from a closed form. */
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
@@ -196,9 +200,10 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
     *slope = lanes_choose(fast, rise, *slope);
 }
 
-/* Returns t = da/q of eight points for a small step, by one linearised evaluation. trial, xi: equation for t and
- * relative stress [Pa], both with the whole back stress (factor 1); bound: yield stress at the start of the step [Pa];
- * slope: its derivative by the plastic strain [Pa]; *back: receives the recall of the back stress in the step. */
+/* Returns t = da/q of eight points for a small step, by one linearised evaluation (da: increment of plastic strain, q:
+ * equivalent relative stress). trial, xi: equation for t and relative stress [Pa], both with the whole back stress
+ * (factor 1); bound: yield stress at the start of the step [Pa]; slope: its derivative by the plastic strain [Pa];
+ * *back: receives the recall of the back stress in the step. */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -215,8 +220,9 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
     return t;
 }
 
-/* Returns t = da/q of eight points for a step of any size, to round-off. bound: yield stress at the start of the step
- * [Pa]; *back: receives the recall of the back stress in the step. */
+/* Returns t = da/q of eight points for a step of any size, to round-off (da: increment of plastic strain, q: equivalent
+ * relative stress). bound: yield stress at the start of the step [Pa]; *back: receives the recall of the back stress in
+ * the step. */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -241,7 +247,8 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
 
 /* Computes the increments of plastic strain of eight points, strain[] = 3/2 t xi [1] (components xx yy zz xy yz zx),
  * and updates their stress p->s and back stress p->back by them. xi: relative stress at the end of the step [Pa],
- * components as from relative_stress; t: da/q [1/Pa]; back: recall of the back stress in the step. */
+ * components as from relative_stress; t: increment of equivalent plastic strain over equivalent relative stress [1/Pa];
+ * back: recall of the back stress in the step. */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {
@@ -262,8 +269,9 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->back[c] = back->left * p->back[c] + back->added * (C * strain[c]);
 }
 
-/* Returns the plastic work of a step per reference volume for eight points [J/m^3]: the mean of stress times volume at
- * the start and at the end of the step, times the increments `strain` of plastic strain [1]. */
+/* Returns for eight points the plastic work of a step per reference volume [J/m^3]: strain : (s_0 v_0 + s_1 v_1)/2,
+ * with the stresses s_0, s_1 and the relative volumes v_0, v_1 at the start and at the end of the step. strain:
+ * increments of plastic strain [1]. */
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_broadcast(0);

@@ -5,8 +5,8 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Returns true if no node of first .. end - 1 has mass. On the finest mesh most nodes have none where coarse cells
- * replace its cells. mass: mass of each node, or its inverse (0 for a node without mass). */
+/* Returns true if none of the nodes first .. end - 1 has mass. On the finest mesh most nodes have none, where coarse
+ * cells replace its cells. mass: mass of each node, or its inverse (0 for a node without mass). */
 static bool none_moves(const real *mass, int64_t first, int64_t end)
 {
     enum { PIECE = 64 };
@@ -20,9 +20,9 @@ static bool none_moves(const real *mass, int64_t first, int64_t end)
     return true;
 }
 
-/* Adds the kinetic energy of the nodes first .. end - 1 of a mesh to sum[0] [J]: 1/2 m v^2, or for coarse cells, whose
- * mass matrix is not diagonal, half the product of momentum and velocity. A function for reproducible_sums; context:
- * the mesh. */
+/* Adds the kinetic energy of the nodes first .. end - 1 of a mesh to sum[0] [J]: m v^2/2, or for coarse cells, whose
+ * mass matrix is not diagonal, half the product of momentum and velocity. context: the mesh (struct mesh).
+ * reproducible_sums calls it for each block of nodes. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -45,8 +45,9 @@ real mesh_kinetic(const struct mesh *mesh)
 }
 
 /* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 of a mesh to sum[0] [J/s^2], with nodal forces f and masses
- * m; times dt^2 it is the correction of mesh_kick. Where coarse cells have a blended (lumped and consistent) mass
- * matrix, this matrix replaces m (mesh_inertia.h). A function for reproducible_sums; context: the mesh. */
+ * m. Times dt^2 it is the correction of the kinetic energy to the time of the positions (mesh_kick). Coarse cells with
+ * a blended (lumped and consistent) mass matrix contribute by this matrix instead of m (mesh_inertia.h). context: the
+ * mesh (struct mesh). reproducible_sums calls it for each block of nodes. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -111,8 +112,9 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
-/* Returns the elastic energy of a row of consecutive whole cells `run`, computed for eight cells at a time [J]. Vector
- * lanes beyond its end contribute 0. */
+/* Returns the elastic energy of `run`, a row of consecutive cells with all points of one material, computed for eight
+ * cells at a time [J]. Vector lanes beyond the end of the row contribute 0. s: mesh, particles and elastic constants;
+ * finite: true for finite strain. */
 static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
                                      const bool finite)
 {

@@ -31,18 +31,18 @@ FLOW(1)
 FLOW(2)
 FLOW(3)
 
-/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield into *s,
- * by return mapping at each point, and updates the plastic state of the points (cells_return_mapping). cell: eight cell
- * indices, -1 for a lane without cell; m: elastic constants of all materials. */
+/* Computes the stress of the mean strain (s->P) and the forces on the bending modes (s->force) of eight cells whose
+ * points yield, by return mapping at each point. Updates the plastic state of the points. cell: eight cell indices, -1
+ * for a lane without cell; m: elastic constants of all materials; s->e, s->mode: strain of the cells, input. */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
     (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
 }
 
-/* Computes the forces f[c][i] on corner c along axis i of eight cells whose points yield [N], from the k-th cell of the
- * row of cells `run` on, and updates the plastic state of their points. u[c][i]: displacements of the corners [m]; m:
- * elastic constants of all materials. */
+/* Computes the forces f[c][i] on corner c along axis i of eight cells whose points yield [N], and updates the plastic
+ * state of the points. The cells are the k-th and the next seven in the row of consecutive cells `run`. u[c][i]:
+ * displacements of the corners [m]; m: elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
@@ -130,7 +130,8 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
 
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if all cells of a group of eight partial cells are inactive (at rest, so that they need no forces). */
+/* Returns true if all cells of group number `group` of eight partial cells (cells with missing points, partial
+ * stresses, several materials or doubled nodes) are at rest, so that they need no forces. */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
@@ -139,9 +140,9 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
     return level == 0;
 }
 
-/* Sets mesh->partial_stressed for those cells of a group of eight partial cells in which the principal stress at a
- * point may exceed the conversion stress of the material, by the bound cell_principal_stress_bound. s: strain of the
- * cells; m: elastic constants of all materials. */
+/* Marks in mesh->partial_stressed the cells of group number `group` of eight partial cells in which the principal
+ * stress at a point may exceed the conversion stress of the material. A partial cell has missing points, partial
+ * stresses, several materials or doubled nodes. s: strain of the cells; m: elastic constants of all materials. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
@@ -156,8 +157,10 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     }
 }
 
-/* Computes the forces on the corners of a group of eight partial cells into mesh->partial_force [N], and sets their
- * mesh->partial_stressed. Where points yield, their plastic state is updated. m: elastic constants of all materials. */
+/* Computes the forces on the corners of group number `group` of eight partial cells into mesh->partial_force [N]. A
+ * partial cell has missing points, partial stresses, several materials or doubled nodes. Marks in
+ * mesh->partial_stressed the cells in which a stress may exceed the conversion stress. Where points yield, their
+ * plastic state is updated. m: elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         int64_t group, const int dim, const bool finite)
 {

@@ -17,9 +17,9 @@ static ALWAYS_INLINE lanes plane_smooth(const real *w, int64_t row)
     return (line_smooth(w - row) + line_smooth(w + row)) + 4.0 * line_smooth(w);
 }
 
-/* Returns the average S w of the nodal values w by the consistent mass matrix of linear cells, S = (1, 4, 1)/6 along
- * each axis, at eight nodes from address w on. All cells at these nodes must have the blended mass matrix of
- * mesh_inertia.h. row, layer: index distances of neighbours along y and z. */
+/* Returns the average S w of the nodal values w, at eight nodes from address w on. S = (1, 4, 1)/6 along each axis are
+ * the weights of the consistent mass matrix of linear cells. All cells at these nodes must have the blended (lumped and
+ * consistent) mass matrix of mesh_inertia.h. row, layer: index distances of neighbours along y and z. */
 static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_smooth(w) * (1.0 / 6);
@@ -27,8 +27,8 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns a velocity component of node I [m/s] from w, the same component of momentum over mass of all nodes [m/s]. For
- * a node at which some, but not all cells have the blended mass matrix of mesh_inertia.h. */
+/* Returns one velocity component of node I [m/s]. w: the same component of momentum over mass of all nodes [m/s]. For
+ * nodes of which some cells, but not all, have the blended (lumped and consistent) mass matrix of mesh_inertia.h. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;
@@ -43,8 +43,8 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
 }
 
-/* Computes a velocity component v of the nodes of row number r (along x) from w, the same component of their momentum
- * over mass [m/s], for eight nodes at a time. v, w: arrays of all nodes. */
+/* Computes one velocity component v of the nodes in row number r of a mesh (a row along x), eight nodes at a time. w:
+ * the same component of the nodes' momentum over mass [m/s]; v, w: arrays over all nodes of the mesh. */
 static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const real *w, real *v, const int dim)
 {
     const int64_t row = dim > 1 ? mesh->corner[2] : 0, layer = dim > 2 ? mesh->corner[4] : 0,

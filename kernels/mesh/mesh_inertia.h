@@ -25,11 +25,11 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
     return share;
 }
 
-/* Returns the quadratic form a . alpha (L - C) a of cell `cell` [N^2/kg], summed over components; a quarter of it,
- * times dt^2, is the contribution of the cell's blended mass matrix to mesh_kick. a = f/m at its corners, from nodal
- * forces f and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and
- * differences d along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 +
- * d^2/3)/4. */
+/* Returns a . alpha (L - C) a for cell `cell` [N^2/kg], summed over components, where a = f/m are the accelerations of
+ * its corners from nodal forces f and masses m. L, C: lumped and consistent mass matrix of the cell; alpha =
+ * mesh->match: weight with which coarse cells blend both. Times dt^2/4 it is the part of the cell in the correction of
+ * the kinetic energy (mesh_kick). Sums s and differences d along the axes diagonalise both matrices: along one axis a .
+ * L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */

@@ -174,9 +174,10 @@ static ALWAYS_INLINE real mean_dilatation_stiffness(const struct elastic *m, con
     return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
 }
 
-/* Returns the derivative of the elastic energy per volume by component i of bending mode M, in the rotated axes of the
- * cell [Pa]. M: bit set of axes. The gradient d_j u_i contains mode {j, l} of component i times the coordinate along
- * l, and mode {1, 2, 3} of component i times the two other coordinates. */
+/* Returns the derivative of the elastic energy per volume by component i of bending mode M of eight cells, in the
+ * rotated axes of the cell [Pa]. mode[M][i]: amplitudes of the modes [1]. M: set of two or three axes, as bits. In the
+ * displacement gradient d_j u_i, mode {j, l} of component i appears times the coordinate along l, and mode {1, 2, 3} of
+ * component i times the two other coordinates. */
 static ALWAYS_INLINE lanes cell_bending_force(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M,
                                               const int i, const int dim)
 {
@@ -307,8 +308,8 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
 }
 
 /* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
- * stresses and of bonds. moment: moment of bonds at the points of the cell, per volume about each axis [Pa];
- * overwritten with the total moment, to which the axial part of P U^T of all modes is added (U = 1 + e, e: mean
+ * stresses and of bonds. moment: on entry the moment of bonds at the points of the cell, per volume about each axis
+ * [Pa]; on return the total moment, to which the axial part of P U^T of all modes is added (U = 1 + e, e: mean
  * strain). */
 static ALWAYS_INLINE void cell_balance_finite_moments(struct mesh_cell *s, lanes *moment, const int dim)
 {

@@ -5,11 +5,10 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Replaces the force on nodal components with prescribed velocity by mass times the change of that velocity per time,
- * for all walls (struct wall: a nodal component with a prescribed velocity). Stores the reaction of each wall [N s],
- * and adds the impulse [N s] and the work [J] of the walls to impulse[] and *work. The walls of one component are
- * consecutive; the sums of a component are added at its end. dt_velocity: time over which forces change the velocities
- * [s]. */
+/* Replaces the force on all nodal components with prescribed velocity ("walls") by mass times the change of this
+ * velocity per time. Stores for each wall its reaction [N s], the impulse that balances the other forces on the node.
+ * Adds impulse [N s] and work [J] of all walls to impulse[] and *work. dt_velocity: time over which forces change the
+ * velocities [s]. Walls of one axis are consecutive in the list, and their sums are added at their end. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -32,9 +31,9 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
     }
 }
 
-/* Adds the forces of dashpots to the nodal forces of the mesh and sets grid.absorbed to their energy and impulse in
- * this step. dt_velocity: time over which forces change the velocities [s]. Dashpots of mirror nodes are listed at the
- * image nodes. */
+/* Adds the forces of dashpots to the nodal forces of the mesh, and sets grid.absorbed to the energy and impulse that
+ * they absorb in this step. dt_velocity: time over which forces change the velocities [s]. A dashpot at a mirror node
+ * (a node beyond a plane of symmetry) is listed at the node that it mirrors. */
 static void dashpots_force(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -52,10 +51,10 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
 
 #define OFF_PLACE 1e-6 /* largest deviation from a prescribed position that counts as round-off [cells]; empirical */
 
-/* Sets nodal components held by walls to the prescribed velocity exactly, removing round-off from velocity and
- * displacement. dt: time step [s]. A displacement within OFF_PLACE cell edges of its prescribed value is set to that
- * value; one that differs by more, for example of a node that started from another displacement, follows the velocity
- * alone. */
+/* Sets the nodal components with prescribed velocity ("walls") to this velocity exactly, without the round-off of the
+ * step, and likewise their displacement, if it is within OFF_PLACE cell edges of its prescribed value. A displacement
+ * that differs by more, for example of a node that started from another displacement, follows the velocity alone. dt:
+ * time step [s]. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;
@@ -69,7 +68,8 @@ static void walls_move(struct mesh *mesh, real dt)
     }
 }
 
-/* Sets the force component `force` of the active nodes of a row to 0. */
+/* Sets the entries of the force component `force` [all nodes] at the active nodes of a row to 0. row: number of the row
+ * of nodes along x; active nodes are those of parts of the mesh that are not at rest. */
 static void row_clear(const struct mesh *mesh, int64_t row, real *force)
 {
     const struct mesh_row_blocks blocks = mesh_blocks_of_row(mesh, row);
@@ -85,10 +85,11 @@ void mesh_clear(struct mesh *mesh)
         for (int d = 0; d < mesh->grid.dim; d++) row_clear(mesh, r, mesh->grid.force[d]);
 }
 
-/* Advances velocity and displacement of the active nodes of a row (along x) by a leap-frog step, eight at a time;
- * entries beyond the last node have neither force nor mass and stay at rest. dt, dt_velocity: times over which
- * velocities move the nodes and forces change the velocities [s]. Returns the square of the largest velocity component
- * [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of all components is tested. */
+/* Advances velocity and displacement of the active (not resting) nodes of row number `row`, along x, by a leap-frog
+ * step, eight nodes at a time. Entries beyond the last node have neither force nor mass and stay at rest. dt: time over
+ * which velocities move the nodes [s]; dt_velocity: time over which forces change the velocities [s]. Returns the
+ * square of the largest velocity component [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of
+ * all components is tested. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0];
@@ -159,8 +160,9 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
-/* Adds the nodal forces over a time dt_velocity [s] to the momentum (over mass) of all nodes of a mesh of coarse cells,
- * and computes the nodal velocities from it (mesh_velocity). */
+/* Integrates the nodal forces over the time dt_velocity [s], for a mesh of coarse cells. Their mass matrix is not
+ * diagonal: the forces change the momentum over the lumped mass (grid.momentum [m/s]), from which the velocities are
+ * then computed (mesh_velocity). */
 static void momentum_move(struct mesh *mesh, real dt_velocity)
 {
 #pragma omp parallel for schedule(static)

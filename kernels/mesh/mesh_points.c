@@ -24,8 +24,8 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Sets position and velocity of points of cell I from its nodes by linear interpolation. places: bit set of the point
- * numbers q (0 .. 2^dim - 1) to set. */
+/* Sets position and velocity of material points of cell I by linear interpolation from its nodes. places: bit q is set
+ * for those of the points q = 0 .. 2^dim - 1 that are moved. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -45,7 +45,7 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
     }
 }
 
-/* Sets position and velocity of the single point i from those of the nodes of its cell by linear interpolation. */
+/* Sets position and velocity of the one point i by linear interpolation from the nodes of its cell. */
 static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
 {
     const int64_t I = mesh->place[i] >> dim;
@@ -112,8 +112,8 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
-/* Computes the rotations of eight cells with the strain s, in the layout of particles.end_rotation. rotates: true for
- * the finite rotation s->R of the cell, false for that by the antisymmetric part of the displacement gradient. */
+/* Computes the rotations of eight cells from their strain s, in the layout of particles.end_rotation. rotates: true for
+ * the finite rotation s->R, false for the antisymmetric part of the displacement gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
@@ -139,8 +139,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Sets particles.end_strain and, in models with rotations, end_rotation of the points with state-based bonds in a group
- * of eight partial cells, from the deformation of their cells. */
+/* Computes end_strain and (models with rotations) end_rotation in p from the deformation of the cells, for the points
+ * with state-based bonds in group number `group` of eight partial cells. finite: true for finite strain. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -188,8 +188,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces p->f on points of cell I to its nodes with their interpolation weights. places: bit set of the point
- * numbers q (0 .. 2^dim - 1) whose forces are added. */
+/* Adds the forces p->f on material points of cell I to its nodes by their interpolation weights. places: bit q is set
+ * for those of the points q = 0 .. 2^dim - 1 whose forces are added. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -325,8 +325,8 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED for the points of cell I that convert at their stress (stress_converts). m: elastic constants of
- * all materials; finite: true for finite strain. */
+/* Sets FLAG_STRESSED for those points of cell I whose stress exceeds the limit for conversion to peridynamic particles.
+ * m: elastic constants of all materials; finite: true for finite strain. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -350,7 +350,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Calls cell_points_mark for cell I: one function per dimension, not inlined, since few cells are examined. */
+/* Calls cell_points_mark by one function per dimension, which is not inlined, since few cells are examined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -362,9 +362,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns for eight cells an upper bound of the largest principal stress at their points [Pa], or, where larger, of
- * cell_surface_bound. It is computed at each point and so closer than the bound of mesh_force. s: strain; there[q]:
- * mask of the cells that have point number q; NULL: all cells have all points. */
+/* Returns for each of eight cells an upper bound of the principal stresses at its points [Pa], or, if larger, its
+ * cell_surface_bound. It is found point by point, closer than in mesh_force. m: elastic constants; s: strain of the
+ * cells; there[q]: mask of cells that have point number q, NULL if all cells have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -392,7 +392,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Calls places_tension for eight cells [Pa], by one function per dimension that is not inlined. */
+/* Calls places_tension [Pa] by one function per dimension, which is not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -412,8 +412,8 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
-/* Returns the bound of the largest principal stress by places_tension for eight cells of a row of consecutive cells,
- * from its k-th cell on [Pa]. */
+/* Returns for each of eight cells, the k-th and the next of the row of cells `run`, an upper bound of the principal
+ * stresses at its points [Pa] (places_tension). m: elastic constants; finite: true for finite strain. */
 static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                        int64_t k, const int dim, const bool finite)
 {
@@ -424,8 +424,8 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
     return cells_tension(m, &s, NULL, dim);
 }
 
-/* Sets FLAG_STRESSED of the points in a row of consecutive cells whose principal stress exceeds their conversion
- * stress. Points are examined one by one only in cells whose bound exceeds it. */
+/* Sets FLAG_STRESSED of the points in `run` (a row of consecutive cells) whose principal stress exceeds their
+ * conversion stress. Only cells in which a bound of the stress exceeds it are examined point by point. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of points in a group of eight partial cells whose principal stress exceeds their conversion
- * stress. Points are examined one by one in cells whose bound (places_tension) exceeds it, and in cells for which this
- * bound does not hold: those with several materials and those with mean dilatation. */
+/* Sets FLAG_STRESSED of points in group number `group` of eight partial cells whose principal stress exceeds their
+ * conversion stress. Examined point by point are cells in which a bound (places_tension) exceeds it, and cells for
+ * which the bound does not hold: those with several materials and those with mean dilatation. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {
@@ -475,8 +475,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
-/* Returns true if mesh_force has marked a cell of the group of partial cells as possibly above the conversion
- * stress. */
+/* Returns true if mesh_force has marked a cell of group number `group` of eight partial cells, as one in which a stress
+ * may exceed the conversion stress. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;

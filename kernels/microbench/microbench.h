@@ -13,7 +13,7 @@ struct microbench_lattice;
 /* Creates about 80,000 particles in `dim` dimensions with neighbours within 3.015 spacings. Release with
  * microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* Sweeps once over all bonds of the lattice s. Returns seconds per directed bond. */
+/* Computes once the forces of all bonds of the lattice s. Returns the time per directed bond [s]. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
 /* Releases s, the data of the lattice benchmark. */
@@ -22,11 +22,11 @@ KERNEL(void, microbench_lattice_free, (struct microbench_lattice *s));
 /* Data of the STREAM triad a = b + q c over arrays larger than any cache. */
 struct microbench_triad;
 
-/* Allocates the arrays of the triad, each of twice the last-level cache and at least 64 MB; with `quick` of 64 MB.
- * Release with microbench_triad_free. */
+/* Allocates the three arrays of the STREAM triad a = b + q c. Each has twice the size of the last-level cache and at
+ * least 64 MB, or 64 MB if `quick`. Release with microbench_triad_free. */
 KERNEL(struct microbench_triad *, microbench_triad_make, (bool quick));
 
-/* Runs the triad once. Returns bytes per second, counted as 24 bytes per entry. */
+/* Computes the STREAM triad a = b + q c once. Returns the bandwidth [bytes/s], at 24 bytes for each entry. */
 KERNEL(double, microbench_triad_run, (struct microbench_triad *t));
 
 /* Releases t, the data of the triad. */
@@ -40,7 +40,7 @@ struct microbench_points;
 /* Creates the data of the material point method, with points in motion. Release with microbench_points_free. */
 KERNEL(struct microbench_points *, microbench_points_make, (void));
 
-/* Runs one step of the plain material point method m. Returns seconds per point and step. */
+/* Runs one step of the plain material point method on the data m. Returns the time per point [s]. */
 KERNEL(double, microbench_points_run, (struct microbench_points *m));
 
 /* Releases m, the data of the plain material point method. */

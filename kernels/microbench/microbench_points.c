@@ -45,8 +45,8 @@ static void add_corners(real *field, int cx, int cy, const real *sum)
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* First map: adds mass, momentum and internal force of the points of a cell to its four nodes. cx, cy: indices of the
- * cell along x and y. */
+/* Adds mass, momentum and internal force of the points of a cell to its four nodes: the first map of a step. cx, cy:
+ * indices of the cell along x and y. */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -66,8 +66,8 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Second map: adds the change of the nodal velocities (in fx, fy) to the velocities of the points of cell cx, cy, and
- * adds their momentum to the nodes again. */
+/* Adds the change of the nodal velocities (in p->fx, fy) to the velocities of the points of a cell, and adds their
+ * momentum to the nodes again: the second map of a step. cx, cy: indices of the cell along x and y. */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -94,7 +94,8 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Third map: updates position, stress and volume of the points of cell cx, cy from the nodal velocities. */
+/* Updates position, stress and volume of the points of a cell from the nodal velocities: the third map of a step. cx,
+ * cy: indices of the cell along x and y. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;

@@ -101,8 +101,8 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Returns in each lane -1 if the point moves with the velocities of the second map (remap.h), else 1. Points with bonds
- * do so; all points do if t->momentum_only or t->second_map is set. point: numbers of the points. */
+/* Returns in each lane -1 if the point moves with the nodal velocities that remapping has computed (remap.h), else 1.
+ * Points with bonds do so; all points do if t->momentum_only or t->second_map is set. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -112,8 +112,8 @@ static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, 
 }
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c, by
- * interpolation from the nodes. bonded: result of points_bonded. The nodes of a row are added first, since they have
- * one weight in the directions across the row. */
+ * interpolation from the nodes. bonded: negative in lanes of points that move with the velocities after remapping
+ * (points_bonded). The nodes of a row are added first, since they have one weight in the directions across the row. */
 static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                         const row_of_points bonded, row_of_points *velocity, row_of_points *L,
                                         const int dim, const enum shape shape, const enum transfer transfer)
@@ -147,7 +147,8 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
 }
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c by
- * interpolation from the nodes, for linear shapes in 2D and 3D. bonded: result of points_bonded. */
+ * interpolation from the nodes, for linear shapes in 2D and 3D. bonded: negative in lanes of points that move with the
+ * velocities after remapping (points_bonded). */
 static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const struct cell *c,
                                                 const struct cell_stencil *s, const row_of_points bonded,
                                                 row_of_points *velocity, row_of_points *L, const int dim,
@@ -196,7 +197,8 @@ static ALWAYS_INLINE row_of_points dilatation_rate(const struct points_motion *m
     return rate;
 }
 
-/* Adds a third, in 2D half, of a change of the rate of dilatation to the diagonal of the velocity gradients [1/s]. */
+/* Adds `change`, a change of the rate of dilatation [1/s], to a few points: a third of it, in 2D half, to each diagonal
+ * entry of their velocity gradients m->L. */
 static ALWAYS_INLINE void points_dilate_more(struct points_motion *m, row_of_points change, const int dim)
 {
     for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
@@ -244,8 +246,8 @@ static ALWAYS_INLINE void rates_average(const struct particles *p, const struct 
     }
 }
 
-/* Adds the displacements m->velocity, multiplied by the time step [m], to the positions of the points of m. Returns a
- * bit mask: bit k is set if point k has left cell c. */
+/* Adds m->velocity, which the caller has already multiplied by the time step [m], to the positions of the points of m,
+ * and stores these in p. Returns a bit mask: bit k is set if point k has left cell c. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
                                      const struct points_motion *m, const int dim)
 {
@@ -259,9 +261,9 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_sign_bits((row_of_points)~inside);
 }
 
-/* Updates n points (n <= AT_ONCE) of cell c by their motion m: position, stress, volume, stretch, rotation. due:
- * receives the points of materials that yield, for the return mapping. Returns the number of points that have left the
- * cell. */
+/* Updates position, stress, volume, stretch and rotation of n points (n <= AT_ONCE) of cell c by their motion m. On
+ * return m->velocity holds displacements [m]. due: receives the points of materials that yield, for the return mapping.
+ * Returns the number of points that have left the cell. */
 static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     int n, const int dim, const enum shape shape)
@@ -275,7 +277,7 @@ static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, 
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
-/* Stores velocities and velocity gradients of a few points, with APIC. */
+/* Stores the velocities m->velocity and velocity gradients m->L of a few points in p, as APIC requires. */
 static ALWAYS_INLINE void points_keep_gradient(struct particles *p, const struct points_motion *m, const int dim)
 {
     for (int d = 0; d < dim; d++) points_store(p->v[d], m->point, m->velocity[d], dim);

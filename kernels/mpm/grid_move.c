@@ -165,8 +165,8 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds `times` the force and the mass of the light node I to node J, from which the acceleration of I is extrapolated.
- * The momentum of J is scaled so that its velocity does not change. */
+/* Adds `times` the force and `times` the mass of the light node I to the heavier node J, from which the acceleration of
+ * I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -177,8 +177,9 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
-/* Lists the light nodes (APIC only) and transfers their force and mass to the heavier nodes from which their
- * acceleration is extrapolated. Called before velocities are computed. */
+/* Finds the light nodes, whose acceleration is extrapolated from heavier nodes (g->follower), and transfers their force
+ * and mass to these. With FLIP there are none. smallest_mass: nodes lighter than this are left out [kg]. Called before
+ * velocities are computed. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;
@@ -227,8 +228,9 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Recomputes g->absorbed, the energy absorbed by dashpots, with the nodal velocities of the second map (g->momentum).
- * In FLIP points receive these velocities, not those on which the dashpots acted. */
+/* Recomputes g->absorbed, the energy absorbed by dashpots, with the nodal velocities of the second map (g->momentum):
+ * in MUSL, the velocities of the points are mapped to the nodes again after their update. In FLIP the points receive
+ * these velocities, not those on which the dashpots acted. */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

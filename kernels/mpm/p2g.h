@@ -25,8 +25,8 @@
  * momentum [kg m/s], components of force [N]. */
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
-/* Returns the index of component ab among the stored components of a symmetric tensor, in the order xx, yy, zz, xy, yz,
- * zx (in 2D xx, yy, xy). */
+/* Returns the index of component ab of a symmetric tensor among its stored components, which are in the order xx, yy,
+ * zz, xy, yz, zx (in 2D xx, yy, xy). a, b: axes, 0 to dim - 1. */
 static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
 {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;

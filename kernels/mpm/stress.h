@@ -277,8 +277,9 @@ static inline void quaternion_rotate_vector(const real *quaternion, real *vector
     }
 }
 
-/* Computes the antisymmetric part of the stress that a bonded point of a state-based model transmits to the grid [Pa],
- * components sigma_ab in the order xy, yz, zx; it balances the moment of the bonds. Returns false if there is none. */
+/* Computes the antisymmetric part of the stress that material point i transmits to the grid [Pa], skew[]: components
+ * sigma_ab in the order xy, yz, zx. It balances the moment of the state-based bonds of the point. Returns false if
+ * there is none. */
 static ALWAYS_INLINE bool point_skew_stress_on_grid(const struct particles *p, const struct partial_stress *partial,
                                                     int64_t i, real *skew, const int dim)
 {

@@ -17,8 +17,8 @@
 
 /* ---- points of a group ------------------------------------------------------------------------------------------- */
 
-/* Returns a bit for each point of a run, set if the point is on the grid: neither peridynamic nor a point of the mesh.
- * all: true if all particles are on the grid. */
+/* Returns a bit for each point of `run` (up to eight consecutive particles of a group), set if the point is on the
+ * grid: neither peridynamic nor a point of the mesh. all: true if all particles are on the grid. */
 static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
 {
     uint8_t bits = (uint8_t)((1u << run->n) - 1);
@@ -76,9 +76,9 @@ static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct tu
     FOR_SPINS(c, dim) g->sum[c] = run_total(spin[c]);
 }
 
-/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn) in
- * g->sum, and their angular momentum about the centre of mass of its root, the group that it has joined, in
- * g->angular. */
+/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn) into
+ * g->sum [kg m^2/s]. Sums their angular momentum about the centre of mass of its root into g->angular. The root of a
+ * group is the group that it has joined, or the group itself. */
 static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -101,7 +101,8 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
     FOR_SPINS(c, dim) g->sum[c] = run_total(lack[c]), g->angular[c] = run_total(spin[c]);
 }
 
-/* Stores the spin of the root of group g, the group that it has joined, in t->turn for all points of group g. */
+/* Stores in t->turn, for all points of group g, the spin of the root of the group: of the group that it has joined, or
+ * its own if it has joined none. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -219,9 +220,10 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes the gain of spin of each root (a group that has joined no other) from g->sum, the angular momentum that its
- * points have not received: J gain = g->sum with J = g->inertia. Then computes its spin after they have received it: J
- * spin = g->angular + (J - added) gain, where inertias_find has added g->added to the inertia of a thin group. */
+/* Computes for each root (a group that has joined no other) the gain of spin by which its points get the angular
+ * momentum g->sum that they have not received: J gain = g->sum, with the inertia J = g->inertia. Then computes its spin
+ * after that: J spin = g->angular + (J - g->added) gain, where g->added is the part of J that was added to a thin group
+ * to keep it regular. */
 static void gains_find(struct rotation_groups *t, int dim)
 {
     spins_find(t, dim);

@@ -33,13 +33,14 @@ struct candidate {
     int32_t i, j;
 };
 
-/* Returns the state of row block g (the bonds of eight particles): whether it is due, i.e. has a bond beyond its onset
- * of softening. The load is atomic, since other threads may set DUE_DENIED in it at the same time. */
+/* Returns the entry of b->soft.due of row block g (bonds of eight particles): whether one of its bonds is beyond its
+ * onset of softening, and must be examined (enum softening_due). The load is atomic, since other threads may set
+ * DUE_DENIED at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if the bond `bond` of row block g, from particle i, may begin to soften, and stores it in *c. Its
- * stretch must be between its onset and the end, beyond which the sweep breaks it; it must not have begun to soften;
- * and the row block of its other particle must be due, too (have a bond beyond its onset). */
+/* Returns true if the bond `bond` of row block g, in the row of particle i, may begin to soften, and describes it in
+ * *c. Conditions: its stretch is between its onset of softening and the end, beyond which it breaks; it has not begun
+ * to soften; and the row block of its other particle is marked in b->soft.due, too. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -53,16 +54,17 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
            (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
 }
 
-/* Returns the row from which the dilatation at particle j is taken: its own row, or for a mirror image that of its
- * source. Returns -1 if this row does not hold the whole family (all neighbours of the particle). */
+/* Returns the row from which the dilatation at particle j is taken: its own, or for a mirror image that of the particle
+ * that it mirrors. Returns -1 if this row holds only some of the bonds to the neighbours, as that of a material point
+ * does. */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
     return row >= 0 && b->whole[row] ? row : -1;
 }
 
-/* Marks in b->soft.needed the rows whose dilatation is needed to examine the bonds of row block g that may begin to
- * soften. Several threads may mark one row. */
+/* Marks in b->soft.needed the rows whose dilatation is needed to examine those bonds of row block g (bonds of eight
+ * particles) that may begin to soften. Several threads may mark one row. limit: critical stretches and softening. */
 static void mark_needed(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
@@ -192,9 +194,9 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
-/* Moves the range of softening of candidate c to that of the strain rate of its bond, the mean of both rows, or the
- * rate of one row if the other does not hold a whole family. Returns true if the bond is beyond its onset at this
- * rate. */
+/* Moves the stretches c->range between which candidate c softens to those at the strain rate of its bond. This is the
+ * mean rate of both rows, or that of one row if the other does not hold the bonds to all neighbours. Returns true if
+ * the bond is beyond its onset at this rate. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -209,8 +211,8 @@ static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, 
     return c->stretch > c->range.onset;
 }
 
-/* Starts the softening of the bond with index q of a row, described by candidate *c. The bond loses some energy at
- * once, which the closed form of its dissipation does not include: half of it is added to the fracture energy of the
+/* Starts the softening of the bond with index q of row `row`, described by candidate *c. The bond loses some energy at
+ * once, which the closed form of its dissipation does not include. Half of it is added to the fracture energy of the
  * row, except in load steps and state-based models. dt: time step [s]. */
 static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, int64_t q, const struct candidate *c,
                        real dt)
@@ -226,8 +228,9 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
-/* Starts the softening of those bonds of row block g that may begin to soften (is_candidate) and that the stress across
- * them allows to. Sets DUE_DENIED in the state of the row block if the stress does not allow a bond to soften. */
+/* Examines the bonds of row block g (bonds of eight particles) that are beyond their onset of softening and have not
+ * begun to soften. Starts the softening of those across which the stress pulls enough. Sets DUE_DENIED in
+ * b->soft.due[g] if the stress does not allow a bond to soften. */
 static void row_block_examine(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     bool denied = false;
@@ -248,8 +251,9 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }
 
-/* Returns true if a row block became due in the last sweep: a bond of its eight particles went beyond its onset of
- * softening. Then all due row blocks are examined, so that both rows of a bond are examined in one step. */
+/* Returns true if the last computation of forces has marked a row block (bonds of eight particles) anew, in which a
+ * bond went beyond its onset of softening. Then all marked row blocks are examined, so that both rows of a bond are
+ * examined in one step. */
 static bool any_new(const struct bonds *b)
 {
     bool found = false;

@@ -27,8 +27,8 @@ static void set_flag(struct particles *p, int32_t i, int flag)
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Returns half the elastic energy of bond q of a row at the given stretch [J], the share of one of its two rows. Only
- * for bond-based models. */
+/* Returns half the elastic energy of bond q of row `row` at the stretch `stretch` [J]; the other half belongs to the
+ * row of its other particle. Only for bond-based models. */
 static real half_energy(const struct bonds *b, int64_t row, int64_t q, real stretch)
 {
     return 0.5 * b->stiffness * b->w[q] * bond_entry_normalised_energy(b, row / LANES, q, stretch) /
@@ -58,8 +58,9 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` times its
- * force with the states of the families before bonds broke. share: fraction of the force that acts in this step [1]. */
+/* Corrects p->f for a bond of particle i that breaks in this step. Subtracts the force that the force kernel has added
+ * for it, and adds `share` times its force with the states that both families had before bonds broke. share: fraction
+ * of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -90,9 +91,9 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
     return ended;
 }
 
-/* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
- * its elastic energy to the fracture energy and its plastic work to the plastic work of the row, and marks it as
- * broken. */
+/* Breaks bond q of row `row` and marks it as broken. Replaces its contribution to the force on the row's particle by
+ * the share that acts until it breaks within the step (bond_last.h). Adds its elastic energy to the fracture energy of
+ * the row, and its plastic work to the plastic work of the row. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -111,8 +112,8 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
-/* Sets the weight of bond q of a row to w and adds half of the loss of elastic energy to the fracture energy of the row
- * (kernels.h). */
+/* Sets the weight of bond q of row `row` to w [1], and adds half of the elastic energy lost to the fracture energy of
+ * the row. The other half is lost in the step to the next positions (kernels.h). */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -150,9 +151,9 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
-/* Returns true if bond q of a row, from particle i to j, is stretched beyond its limit, at which it breaks. Marks the
- * row block as due (to be examined before the next sweep) if the bond is beyond its onset of softening and has not
- * begun to soften. */
+/* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. If it is
+ * beyond its onset of softening and has not begun to soften, marks its row block (bonds of eight particles) for
+ * examination before the next computation of forces (row_block_mark_due). */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -184,8 +185,8 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     return broken;
 }
 
-/* Returns the smallest critical stretch of all pairs of materials, less a tolerance for the round-off of the vector
- * test [1]. */
+/* Returns the smallest critical stretch in limit->critical_stretch, i.e. of all pairs of materials, less a tolerance
+ * for the round-off of the vectorised test [1]. */
 static real least_limit(const struct bond_limit *limit)
 {
     real least = limit->critical_stretch[0];
@@ -219,7 +220,8 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Returns the mask of those rows of row block g that have a bond with a stretch above `least` [1], up to round-off. */
+/* Returns the mask of those rows of row block g (bonds of eight particles) that have a bond with a stretch above
+ * `least` [1], up to round-off. least: a value for each row. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -236,8 +238,9 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
     return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
-/* Returns the mask of those rows of row block g that may have a bond above its breaking limit: above the limit stored
- * for the row where strength is random or bonds soften, else above the smallest critical stretch of all materials. */
+/* Returns the mask of those rows of row block g (bonds of eight particles) in which a bond may exceed its breaking
+ * limit. The largest stretch of a row is compared with the limit stored for it where strength is random or bonds
+ * soften, else with the smallest critical stretch of all materials. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const bool stored = p->strength || b->soft.curve;

@@ -144,8 +144,9 @@ static ALWAYS_INLINE lanes column_weight(const struct column column)
  * -|y|/|xi| - 1. */
 #define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
-/* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a. Columns of
- * the kind FREE are not masked: their broken bonds have negative lengths and hence values below a. */
+/* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a. In columns
+ * of the kind COLUMN_FREE no mask is needed: their broken bonds have negative lengths, which make `other` smaller than
+ * a. */
 static ALWAYS_INLINE lanes column_max_of_intact_bonds(const struct column column, lanes a, lanes other)
 {
     return column.kind == COLUMN_FREE || column.kind >= COLUMN_WHOLE

@@ -49,9 +49,9 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
     return lanes_choose((stretch > 0.0) & (onset < SOFTENING_NEVER), stretch * (scale * level), stretch);
 }
 
-/* Returns what bonds_softened_stretch does, and stores the present stretches of the eight bonds with indices
- * `first_bond` to `first_bond` + 7 as their largest ones where they exceed these; in load steps the stored ones stay.
- * Does nothing if none of the eight has begun to soften. */
+/* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
+ * 7, which are in one column. Stores those of the present stretches as largest ones that exceed the stored ones, except
+ * in load steps. Returns the stretches, and stores nothing, if none of the eight bonds has begun to soften. */
 static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
     lanes most = lanes_load_floats(b->soft.most + first_bond);
@@ -75,9 +75,9 @@ static ALWAYS_INLINE lanes bonds_normalised_force(const enum pd_model model, con
                                     : stretch;
 }
 
-/* Returns the elastic part of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7 [1]: the
- * total stretch `stretch` less the stored plastic stretch of models that yield; where bonds soften, the stretch times
- * the share of their stiffness that they keep. */
+/* Returns the elastic part of the stretch of the eight bonds with indices `first_bond` to `first_bond` + 7 [1]: in
+ * models that yield, `stretch` less the stored plastic stretch; in models that soften, `stretch` times the share of
+ * their stiffness that the bonds keep. stretch: total stretch [1]. */
 static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, const struct bonds *b, int64_t first_bond,
                                                  lanes stretch)
 {

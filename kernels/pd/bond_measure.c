@@ -59,8 +59,9 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     return total;
 }
 
-/* Adds the tensor F_ij (x) (x_j - x_i), divided by the stiffness, of the eight bonds of column s to sum[], symmetric
- * components with one lane per particle. x: positions of the particles of the row block [m]. */
+/* Adds F_ij (x) (x_j - x_i) of the eight bonds of column s, divided by the stiffness, to sum[]. F_ij: force of the bond
+ * on the particle of the row; sum[]: symmetric components, one lane for each of the eight particles. x: positions of
+ * the particles of the row block [m]. */
 static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
@@ -91,8 +92,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-/* Updates the largest stretches so far of the eight bonds of column s, which soften. x: positions of the particles of
- * the row block [m]. */
+/* Raises the largest stretches so far of the eight bonds of column s, which soften, to their present stretches where
+ * these are larger. x: positions of the particles of the row block [m]. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {

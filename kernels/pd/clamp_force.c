@@ -92,8 +92,9 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds the reactions on particle number h of the list c->particle (sources of mirror images in clamped planes) to its
- * force p->f. Each reaction is reflected from the mirror image to its source. */
+/* Adds the reactions of bonds across clamped planes to the force p->f on one particle: number h of c->particle, the
+ * list of particles that receive such reactions. Each reaction acts on a mirror image and is reflected to its
+ * source. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -112,9 +113,9 @@ static void weights_follow(struct bonds *b)
     for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
 }
 
-/* Replaces the reactions of those bonds in b->clamped that the force kernel has broken in this step: by the fraction of
- * their force that acts in this step, with the states before they broke (bond_last.h). These bonds are those whose
- * copied weight c->w is not 0 and whose present weight is 0. */
+/* Replaces the reactions of those bonds in b->clamped that the force kernel has broken in this step: by the share of
+ * their force that acts in this step, with the states before they broke (bond_last.h). These bonds are recognised by
+ * their weights: the weight copied to c->w before the step is not 0, the present one is 0. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

@@ -45,9 +45,9 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     }
 }
 
-/* Computes the rotations of eight families from their moments, sum w Y (x) xi, in the form in which they are stored
- * (rotation.h); exactly none where no neighbour has moved (moved = 0). spring: spring stiffness of the families
- * [N/m]. */
+/* Computes the rotations of eight families from their moments sum w Y (x) xi, in the form in which rotations are stored
+ * (rotation.h). moved: lanes that are 0 belong to families in which no neighbour has moved, whose rotation is set to
+ * the identity exactly. spring: spring stiffness of the families [N/m]. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -65,8 +65,8 @@ struct own_family {
     lanes share;   /* V/Q, with the weighted volume of a full family if the moduli refer to it [m] */
 };
 
-/* Returns the moduli and weighted volumes of the families (all bonds of one particle) of the eight particles of row
- * block g. */
+/* Returns the moduli and weighted volumes of the families of the eight particles of row block g. A family consists of
+ * all bonds of one particle. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -154,9 +154,10 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Updates the states *k of those particles of row block g that are material points: their cells add a part of the mean
- * strain, which changes the pressure, and determine the rotation. Stores the reactions of the bonds on the cells in
- * particles.end_pull and end_moment. f: moduli and weighted volumes of the families; sum: sums over them. */
+/* Updates the states *k of those particles of row block g (bonds of eight particles) that are material points: their
+ * cells add a part of the mean strain, which changes the pressure, and determine the rotation. Stores the reactions of
+ * the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes of the eight families;
+ * sum: sums over their bonds. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -197,9 +198,10 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, g, &k, model);
 }
 
-/* Does the first loop of the force for row block g: sums over its families, and their states. Sets b->state.past[g] if
- * a bond may exceed its breaking limit, and b->state.pressed[g] if a bond is compressed into its repulsive core. Where
- * bonds break, the states of the remaining bonds are mixed (state_last.h). */
+/* Computes the states (pressure, spring stiffness, rotation) of the eight particles of row block g from sums over their
+ * bonds, the first of the two loops of the force. Sets b->state.past[g] if a bond may exceed its breaking limit, and
+ * b->state.pressed[g] if a bond is compressed into its repulsive core. If bonds break, the states for the remaining
+ * bonds are means of those with and without the breaking bonds (state_last.h). */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {

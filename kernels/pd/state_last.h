@@ -20,8 +20,8 @@ struct family_left {
     int64_t ended;                  /* number of breaking bonds */
 };
 
-/* Computes the sums over those bonds of a row (all bonds of one particle) that stay below their limit, counts the
- * breaking bonds in `ended`, and averages their fraction of the force in `share`. */
+/* Computes the sums over those bonds of row `row` (all bonds of one particle) that stay below their breaking limit.
+ * Counts the breaking bonds in `ended`, and stores the mean share of their force that acts in this step in `share`. */
 static inline struct family_left family_sums_of_unbroken_bonds(const struct bonds *b, const struct particles *p,
                                                                const struct bond_limit *limit, int64_t row)
 {
@@ -53,9 +53,9 @@ static inline void blend_with_value_without_breaking(real *value, real without_b
     *value = share * *value + (1 - share) * without_breaking;
 }
 
-/* Replaces the stored rotation of particle i by the mixture (blend_with_value_without_breaking) of the rotation with
- * and without its breaking bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without
- * the breaking bonds [N/m]. */
+/* Replaces the stored rotation of particle i by S R + (1 - S) R', with its rotation R over all bonds, its rotation R'
+ * without the breaking bonds, and the share S = left->share of their force that acts in this step. left: sums over its
+ * remaining bonds; spring: spring stiffness of its family without the breaking bonds [N/m]; dim: dimensions. */
 static inline void rotation_blend(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -69,9 +69,9 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
         blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture
- * (blend_with_value_without_breaking) of the states with and without its breaking bonds. Does nothing if none of its
- * bonds breaks, and for material points, to whose state their cells contribute. */
+/* Replaces pressure, spring stiffness and rotation of the particle of row `row` by S a + (1 - S) a', where a is the
+ * value with its breaking bonds, a' that without them, and S the mean share of their force that acts in this step. Does
+ * nothing if none of its bonds breaks, nor for material points, to whose state their cells contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {
@@ -88,9 +88,9 @@ static inline void state_blend_row(struct bonds *b, const struct particles *p, c
     blend_with_value_without_breaking(&b->state.spring[i], spring, left.share);
 }
 
-/* Copies the states of the particles of a row block (rows of eight particles), in which bonds exceed their limit, to
- * state.before; the breaking bonds use them. Then replaces the states in b->state by the mixtures that the remaining
- * bonds use in this step. */
+/* Copies the states of the particles of a row block (bonds of eight particles) to b->state.before; the bonds that break
+ * in this step use them. Then replaces the states in b->state by means of those with and without the breaking bonds,
+ * which the remaining bonds use in this step. Only for row blocks in which bonds exceed their limit. */
 static inline void state_blend_breaking_rows(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                              int64_t row_block)
 {
@@ -105,9 +105,9 @@ static inline void state_blend_breaking_rows(struct bonds *b, const struct parti
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Returns component `component` of the state of particle i before its bonds broke in this step: `component` = 0
- * pressure, 1 spring stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source,
- * reflected as in state_of_images: the bond from the source to the image of the other particle breaks in the same step
+/* Returns one number of the state that particle i had before its bonds broke in this step. component: 0 pressure, 1
+ * spring stiffness, from 2 on the stored rotation. For a mirror image it is the state of the particle that it mirrors,
+ * with the rotation reflected: the bond from this particle to the image of the other particle breaks in the same step
  * and must use equal numbers. */
 static inline real state_component_before_breaking(const struct bonds *b, const struct particles *p, int component,
                                                    int64_t i)

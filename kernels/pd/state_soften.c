@@ -17,8 +17,9 @@
 #include "kernels/kernels.h"
 #include "state_last.h"
 
-/* Returns Y/w, the energy that a bond in the row of particle i would set free per weight and damage, at the present
- * states of both families [J]. Both rows of a bond get equal bits. */
+/* Returns the energy per weight [J] that an increase of the damage of `bond` would set free at the present states of
+ * both families (the driving force Y over the weight w). i: particle in whose row the bond is. Both rows of a bond get
+ * equal bits. */
 static real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     const struct state *t = &b->state;
@@ -47,8 +48,8 @@ static real bond_driving_energy(const struct bonds *b, const struct particles *p
     return r * e * (t->pressure[at[0]] + t->pressure[at[1]]) + 0.5 * (own[0] + own[1]);
 }
 
-/* Sets the damage of softening bond q of a row to that of the stretch `most`, its largest so far [1]. Returns 1 if this
- * is the end of its softening, at which it breaks, else 0. */
+/* Sets the damage of the softening bond q of row `row` to that of its largest stretch so far, `most` [1]. Breaks the
+ * bond if this is the end of its softening. Returns 1 if it is broken, else 0. */
 static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, int64_t q, real most)
 {
     const struct softened *soft = &b->soft;

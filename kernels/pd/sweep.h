@@ -26,8 +26,9 @@ struct sweep {
     bool diverged;
 };
 
-/* Returns the part of the list of active row blocks that the calling thread processes: the threads of the team get
- * equal shares in order, as by schedule(static). */
+/* Returns the part of the list of active (not resting) row blocks that the calling thread processes. A row block holds
+ * the bonds of eight particles. The threads of the team get equal parts of the list in order, as by
+ * schedule(static). */
 static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
 {
     const int64_t threads = omp_get_num_threads(), t = omp_get_thread_num(), all = b->active.active;
@@ -40,8 +41,8 @@ static ALWAYS_INLINE struct sweep sweep_of_thread(const struct bonds *b)
     return s;
 }
 
-/* Advances the particles of the k-th active row block in time by a leap-frog step, and sets s->diverged if one has
- * diverged. */
+/* Advances the particles of the k-th active row block (bonds of eight particles) by a leap-frog step with the step
+ * sizes of m. Sets s->diverged if one of the particles has diverged. */
 static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                                const struct pd_motion *m, const int dim)
 {
@@ -50,9 +51,10 @@ static ALWAYS_INLINE void sweep_move_row_block(struct sweep *s, const struct bon
         pd_move_eight(p, b->particle + g * LANES, count_of_eight_indices_below(g * LANES, b->rows), m->loaded, m, dim);
 }
 
-/* Prefetches what the loop needs next after the k-th active row block: forces and breaking limits AHEAD row blocks
- * further on, positions of the farthest neighbours there, and mass and velocities of the row block that is moved next.
- * Hardware prefetching follows consecutive lines within a page, but not a dozen arrays. */
+/* Prefetches what the loop over active row blocks (bonds of eight particles each) needs next. k: index of the present
+ * row block in the list. Fetched are the forces and breaking limits of the row block AHEAD entries further on, the
+ * positions of its farthest neighbours, and mass and velocities of the row block that is moved next. Hardware
+ * prefetching follows consecutive lines within a page, but not a dozen arrays. */
 static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
                                          int64_t k, const int dim)
 {
@@ -70,8 +72,9 @@ static ALWAYS_INLINE void sweep_prefetch(const struct sweep *s, const struct bon
     }
 }
 
-/* Advances the particles of those row blocks (rows of bonds of eight particles) in time whose positions no later row of
- * this thread reads. The forces of the k-th active row block and of all before it must be complete. */
+/* Advances in time the particles of those row blocks (bonds of eight particles each) whose positions no later row block
+ * of this thread reads. The forces of the k-th active row block and of all before it must be complete. m: step
+ * sizes. */
 static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                    int64_t k, const struct pd_motion *m, const int dim)
 {
@@ -79,8 +82,9 @@ static ALWAYS_INLINE void sweep_move_finished_rows(struct sweep *s, const struct
     for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move_row_block(s, b, p, s->next, m, dim);
 }
 
-/* Advances the particles of the remaining row blocks of this thread in time: the first ones, whose positions rows of
- * the previous thread may read, and the last ones. To be called when all threads have finished their forces. */
+/* Advances in time the particles of this thread's row blocks that have not been moved yet: the first ones, whose
+ * positions the previous thread may have read, and the last ones. To be called when all threads have finished their
+ * forces. m: step sizes. */
 static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struct bonds *b, struct particles *p,
                                                     const struct pd_motion *m, const int dim)
 {
