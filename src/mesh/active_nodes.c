@@ -30,9 +30,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks (of eight nodes along x) of the extra nodes that slits make at the positions of nodes of block
- * `near`, since they are neighbours of the nodes there. moves: true if the nodes of `near` move; if these are extra
- * nodes themselves, the blocks at their positions are then activated, too. */
+/* Activates the blocks of nodes (eight along x) that contain extra nodes at the positions of nodes of block `near`.
+ * Extra nodes are made where slits divide a node; they are neighbours of the nodes there. moves: true if nodes of
+ * `near` move; if these are extra nodes themselves, the blocks at their positions are activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -44,7 +44,8 @@ static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
     }
 }
 
-/* Activates a block of nodes (eight along x) that moves, and its neighbouring blocks that have nodes with mass. */
+/* Activates a block of nodes (eight along x) that moves, and those neighbouring blocks that have nodes with mass.
+ * Inactive blocks are at rest and left out of computations. */
 static void mesh_activate(struct mesh *mesh, int64_t block)
 {
     struct active_set *r = &mesh->active;
@@ -79,8 +80,8 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
     return !nodes_moved(mesh, block);
 }
 
-/* Returns true if the wall w, a prescribed velocity of a node, holds the node at rest for the whole run: if it belongs
- * to a mirror, or to a boundary that prescribes the value 0. */
+/* Returns true if w, a prescribed velocity component of a node, is 0 in the whole run: if it belongs to a plane of
+ * symmetry, or to a boundary that prescribes the value 0. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;
@@ -102,9 +103,9 @@ void active_nodes_activate_all(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Recomputes which blocks of nodes are active: those with a node that moves or carries a force, those with moving walls
- * (nodes of prescribed velocity), their neighbours, and those around exposed points (points whose motion is needed in
- * every step). */
+/* Recomputes which blocks of nodes (eight along x) are active: those with a node that moves or carries a force, those
+ * with a node of prescribed velocity that moves, the neighbours of these blocks, and those around exposed points
+ * (points whose motion is needed in every step). */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

@@ -10,9 +10,10 @@
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* Returns the reason, as part of a message, why a body for which the scene does not choose a frame cannot be in the
- * reference frame; NULL if it can. It can if it is one piece on one lattice, with two particles per cell and axis. mpm:
- * its first grid gives the nodes; hollow: cells whose particles were not created. */
+/* Returns the reason, as a part of a message, why a body cannot be in the reference frame; NULL if it can. Only for
+ * bodies for which the scene does not choose the frame. The body must be one piece on one lattice, with two particles
+ * per grid cell along each axis. mpm: its first grid gives the nodes; hollow: cells whose particles were not
+ * created. */
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
@@ -81,9 +82,9 @@ bool reference_frame_in_use(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the elastic constants of the cells, one entry per material: those of the material, own[materials], or, if
- * mpm.constants requests it, those of a lattice of its bonds. family: family (neighbours) of these bonds. Release it
- * with memory_free. */
+/* Returns an array with the elastic constants of the cells, one entry per material: own[materials], those of the
+ * material, or, if mpm.constants requests it, those of a lattice of its bonds. family: neighbours in this lattice.
+ * Release the array with memory_free. */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -143,8 +144,8 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-/* Updates the positions of the exposed points (mesh_find_exposed_points) from the nodes, and the strain at points with
- * state-based bonds to peridynamic particles. */
+/* Updates the positions of the exposed points from the nodes, and the strain at points with state-based bonds to
+ * peridynamic particles. Exposed points are those whose motion is needed in every step, as they have bonds or loads. */
 void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
@@ -159,9 +160,9 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due_in_step(&r->levels, step));
 }
 
-/* Sets the walls (prescribed velocities of nodes) of the mesh and of the levels 1 .. due of coarse cells. A step of
- * level k is 2^k times as long as one of the mesh. middle: time in the middle of the step of the mesh [s]; dt: its
- * length [s]. */
+/* Sets the velocities that boundaries prescribe at nodes of the mesh and of the levels 1 .. due of coarse cells. A step
+ * of level k is 2^k times as long as one of the mesh. due: highest level that begins a step now; middle: time in the
+ * middle of the step of the mesh [s]; dt: its length [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_prescribe_mesh_velocities(loads, &r->mesh, middle, dt);
@@ -172,9 +173,9 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
-/* Adds the reactions on the walls (nodes of prescribed velocity) of the mesh and of the levels 1 .. due of coarse cells
- * to the loads that prescribe them. dt_velocity: time over which the nodes of the mesh were accelerated [s]; for level
- * k it is 2^k times as long. */
+/* Adds the reactions at nodes with prescribed velocity, of the mesh and of the levels 1 .. due of coarse cells, to the
+ * loads that prescribe them. due: highest level that makes a step now; dt_velocity: time over which the nodes of the
+ * mesh were accelerated [s]; for level k it is 2^k times as long. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_add_grid_reactions(loads, &frame->mesh.grid, dt_velocity);

@@ -15,8 +15,8 @@ enum { AHEAD = 8 };     /* range of cells around level 0 that have particles, as
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reason in words why all particles of scene s must be created; NULL if those inside coarse cells may be
- * left out. */
+/* Returns the reason in words why scene s needs all particles; NULL if those inside coarse cells need not be
+ * created. */
 const char *scene_why_all_particles_needed(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
@@ -59,8 +59,8 @@ static status box_find(struct grid *box, const struct scene *s)
                : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
 }
 
-/* Returns true if a particle at X[dim] [m] is needed because a pre-crack is near. source: provides the cutoff of bonds;
- * h: size of a cell [m]. */
+/* Returns true if a pre-crack is so near the position X[dim] [m] that particles are needed there: nearer than the
+ * cutoff of the bonds plus two cells. source: provides the cutoff; h: edge of a cell [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;
@@ -77,8 +77,8 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-/* Returns true if X[dim] is inside the region of a load that acts in its whole region, not on a face, extended by
- * `tolerance` [m]. */
+/* Returns true if X[dim] [m] is inside the region of a load, extended by `tolerance` [m]. Loads that act on a face of
+ * their region are not considered. */
 static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -89,9 +89,9 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Returns true if a load acts on a face of cell I beside which the next cell is not completely inside the body, or on a
- * layer of the load's depth behind such a face that contains the cell. h: cells without particles; X[dim]: a point of
- * the cell [m]. */
+/* Returns true if a load acts at cell I through a face of the body. A face is where the next cell along the axis of the
+ * load is not completely inside the body; prescribed displacements act on all cells within their depth of it. h: grid
+ * of cells; X[dim]: a point of cell I, tested against the region of the load [m]. */
 static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -119,8 +119,8 @@ static bool near_probe(const struct scene *s, const struct probe_request *probe,
     return false;
 }
 
-/* Returns true if X[dim] [m] is in the range of a probe of the scene, from whose particles the probe is evaluated,
- * extended by three cells. h: edge of a cell [m]. */
+/* Returns true if X[dim] [m] is in the region from whose particles a probe of the scene is evaluated, extended by three
+ * cells. h: edge of a cell [m]. */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -185,8 +185,8 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
 }
 
 /* Returns flags [box.n] that are 1 for the cells that need no particles: those farther than `ahead` cells from cells of
- * level 0, the finest. A coarse cell has all of its particles or none. level: levels of the cells of the mesh. Release
- * the flags with memory_free. */
+ * level 0 (the finest). All particles of a coarse cell are needed if one is. level: levels of the cells of the mesh.
+ * Release the flags with memory_free. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct cells_without_particles *h = &r->hollow;

@@ -20,9 +20,9 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* Makes the mesh of a level (cells with the edge of 2^level finest cells) with the nodes that its cells may have; the
- * cells follow later. source: provides the number of materials; density: of each material [kg/m^3]. Returns REFUSED if
- * the mesh has too many nodes. */
+/* Makes the mesh of a level (cells with the edge of 2^level finest cells) with all nodes that its cells may have; which
+ * cells exist is determined later. source: provides the number of materials; density: density of each material
+ * [kg/m^3]. Returns FAILED, with a message, if the mesh has too many nodes. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -79,8 +79,8 @@ void levels_free(struct mesh_levels *l)
 
 /* ---- points of coarse cells -------------------------------------------------------------------------------------- */
 
-/* Copies displacement and velocity of finer nodes to all ghosts, which are nodes of a coarser mesh at the positions of
- * these finer nodes. */
+/* Copies displacement and velocity to all ghosts of coarse levels. A ghost is a node of a coarser mesh at which the
+ * next finer mesh has a node, too; it moves with that node. */
 void levels_copy_motion_to_ghosts(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);

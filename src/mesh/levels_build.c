@@ -6,8 +6,9 @@
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Makes the coarse cells for the present levels, l->level, and the masses of their nodes, without the transfer of mass
- * between levels (levels_add_masses_of_dependent_nodes). */
+/* Makes the coarse cells from l->level, the level of each cell of level 0 (the finest): kind and material of the cells,
+ * their number, and the masses of their nodes. Transfers no mass between levels; levels_add_masses_of_dependent_nodes
+ * does that. */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
@@ -35,7 +36,8 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 
 /* ---- interfaces of levels ---------------------------------------------------------------------------------------- */
 
-/* Returns true if a cell around node I of the mesh computes forces. */
+/* Returns true if a cell around node I of the mesh computes forces, i.e. has points and is not replaced by a coarse
+ * cell. */
 static bool node_acts(const struct mesh *mesh, int64_t I)
 {
     bool acts = false;
@@ -46,9 +48,9 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) that computes forces contains a
- * certain node of the next finer level. at: indices of this node along each axis, counted from the lower corner of the
- * body in cells of the finer level. */
+/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) contains a given node of the next
+ * finer level and computes forces. at: indices of this node along the axes, counted from the lower corner of the body
+ * in cells of the finer level. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
@@ -74,9 +76,9 @@ static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Appends node I of the finer mesh to the hanging nodes of level m. A hanging node is in the middle of a coarse edge or
- * face along the axes in the bit set `odd`, and its motion is the mean of the nodes at the ends (masters). mesh: the
- * finer mesh. */
+/* Appends node I of the finer mesh to the hanging nodes of level m. A hanging node is in the middle of an edge or face
+ * of a coarser cell, and its motion is the mean of that of the nodes at the ends or corners, its masters. odd: axes
+ * along which the edge or face extends, as bits; mesh: the finer mesh. */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
@@ -144,12 +146,13 @@ void levels_find_interfaces(struct mesh_levels *l)
     }
 }
 
-/* Adds a share of the value of node i of one mesh to node k of another: to[k] += share * from[i]. */
+/* Adds `share` times the value of node i of one mesh to the value of node k of another: to[k] += share * from[i]. */
 static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
 
-/* Adds the momentum of hanging node h along axis d to its masters, the nodes at the ends of the edge or face of which
- * it is the middle, and sets it to 0 at h. Each master receives its share of the mass of h times its own velocity, and
- * an equal part of the rest, which is 0 if velocities are linear along the edge. */
+/* Transfers the momentum of hanging node h along axis d to its masters. A hanging node is in the middle of an edge or
+ * face of a coarser cell, and its masters are the nodes at the ends or corners. Each master receives an equal share of
+ * the mass of h, with its own velocity plus the difference between the velocity of h and the mean of the masters. This
+ * difference is 0 if velocities are linear along the edge. */
 static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
 {
     const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;

@@ -18,8 +18,8 @@ struct cell_around {
     real t[DIM_MAX];
 };
 
-/* Returns the coarse cell that contains node I of level 0 (the finest), which has the indices k, and the position of
- * the node in it; level 0 if a cell of level 0 contains the node, or no cell does. */
+/* Finds the coarse cell around node I of level 0 (the finest), which has the indices k along the axes, and the position
+ * of the node in it. The level of the result is 0 if a cell of level 0 contains the node, or if no cell does. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
@@ -42,8 +42,8 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Computes weight[2^dim], the weights of the corners of a cell in the linear interpolation at the position a->t in it
- * [1]. */
+/* Computes weight[2^dim], the weights by which the corners of the coarse cell *a contribute to a value at the position
+ * a->t in the cell, by linear interpolation [1]. */
 static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
 {
     for (int c = 0; c < 1 << dim; c++) {
@@ -52,8 +52,8 @@ static void coarse_corner_weights(const struct cell_around *a, int dim, real *we
     }
 }
 
-/* Returns the value of a nodal field of a coarse mesh inside a cell. weight: weights of the corners of the cell, from
- * coarse_corner_weights. */
+/* Returns the value of the nodal field `field` of a coarse mesh at a position in cell `cell`. weight[2^dim]: weights of
+ * the corners of the cell at this position (coarse_corner_weights). */
 static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, const real *field)
 {
     real value = 0;
@@ -62,8 +62,9 @@ static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, 
     return value;
 }
 
-/* Sets displacement and velocity of node I of level 0 (the finest), with indices k, to those of the coarse cell around
- * it, if there is one. */
+/* Sets displacement and velocity of node I of level 0 (the finest) by interpolation in the coarse cell around it. k:
+ * indices of the node along the axes. Does nothing if no coarse cell contains the node, or if a cell of level 0
+ * does. */
 static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     struct mesh *fine = l->fine;
@@ -78,8 +79,8 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     }
 }
 
-/* Sets displacement and velocity of all nodes of a row of level 0 (the finest) that are inside coarse cells by
- * interpolation. */
+/* Sets displacement and velocity of those nodes of a row of level 0 (the finest) that are inside coarse cells, by
+ * interpolation in these cells. row: number of the row of nodes along x. */
 static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
     const struct grid *g = &l->fine->grid;
@@ -107,9 +108,9 @@ void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all)
 
 /* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
-/* Samples the motion of the nodes of new cells: computes lumped mass times velocity of every node of level 0 (the
- * finest), and copies displacement and velocity of coarse nodes from the nodes of level 0 at the same positions, with
- * mass times velocity. Masses are those before the transfer between levels. */
+/* Computes the motion of the nodes of changed cells before masses are moved between levels: mass times velocity of
+ * every node of level 0 (the finest) in grid.momentum; and for coarse nodes the displacement and velocity of the node
+ * of level 0 at the same position, with mass times velocity. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -144,9 +145,9 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Corrects the momentum of the merged cell J of `level` (cells with the edge of 2^level finest cells): the momentum of
- * its finest cells, less that of its corners by their sampled velocities, is distributed equally to its corners. q:
- * indices of the cell along each axis. */
+/* Corrects the momentum of cell J of `level` (cells with the edge of 2^level finest cells), which has been merged from
+ * finer cells. Its corners have the velocities of the finest nodes at their positions; the momentum of the finest cells
+ * that these do not contain is distributed equally to the corners. q: indices of the cell along the axes. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -165,8 +166,8 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
     }
 }
 
-/* Corrects the momenta of all cells that have been merged from finer ones. before: previous levels of the cells of
- * level 0 (the finest). */
+/* Corrects the momenta of all coarse cells that have been merged from finer ones (merged_correct). before: levels that
+ * the cells of level 0 (the finest) had before the change. */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {

@@ -19,8 +19,9 @@ enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the shortest rise time of the boundary b, as for a ramp [s]: the value over its largest rate. For prescribed
- * displacements it is that of their velocity, which is a pulse or jumps (0). */
+/* Returns the rise time of the boundary b [s]: its largest value over its largest rate of change, as for a ramp;
+ * INFINITY for a table whose value does not change, 0 for a jump. For prescribed displacements it is the rise time of
+ * their velocity, which is a pulse or jumps (0). */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -36,14 +37,15 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells [spacings] that represent waves with the rise r in a body of thickness `across`
- * [spacings]. edges: smallest number of cell edges across the body; not used if the rise is that of a pulse. */
+/* Returns the largest edge of cells that represent the waves of the load *r in a body of thickness `across`, all
+ * lengths in spacings. It is r->waves/RISES (waves: distance that waves travel while the load rises), or across/edges
+ * if that is larger and the load is no pulse. edges: smallest number of cell edges across the body. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
-/* Replaces *least by *one if the rise of load *one requires smaller cells in a body of thickness `across`
+/* Replaces the load *least by the load *one if that requires smaller cells in a body of thickness `across`
  * [spacings]. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
@@ -59,8 +61,8 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* Returns the load, initial state or moving body that requires the smallest cells in a body of thickness `across`
- * [spacings]. */
+/* Returns the load, initial state or moving body of the scene that requires the smallest cells in a body of thickness
+ * `across` [spacings], with its rise time; kind RISE_NONE if there is none. */
 static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
     const real c = slowest_waves(s), D = s->spacing;
@@ -170,9 +172,9 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
                  r->waves);
 }
 
-/* Writes to text[capacity] what loads cells of `edge` spacings require: a pulse of some length, or a rise over some
- * length or a body of some thickness. c: choice of levels with the decisive load; edges: smallest number of cell edges
- * across the body. */
+/* Writes to text[capacity] what cells with an edge of `edge` spacings require of the loads: a pulse of some length, or
+ * either a rise over some distance or a body of some thickness. c: choice of levels with the decisive load; edges:
+ * smallest number of cell edges across the body. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t capacity)
 {
     if (c->rise.pulse)

@@ -18,8 +18,9 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises the data `to` of the cells of level 0 (the finest). demand: 1 for cells that must be of level 0; limit:
- * largest level allowed for each cell; NULL: all levels are allowed. */
+/* Initialises *to, the map of which cells of level 0 (the finest) may become part of coarser cells. Only cells with all
+ * points may. demand: 1 for cells that must be of level 0; limit: largest level allowed for each cell, NULL if all
+ * levels are. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -33,9 +34,9 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Combines in map[level] the data of the 2^dim cells of the next finer level that form cell I of `level` (cells with
- * the edge of 2^level finest cells), with indices k. The cell is admissible if all of them are, have one material, and
- * may have this level. */
+/* Sets the entries of map[level] for cell I of `level` (cells with the edge of 2^level finest cells) from those of the
+ * 2^dim cells of the next finer level in it. The cell is admissible if all of these are, have one material, and may
+ * have this level. k: indices of the cell along the axes. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_read_only(l, level - 1)->grid;
@@ -55,8 +56,9 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
 }
 
 /* Returns true if the cells of level 0 (the finest) that touch a block of 2^dim cells in one direction all contain
- * points, or none does. Otherwise a node at the end of an edge of a coarse cell would have no finer node. first:
- * indices of the lower corner of the block in g; beside: the direction, -1, 0 or 1 along each axis. */
+ * points, or if none does. Otherwise a node at the end of an edge of the coarse cell would have no finer node. first:
+ * indices of the lower corner of the block in g, the grid of level 0; beside: the direction, -1, 0 or 1 along each
+ * axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;
@@ -73,8 +75,8 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
     return some == 0 || some == all;
 }
 
-/* Returns true if a cell of level 1, with indices k, is admissible beside its neighbours: every adjacent block of cells
- * of level 0 (the finest) touches it with cells that all contain points or all contain none. */
+/* Returns true if a cell of level 1, with the indices k, may exist beside its neighbours: in each direction, the cells
+ * of level 0 (the finest) that touch it all contain points, or none does. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -90,9 +92,9 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Returns true if a cell of `level` (cells with the edge of 2^level finest cells) > 1, with indices k, is admissible
- * beside its neighbours: all non-empty cells of the next finer level in it and around it are admissible, so that
- * adjacent cells differ by one level at most. */
+/* Returns true if a cell of `level` >= 2 (cells with the edge of 2^level finest cells), with the indices k, may exist
+ * beside its neighbours: all cells of the next finer level in it and around it that contain points must be admissible.
+ * Adjacent cells then differ by one level at most. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -163,8 +165,8 @@ bool levels_are_consistent(const struct mesh_levels *l)
     return sound && covered == coarse;
 }
 
-/* Sets bit 1 of mark for the cells within `reach` cells of a cell with bit 0, along a line of n cells whose entries in
- * mark are `stride` apart. */
+/* Sets bit 1 of `mark` for the cells within `reach` cells of a cell that has bit 0 set. The cells are n cells on one
+ * line, and their entries in `mark` are `stride` apart. */
 static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 {
     int64_t last = -reach - 1;

@@ -43,8 +43,8 @@ static real dispersion_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Returns the cell of level 0 (the finest) that contains particle i in the reference configuration. It is a cell of the
- * grid, whereas mesh->place may refer to an extra cell of a slit, behind the grid. */
+/* Returns the index of the cell of level 0 (the finest) that contains particle i in the reference configuration. It is
+ * always a cell of the grid, while mesh->place may refer to an extra cell, into which a slit has divided it. */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
@@ -53,8 +53,8 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for the cells I beside those planes of symmetry that are not on
- * nodes of all levels. */
+/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I beside those planes of symmetry that do not
+ * pass through nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -73,17 +73,17 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for the cells I beside slits: slits give nodes of level 0 extra
- * nodes at their positions, and coarse cells have none. */
+/* Sets demand[I] = 1, which requires level 0 (the finest), for the cells I beside slits. A slit divides the nodes of
+ * level 0 that it passes; nodes of coarse cells cannot be divided. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for the cells I inside and around `ring`, the integration path
- * of a sif probe. demand may be NULL; then nothing is set. Returns true if one of these cells is part of a coarse cell
- * at present. */
+/* Finds the cells I of level 0 (the finest) inside and around the circle `ring`, along which a sif probe integrates.
+ * Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires
+ * level 0; NULL if it is not needed. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -107,10 +107,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Sets demand[I], which requires level 0 (the finest), for the cells I inside and around the rings (integration paths)
- * of all sif probes. These probes need accelerations in every step, and nodes of coarse cells have them in some steps
- * only. demand may be NULL; then nothing is set. Returns true if one of these cells is part of a coarse cell at
- * present. */
+/* Finds the cells I of level 0 (the finest) inside and around the circles along which sif probes integrate. Returns
+ * true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires level 0;
+ * NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells have them in some
+ * steps only. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -125,9 +125,10 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
 }
 
 /* Returns flags [fine->grid.n] of the cells that must be of level 0 (the finest). These are the cells within
- * l->roomy_cells + more cells of peridynamic particles and of cells with a request; within FLANK_MORE further cells of
- * slits if there are several, within one cell of a single slit; and within one cell of loaded particles and of planes
- * of symmetry that are not on nodes. Release the flags with memory_free. */
+ * l->roomy_cells + more cells of peridynamic particles and of the cells requested in l->wanted; within FLANK_MORE
+ * further cells of slits if there are several, within one cell of a single slit; and within one cell of loaded
+ * particles and of planes of symmetry that are not on nodes. more: additional distance [cells]. Release the flags with
+ * memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -152,8 +153,9 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     return demand;
 }
 
-/* Sets demand[I] for all cells of level 0 that belong to the cells of `level` (cells with the edge of 2^level finest
- * cells) marked in `mark`, and for those within AROUND_STRESS cells of them. */
+/* Sets demand[I] = 1 for the cells I of level 0 (the finest) that are part of cells of `level` with a mark, and for
+ * those within AROUND_STRESS cells of them. mark: flags of the cells of `level` (cells with the edge of 2^level finest
+ * cells). */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
     const struct grid *fine = &l->fine->grid, *g = &level_mesh_read_only(l, level)->grid;
@@ -191,8 +193,8 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     return cells;
 }
 
-/* Returns true if a cell of level 0 (the finest) becomes part of a coarser cell by level[fine->grid.n] than at
- * present. */
+/* Returns true if a cell of level 0 (the finest) would have a higher level in level[fine->grid.n] than at present, i.e.
+ * become part of a coarser cell. */
 static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 {
     bool any = false;
@@ -200,17 +202,17 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces limit[I], the largest levels allowed for the cells, to r->room[I], which the thickness of the body allows.
- * Does nothing if the scene prescribes the levels. */
+/* Reduces limit[I], the largest level allowed for cell I, to r->room[I], the largest level that the thickness of the
+ * body allows there. Does nothing if the scene prescribes the number of levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes level[I], the levels of all cells of level 0 (the finest) in the next steps. demand: not 0 for cells that
- * must be of level 0; limit: largest level allowed for each cell, reduced here for cells that would lose too much
- * energy of motion by becoming coarser; mass: of the body [kg]. */
+/* Computes level[I], the refinement levels of all cells I of level 0 (the finest) for the next steps. demand[I]: not 0
+ * for cells that must be of level 0; limit[I]: largest level allowed, reduced here for cells that would lose too much
+ * energy of motion by becoming coarser; mass: mass of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -323,9 +325,8 @@ static void limits_find(struct reference_frame *r, const struct particles *p, co
     memory_free(stressed);
 }
 
-/* Marks points that have lost a bond for conversion again, after their conversion was postponed because coarse cells
- * were too near. These cells have been split by now. All material points of the cells recorded in l->wanted are
- * marked. */
+/* Marks material points again that have lost a bond and could not be converted at that time, because coarse cells were
+ * too near. These cells have been split by now. All material points of the cells recorded in l->wanted get the mark. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -369,8 +370,9 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
     l->any_wanted = false;
 }
 
-/* Requests finer cells around particle i if it is marked for conversion and a coarse cell is near. If the coarse cell
- * is too near for the bonds of the particle, also removes the marks, so that the particle converts later. */
+/* Requests finer cells around particle i (in l->wanted) if it is marked for conversion to a peridynamic particle and a
+ * coarse cell is near. If the coarse cell is too near for the bonds of the particle, also removes its marks, so that it
+ * is converted later. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;

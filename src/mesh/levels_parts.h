@@ -120,8 +120,8 @@ void levels_find_interfaces(struct mesh_levels *l);
  * momentum in grid.momentum [kg m/s], too. */
 void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta);
 
-/* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
- * nodes, for all refinement levels. To be called after levels_add_masses_of_dependent_nodes. */
+/* Finds the runs of all refinement levels (rows of consecutive cells of equal material), the spans of nodes with mass,
+ * and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_runs(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no

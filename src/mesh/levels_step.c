@@ -10,9 +10,9 @@ int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of the ghosts of a level to those of the nodes of the next finer level at the same positions.
- * A ghost is a node of the mesh of this level (cells with the edge of 2^level finest cells) whose motion is that of
- * such a finer node. Cells beside finer ones need them to compute forces. */
+/* Sets the displacements of the ghosts of `level` (cells with the edge of 2^level finest cells) to those of the nodes
+ * of the next finer level at the same positions. A ghost is a node of the coarser mesh at which the finer mesh has a
+ * node, too, and moves with that node. Cells beside finer ones need the ghosts to compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -32,8 +32,8 @@ void levels_update_ghosts(struct mesh_levels *l, int level)
             m->mesh.grid.velocity[d][m->ghost[k].coarse] = fine->grid.velocity[d][m->ghost[k].fine];
 }
 
-/* Returns the mean of a nodal field over the masters of a hanging node, the nodes at the ends of the coarse edge or
- * face of which it is the middle. */
+/* Returns the mean of the nodal field `field` over the masters of hanging node h. A hanging node is in the middle of an
+ * edge or face of a coarser cell, and its masters are the nodes at the ends or corners of this edge or face. */
 static real mean_of(const struct mesh_hanging *h, const real *field)
 {
     real sum = 0;
@@ -54,7 +54,8 @@ void levels_update_hanging(struct mesh_levels *l, int level)
 }
 
 /* Adds the forces on the hanging nodes between `level` and the next finer level to their masters, in equal parts. A
- * hanging node is in the middle of a coarse edge or face, its masters are the nodes at the ends. */
+ * hanging node is in the middle of an edge or face of a coarser cell, and its masters are the nodes at the ends or
+ * corners of this edge or face. */
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -68,9 +69,10 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Adds the forces of the cells of `level` on their ghosts to the nodes of the next finer level at the same positions,
- * and sets the forces on the ghosts to 0. A ghost is a node of the coarser mesh that moves with such a finer node. The
- * forces are added twice, because the steps of the finer level are half as long. */
+/* Adds the forces that cells of `level` exert on their ghosts to the nodes of the next finer level at the same
+ * positions, and sets the forces on the ghosts to 0. A ghost is a node of the coarser mesh at which the finer mesh has
+ * a node, too, and moves with that node. The forces are added twice, because the steps of the finer level are half as
+ * long. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

@@ -16,9 +16,9 @@
 
 /* ---- positions of points ----------------------------------------------------------------------------------------- */
 
-/* Refuses to put a body in the reference frame, with the message that this is impossible because the particle at the
- * position of particle i `what`, such as "shares its position in the grid cell with another particle". Returns
- * REFUSED. */
+/* Sets the message that a body cannot be in the reference frame because of the particle at the position of particle i,
+ * and returns REFUSED. what: text that follows "the particle at (x, y, z) m", such as "shares its position in the grid
+ * cell with another particle". */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(REFUSED,
@@ -93,7 +93,8 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* Returns REFUSED, with a message, if two bodies share a node of the mesh, where they would move as one body. */
+/* Returns OK if no two bodies share a node of the mesh; they would move as one body there. Returns REFUSED, with a
+ * message, if two bodies do. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
     uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the points around the node */
@@ -238,8 +239,8 @@ void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
 /* Allocates all arrays of a mesh that covers the box `lower` .. `upper` [m], without points or cells. node_grid:
- * dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes; NULL: no slits; source:
- * slits and voids. Returns REFUSED if the mesh has too many nodes. */
+ * dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes, NULL if there are no slits;
+ * source: slits and voids. Returns FAILED, with a message, if the mesh has too many nodes. */
 status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
                      const struct particles *p, const struct mesh_source *source)
 {
@@ -276,8 +277,8 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
     return filled;
 }
 
-/* Marks the cells of the mesh whose particles were not created, h->absent, in mesh->absent, and lists the other cells
- * and their nodes. */
+/* Marks in mesh->absent the cells of the mesh whose particles were not created (h->absent), and lists all other cells
+ * and their nodes in mesh->filled_cell and mesh->filled_node. */
 static void mesh_absent_make(struct mesh *mesh, const struct cells_without_particles *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
@@ -295,7 +296,8 @@ static void mesh_absent_make(struct mesh *mesh, const struct cells_without_parti
 }
 
 /* Makes the nodes of the mesh around all particles of p, aligned with the nodes of the grid `like`, and arrays for the
- * positions of its points. source: slits and voids that divide cells. Returns REFUSED if there are too many nodes. */
+ * positions of its points. source: slits and voids that divide cells. Returns FAILED, with a message, if there are too
+ * many nodes. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
                          const struct mesh_source *source)
 {
@@ -387,8 +389,8 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Recomputes the masses of the nodes of the cells I with left[I], which particles have left. Sets velocity and
- * displacement of nodes without any mass to 0. left: [grid.n]. */
+/* Recomputes the masses of the nodes of those cells I that particles have left, and sets velocity and displacement of
+ * nodes without any mass to 0. left[grid.n]: not 0 for these cells. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);

@@ -9,8 +9,8 @@ struct exposure {
     uint8_t *point, *cell;
 };
 
-/* Sets the flags of point i and of the cell that contains it, as exposed points, whose motion is needed in every step.
- * Atomic, since several threads may set the same flag. */
+/* Marks point i and the cell that contains it in *e. Exposed points have bonds, loads or mirror images, so that their
+ * motion is needed in every step. The writes are atomic, since several threads may set the same flag. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
 {
 #pragma omp atomic write
@@ -20,8 +20,8 @@ static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
     e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
 }
 
-/* Sets the flags of the sources of the images among the neighbours nbr[LANES] of a column of bonds, because bonds to
- * images need the motion of the sources. Most columns contain no image. image: list of images. */
+/* Marks in *e the particles that images mirror, for those neighbours nbr[LANES] of a column of bonds that are images:
+ * forces of these bonds depend on the motion of the particles. Most columns contain no image. image: list of images. */
 static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                           const struct image *image, const int32_t *nbr)
 {
@@ -31,15 +31,16 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
         if (nbr[l] >= p->n) point_expose(e, mesh, image_source_particle(p, image, nbr[l]));
 }
 
-/* Returns true if a bond in column k of row block g may have an image as its neighbour. */
+/* Returns true if a bond in column k of row block g (bonds of eight particles) may have a mirror image as its
+ * neighbour. */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
     const int64_t first = column_first_consecutive_neighbour(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
-/* Appends cell I to the list of exposed cells, with its exposed points as one bit per integration point.
- * exposed[particles]: flags of points. */
+/* Appends cell I to mesh->exposed_list, the cells with exposed points (points whose motion is needed in every step),
+ * with a bit for each of its exposed points. exposed[particles]: 1 for exposed points. */
 static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -52,8 +53,8 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Sets the flags of the points that have intact bonds in row block g (the bonds of eight particles), and of the sources
- * of the images that are neighbours there. l: loads, with the list of images. */
+/* Marks in *e the points that have intact bonds in row block g (bonds of eight particles), and the particles that the
+ * images among their neighbours mirror. l: loads, with the list of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

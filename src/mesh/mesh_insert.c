@@ -12,8 +12,8 @@ struct nodes {
     int32_t *at;
 };
 
-/* Finds the nodes at the corners of the cells that contain the n particles list[k], and stores them in *t. The caller
- * releases t->at with memory_free. */
+/* Finds the nodes at the corners of the cells that contain the n particles list[k], and lists each once in *t. The
+ * caller releases t->at with memory_free. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {
@@ -39,8 +39,8 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Makes the n particles list[k] points of the mesh, and recomputes mass and velocity of the nodes t around them such
- * that momentum is conserved. Uses grid.momentum of these nodes as working memory. */
+/* Makes the n particles list[k] points of the mesh. Recomputes mass and velocity of the nodes t around them such that
+ * momentum is conserved. Overwrites grid.momentum of these nodes. */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;

@@ -3,7 +3,8 @@
 #include "mesh_parts.h"
 
 /* Returns the ratio of present to reference volume at an integration point of a cell [1]: the determinant of 1 + sum_c
- * u_c (x) grad N_c over the corners c. place: (cell << dim) + number of the integration point in the cell. */
+ * u_c (x) grad N_c over the corners c, with their displacements u_c and shape functions N_c. place: (cell << dim) +
+ * number of the integration point in the cell. */
 static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
 {
     const int32_t cell = place >> dim;
@@ -36,8 +37,8 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
     return !(dim * most < mesh->grid.h);
 }
 
-/* Returns the lowest index, below `first`, of a particle of the cell at which the cell is inverted; `first` if there is
- * no such particle. */
+/* Returns the smallest particle number, below `first`, among the points of cell `cell` at which the cell is turned
+ * inside out (volume ratio <= 0); `first` if there is no such point. */
 static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64_t first)
 {
     for (int64_t place = cell << dim; place < (cell + 1) << dim; place++) {

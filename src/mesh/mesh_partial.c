@@ -25,7 +25,8 @@ struct mode_terms {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the component ij of a symmetric tensor in the order of struct particles. */
+/* Returns the index of component ij of a symmetric tensor in the order in which struct particles stores them. i, j:
+ * axes, 0 to dim - 1. */
 static int component(int dim, int i, int j)
 {
     for (int k = 0; k < symmetric_component_count(dim); k++) {
@@ -36,9 +37,9 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Lists in t the strain terms of the bending modes of a cell. Mode M (a bit set of two or more axes) of displacement
- * component i is the product of the coordinates along the axes of M: its slope along each of these axes is the product
- * of the other coordinates. */
+/* Lists in t the strain terms of the bending modes of a cell. Mode M of displacement component i, M a bit set of two or
+ * more axes, is the product of the coordinates along the axes of M. Its derivative along one of these axes, a strain,
+ * is the product of the other coordinates. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -105,9 +106,9 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* Computes sum[S] [Pa] for each set S of axes (a bit set): the sum over the points of cell I of D times the signs of
- * their coordinates along the axes of S, divided by the number of corners. D is the matrix of stress by strain of a
- * point. The sums of all S are formed together, along one axis after the other (butterflies). */
+/* Computes sum[S] for each set S of axes (a bit set): the sum over the points of cell I of D times the signs of the
+ * point's coordinates along the axes of S, divided by the number of corners [Pa]. D is the matrix of stress by strain
+ * of a point. The sums of all S are formed together, along one axis after the other (butterflies). */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -126,8 +127,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
             }
 }
 
-/* Returns an entry of the stiffness matrix of a cell by modes [Pa]: the force on the mode `to` by a unit amplitude of
- * the mode `by`. sum: from cell_sums. */
+/* Returns one entry of the stiffness matrix of a cell in terms of its deformation modes [Pa]: the force on the mode
+ * `to` for a unit amplitude of the mode `by`. sum: moments of the points' stiffness, from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -142,8 +143,9 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
 /* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
 typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
 
-/* Computes the strains B of the points of cell I by its modes, with one dilatation for all points of a material in the
- * cell, their mean (mesh_law.h). Returns false, without values, if no material of the cell has the mean dilatation. */
+/* Computes B, the strains of the points of cell I for unit amplitudes of its deformation modes, with one dilatation for
+ * all points of a material in the cell, their mean (mesh_law.h). Returns false, without values, if no material of the
+ * cell has a mean dilatation. */
 static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
 {
     const int32_t *point = &c->mesh->point[I << c->dim];
@@ -181,8 +183,8 @@ static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES
     }
 }
 
-/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] of partial cell I by modes [Pa] from the strains B of its
- * points (averaged_strains). */
+/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] of partial cell I in terms of its deformation modes [Pa]. B:
+ * strains of its points for unit amplitudes of the modes, with the mean dilatation (averaged_strains). */
 static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
 {
     memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
@@ -195,9 +197,9 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the upper half of the stiffness matrix of partial cell I by modes [Pa], row by row. K: receives the first
- * entry; further ones follow at distances of LANES, since the matrices of LANES cells are interleaved. The lower half
- * is not stored, since the matrix is symmetric up to round-off. */
+/* Computes the stiffness matrix of partial cell I in terms of its deformation modes [Pa] and stores its upper half row
+ * by row. K: address of the first entry; further ones follow at distances of LANES, since the matrices of LANES cells
+ * are interleaved. The lower half is not stored, since the matrix is symmetric up to round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -225,10 +227,10 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* Computes share[modes] [1]: by how much each mode of a cell contributes to the mean strain of the family of a point
- * with PD-MPM bonds. local: derivative of this mean strain by the strain of the cell (struct partial_stress); place:
- * number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes, from averaged_strains; NULL:
- * each point has its own dilatation. */
+/* Computes share[modes]: the derivative of the mean strain of the family of a point with PD-MPM bonds by the amplitude
+ * of each deformation mode of its cell [1]. local: derivative of this mean strain by the strain of the cell (struct
+ * partial_stress); place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes, from
+ * averaged_strains, NULL if each point has its own dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -243,8 +245,8 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
     }
 }
 
-/* Returns the entry of point i in the partial stresses if the point has state-based PD-MPM bonds, else -1. i may be
- * -1. */
+/* Returns the entry of point i in struct partial_stress if the point has state-based PD-MPM bonds, else -1. i: particle
+ * number, or -1 for no point. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
     return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
@@ -350,8 +352,8 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* Returns the address of the first number of partial cell `cell` in an array with `each` numbers per cell, which is
- * interleaved for LANES cells; NULL if the array `from` is NULL. */
+/* Returns the address of the first number of partial cell `cell` in the array `from`, which has `each` numbers for
+ * every cell, interleaved for LANES cells. Returns NULL if `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -378,9 +380,9 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns for each partial cell its index in the previous list `old`. The index is -1 if the stiffness of the cell must
- * be computed, because the cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last
- * group of LANES cells. Release the list with memory_free. */
+/* Returns for each partial cell of the mesh its index in the list of partial cells before the change, `old`. The index
+ * is -1 if the stiffness of the cell must be computed, because the cell is new or marked in `dirty` (NULL: all cells
+ * are), and for the lanes that fill the last group of LANES cells. Release the list with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
@@ -413,9 +415,9 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
     return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
-/* Stores in mesh->alike[g] for each group g of LANES partial cells the first of the directly preceding groups with
- * bitwise equal stiffness; g itself if there is none. Cells that an edge of the body cuts in the same way are
- * consecutive. modes: number of modes of a cell. */
+/* Stores in mesh->alike[g], for each group g of LANES partial cells, the first of the groups directly before it that
+ * have bitwise equal stiffness, or g itself if there is none. Then these groups share one stiffness. Cells that an edge
+ * of the body cuts in the same way are consecutive. modes: number of deformation modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_partial_cell_group_count(mesh);
@@ -456,8 +458,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Makes the groups g of partial cells with changed[g], and the groups that use the stiffness of such a group, use their
- * own stiffness again (mesh->alike[g] = g), since it may differ now. changed: [groups]. */
+/* Sets mesh->alike[g] = g for the groups g of partial cells with changed[g], and for the groups that use the stiffness
+ * of such a group: each of them then uses its own stiffness, since they may differ now. changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)

@@ -18,8 +18,8 @@ struct mesh_partial {
     real *stiffness;
 };
 
-/* Moves the list of partial cells (cells with missing points, partial stresses, several materials or doubled nodes)
- * with their stiffness out of the mesh into the result. The mesh has no partial cells afterwards. */
+/* Removes all partial cells (cells with missing points, partial stresses, several materials or doubled nodes) from the
+ * mesh, and returns their list with their stiffness, for mesh_partial_make. */
 struct mesh_partial mesh_partial_detach_all(struct mesh *mesh);
 
 /* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
@@ -42,19 +42,19 @@ void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const 
 /* Frees the list of partial cells of the mesh and their stiffness. */
 void mesh_partial_free(struct mesh *mesh);
 
-/* Finds the nodes that must be doubled because slits or voids of `source` separate the points around them, and extends
- * the box of nodes, which covers the range between the corners `lower` and `upper` [m], by rows for the second nodes.
- * Returns FAILED, with a message, if there are too many nodes. Release with mesh_slits_free. */
+/* Finds the nodes that slits or voids of `source` divide, because the points around them are separated, and gives them
+ * second nodes. The box of nodes, which covers the range between the corners `lower` and `upper` [m], is extended by
+ * rows for these. Returns FAILED, with a message, if there are too many nodes. Release with mesh_slits_free. */
 status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                        const real *lower, const real *upper);
 
-/* Connects the blocks of nodes at slits with the blocks of their second nodes, so that motion spreads from one to the
- * other. To be called after the blocks are made. */
+/* Connects each block of nodes (eight along x) beside slits with the blocks of the second nodes at the same positions,
+ * so that motion spreads from one to the other. To be called after the blocks are made. */
 void mesh_slits_link_blocks(struct mesh *mesh);
 
-/* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Nodes
- * at slits are doubled, so the corners of such cells are not at fixed index distances from the cell. To be called after
- * the groups are made. */
+/* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Slits
+ * divide nodes, so the corners of such cells are not at fixed index distances from the cell. To be called after the
+ * groups are made. */
 void mesh_slits_store_corners(struct mesh *mesh);
 
 /* Frees the arrays of s. */
@@ -78,9 +78,9 @@ int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p
 /* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
-/* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed in
- * some cells. source: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these
- * cells. */
+/* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
+ * mesh->level, the refinement level of each cell, has changed in some cells. source: material constants and partial
+ * stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these cells. */
 void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                     const uint8_t *dirty);
 
@@ -93,7 +93,8 @@ void mesh_cell_runs_make(struct mesh *mesh);
  * last), to which loops over nodes are limited. */
 void mesh_node_spans_make(struct mesh *mesh);
 
-/* Makes the blocks of nodes next to cells active, i.e. included in computations, and all others inactive. */
+/* Makes the blocks of nodes (eight along x) next to cells active, i.e. included in computations, and all other blocks
+ * inactive. */
 void mesh_activate_blocks_at_cells(struct mesh *mesh);
 
 /* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation gradient

@@ -7,8 +7,8 @@
 
 bool mesh_cell_has_body(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
-/* Makes a box of nodes around the particles, aligned with the nodes of the grid `like`, without nodal arrays. Returns
- * false if it has too many nodes. */
+/* Initialises *box as a box of nodes around the particles, aligned with the nodes of the grid `like`; arrays over the
+ * nodes are not allocated. Returns false if the box has too many nodes. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &box->grid;
@@ -36,7 +36,8 @@ static int32_t mesh_pieces_root_of(int32_t *above, int32_t I)
     return I;
 }
 
-/* Joins the sets that contain the nodes I and J. above: as in mesh_pieces_root_of. */
+/* Joins the sets of nodes that contain the nodes I and J. above: 1 + parent of each node in its set (union-find), 0 for
+ * a node without particles. */
 static void join(int32_t *above, int32_t I, int32_t J)
 {
     if (above[I] == 0) above[I] = I + 1;
@@ -45,8 +46,9 @@ static void join(int32_t *above, int32_t I, int32_t J)
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-/* Joins the nodes of each cell whose particles were not created, as if they were there. above: as in
- * mesh_pieces_root_of; box: grid of these nodes; h: the cells; NULL: all particles were created. */
+/* Joins the nodes of each cell whose particles were not created into one set, as if the particles were there. above: 1
+ * + parent of each node of `box` in its set (union-find), 0 for a node without particles; h: the cells, NULL if all
+ * particles were created. */
 static void hollow_join(int32_t *above, const struct mesh *box, const struct cells_without_particles *h)
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {

@@ -22,8 +22,9 @@ struct projection {
     real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
-/* Returns the sum of m_p N_I value_p over the points p of a cell, with m_p their masses and N_I the shape function of
- * node I, which is corner c of the cell. dim: dimensions, a constant. */
+/* Returns the sum of m_p N_I value_p over the points p of cell `cell`, with their masses m_p and the shape function N_I
+ * of node I, which is corner c of the cell. value: a value for each particle; dim: dimensions, a compile-time
+ * constant. */
 static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
 {
     const int32_t *point = m->mesh->point + (cell << dim);
@@ -79,8 +80,8 @@ static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
     return 0.375 * (line_product(from - row) + line_product(from + row)) + 1.25 * line_product(from);
 }
 
-/* Returns the product of a row of the mass matrix with nodal values if all points around the node exist and have mass
- * 1. from: address of the value at the node; row, layer: distances between rows and layers of nodes. */
+/* Returns the product of a row of the mass matrix with nodal values, for a node around which all points exist and have
+ * mass 1. from: address of the value at the node; row, layer: index distances of neighbouring nodes along y and z. */
 static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_product(from);
@@ -117,9 +118,9 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
     return beside;
 }
 
-/* Returns the product of row I of the mass matrix with the nodal values `from`, for a node I beside a slit. It is
- * summed point by point, since the nodes around it may be extra nodes of the slit. Returns 0 if the value at the node
- * is not computed. */
+/* Returns the product of row I of the mass matrix with the nodal values `from`, for a node I beside a slit. The product
+ * is summed point by point, since corners of the cells around I may be extra nodes, which slits add. Returns 0 for
+ * nodes whose values are not unknowns of the projection. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -136,9 +137,9 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     return sum;
 }
 
-/* Computes to[I] for all nodes: if `value` is not NULL, the right side sum m_p N_I value_p over the points p, else the
- * product of the mass matrix with the nodal values `from`. Sets 0 at nodes whose values are not computed. Each node is
- * written by one thread. */
+/* Computes to[I] for all nodes I. If `value` is not NULL, to[I] is the right side of the projection, the sum of m_p N_I
+ * value_p over the points p (m_p: mass, N_I: shape function). Else it is the product of the mass matrix with the nodal
+ * values `from`. to[I] is 0 for nodes whose values are not unknowns. Each node is written by one thread. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -160,9 +161,9 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
-/* Computes to[I] for all nodes I by nodes_gather with the dimensions of the particles as a constant. If `value` is not
- * NULL, to[I] is the right side of the projection of these values of points, else the product of the mass matrix with
- * the nodal values `from`. */
+/* Computes to[I] for all nodes I, by code compiled for the number of dimensions. If `value` is not NULL, to[I] is the
+ * right side of the projection of `value`, a value for each point. Else it is the product of the mass matrix with the
+ * nodal values `from`. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \
@@ -174,8 +175,8 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Returns the common mass of the points around node I [kg]; 0 if a point is missing, masses differ, a slit is near, or
- * the value at the node is not computed. */
+/* Returns the mass of the points around node I [kg] if all of them exist and have the same mass. Returns 0 if not, if a
+ * slit is near, or if the value at the node is not an unknown of the projection. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -197,8 +198,8 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-/* Computes the rows of the mass matrix for all computed nodes around which points are missing or have unequal masses,
- * so that inner_product is not valid. Nodes beside slits get no row. */
+/* Computes the rows of the mass matrix for those unknown nodes around which points are missing or have unequal masses:
+ * inner_product is not valid there. Nodes beside slits get no row. */
 static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
@@ -274,8 +275,9 @@ static void project(const struct projection *m, const real *value, real *x)
     memory_free(q);
 }
 
-/* Projects the values at points, value[dim], to the nodes, node[dim]. m: parameters of the projection, whose arrays are
- * allocated and freed here. */
+/* Projects a vector field from the points of the mesh to its nodes. value[dim]: arrays with a value for each particle;
+ * node[dim]: receive a value for each node. m: parameters of the projection, whose arrays are allocated and freed
+ * here. */
 static void project_all(struct projection m, real *const *value, real *const *node)
 {
     masses_find(&m);

@@ -6,8 +6,8 @@
 #include "mesh_parts.h"
 #include "mesh/levels.h"
 
-/* Returns true if the middle of cell I is beyond one of the planes of symmetry mirror[mirrors], where the body
- * continues as its image. */
+/* Returns true if the middle of cell I of grid g is beyond one of the planes of symmetry mirror[mirrors], where the
+ * mirror image of the body continues it. */
 static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_plane *mirror, int mirrors)
 {
     bool beyond = false;

@@ -49,7 +49,8 @@ static void extra_add(struct extras *to, struct extra one)
 
 /* ---- pieces of cells --------------------------------------------------------------------------------------------- */
 
-/* Returns true if a slit, or a void near particle i, separates the positions a and b of its body. */
+/* Returns true if a slit, or a void near particle i, lies between the positions a[dim] and b[dim] [m] in the body of
+ * particle i. */
 static bool positions_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
     const struct voids *v = m->source->voids;
@@ -68,7 +69,7 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     return positions_parted(m, i, a, b);
 }
 
-/* Sets mark[J] = 1 for the cells J of grid g that are at most two cells from cell I along each axis. */
+/* Sets mark[J] = 1 for cell I of grid g and all cells J that are at most two cells away from it along each axis. */
 static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
 {
     enum { FAR = 2 };
@@ -93,8 +94,8 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     return false;
 }
 
-/* Divides the points of cell I into pieces (sets of points that no slit separates) and stores them in m->piece and
- * m->pieces. Appends an extra cell for each piece but the first. */
+/* Divides the points of cell I into pieces, sets of points that no slit separates. Stores the piece of each point in
+ * m->piece and the number of pieces in m->pieces. Appends an extra cell to m->cell for each piece but the first. */
 static void cell_divide(struct slit_maker *m, int64_t I)
 {
     const int corners = 1 << m->p->dim;
@@ -118,7 +119,7 @@ static void cell_divide(struct slit_maker *m, int64_t I)
 /* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
 
 /* Returns the cell that contains piece number `bit` around node I. A piece is a set of points of a cell that no slit
- * separates; its number is 8 c + g for piece g of the cell of which the node is corner c. */
+ * separates. Its number around a node is 8 c + g for piece g of the cell of which the node is corner c. */
 static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 {
     return I - m->mesh->corner[bit / CORNERS_MAX];
@@ -133,18 +134,19 @@ static bool quarter_points_face(int q, int r, int c, int k)
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
-/* Returns the particle at point q (0 .. 2^dim - 1) of a cell around node I if it belongs to piece `bit` around the
- * node, a set of points of a cell that no slit separates; else -1. */
+/* Returns the particle at point q (0 .. 2^dim - 1) of the cell that contains piece number `bit` around node I, or -1 if
+ * the point does not belong to this piece. A piece is a set of points of a cell that no slit separates; its number is 8
+ * c + g for piece g of the cell of which the node is corner c. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
     const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if two pieces around node I are connected. A piece is a set of points of a cell that no slit separates;
- * one, other: numbers of the pieces (8 c + g: piece g of the cell of which the node is corner c). Two pieces are
- * connected if no slit passes between a point of one and a point of the other. Only points that are opposite each other
- * across the boundary of the cells are tested, or all points if there are no such pairs. */
+/* Returns true if two pieces around node I are connected. A piece is a set of points of a cell that no slit separates.
+ * one, other: numbers of the pieces, 8 c + g for piece g of the cell of which the node is corner c. Two pieces are
+ * connected if no slit passes between a point of one and a point of the other. Only pairs of points that are opposite
+ * each other across the boundary of the cells are tested; if there are no such pairs, all pairs. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -161,8 +163,9 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Returns the set of pieces (points of a cell that no slit separates) around node I, one bit each, that are connected
- * with the lowest piece of the set `open`, directly or through other pieces of it. */
+/* Returns the pieces around node I that are connected with the lowest piece in the set `open`, directly or through
+ * other pieces in it, as one bit each. A piece is a set of points of a cell that no slit separates; bit 8 c + g stands
+ * for piece g of the cell of which the node is corner c. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
     uint64_t group = open & -open;
@@ -187,9 +190,10 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if a connected set of pieces around node I is connected with its mirror image at a plane of symmetry
- * through the node. A piece is a set of points of a cell that no slit separates; group: the pieces, one bit each. Tests
- * the points beside the plane; all points only if there are none there. */
+/* Returns true if a connected set of pieces around node I is connected with its mirror image at the plane of symmetry
+ * `plane`, which contains the node. A piece is a set of points of a cell that no slit separates; group: the pieces, bit
+ * 8 c + g for piece g of the cell of which the node is corner c. Points next to the plane are tested, or all points if
+ * there are none. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -206,9 +210,9 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Returns the axes, one bit each, of the planes of symmetry through node I at which slits separate a connected set of
- * pieces from its image. A piece is a set of points of a cell that no slit separates; group: the pieces, one bit
- * each. */
+/* Returns as bits the axes of those planes of symmetry through node I at which slits separate a connected set of pieces
+ * from its mirror image. A piece is a set of points of a cell that no slit separates; group: the pieces, bit 8 c + g
+ * for piece g of the cell of which the node is corner c. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;
@@ -221,8 +225,9 @@ static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
     return open;
 }
 
-/* Divides the pieces around node I, sets of points of a cell that no slit separates, into connected sets. The first set
- * keeps node I; an extra node is added for each other set. */
+/* Divides the pieces around node I (a piece is a set of points of a cell that no slit separates) into connected sets.
+ * The first set keeps node I; for each other set an extra node is appended to m->node. Sets m->split[I] and
+ * m->open[I]. */
 static void node_divide(struct slit_maker *m, int64_t I)
 {
     uint64_t open = 0;
@@ -263,19 +268,20 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns how many extra nodes or cells (made by slits) are stored in a row of nodes of grid g: LANES fewer than the
- * row has, since whole vectors are read and written beyond its ends. */
+/* Returns how many extra nodes or cells, made where slits divide nodes and cells, are stored in a row of nodes of grid
+ * g: LANES fewer than the row has, since whole vectors are read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index, in the arrays of nodes and of cells, of the extra node or cell number k (made by slits). */
+/* Returns the index in the arrays of nodes and of cells at which extra node or cell number k is stored. Extra nodes and
+ * cells are made where slits divide nodes and cells. */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
     return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
 }
 
-/* Returns the list of the corners of cell I. A cell without a list of its own gets one, with the corners of cell `at`
- * of the grid. */
+/* Returns the array [2^dim] of the corner nodes of cell I in mesh->slits. If the cell has none yet, it gets one with
+ * the corners of cell `at` of the grid. */
 static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -288,8 +294,8 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell that piece g of cell I of the grid has become: I itself for g = 0. A piece is a set of points of a
- * cell that no slit separates. */
+/* Returns the cell that holds piece g of cell I of the grid: I itself for g = 0, else an extra cell. A piece is a set
+ * of points of a cell that no slit separates. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
@@ -344,8 +350,8 @@ static int32_t *none_make(const char *label, int64_t n)
     return all;
 }
 
-/* Allocates and fills the tables mesh->slits of extra nodes and cells, which are numbered from s->first on, behind
- * those of the grid. */
+/* Allocates and fills the tables mesh->slits of the extra nodes and cells that slits make. These have indices from
+ * mesh->slits.first on, behind the nodes and cells of the grid. m: divided cells and nodes. */
 static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -367,7 +373,8 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 }
 
 /* Extends the grid g, which covers the box from[dim] .. to[dim] [m], along its last axis until n extra nodes or cells
- * (made by slits) fit behind the nodes of the box. Returns REFUSED if the grid becomes too large. */
+ * (made where slits divide nodes and cells) fit behind the nodes of the box. Returns FAILED, with a message, if the
+ * grid becomes too large. */
 static status box_extend(struct grid *g, const real *from, const real *to, int64_t n)
 {
     const int last = g->dim - 1;
@@ -411,8 +418,9 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- blocks and groups ------------------------------------------------------------------------------------------- */
 
-/* Records that the block of nodes (eight along x) that contains the extra node or cell `extra` is linked to the block
- * that contains `base`, the node or cell at its position. Extra nodes and cells are made by slits. */
+/* Links the block of nodes (eight along x) that contains the extra node or cell `extra` to the block that contains
+ * `base`, the node or cell at its position. Motion then spreads from one block to the other. Extra nodes and cells are
+ * made where slits divide nodes and cells. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

@@ -31,10 +31,10 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
-/* Replaces the dilatation of each point of `material` by the mean over these points (mesh_law.h) in the stiffness
- * K[n][n] of cell I for displacements of its corners [N/m]: K - sum V k t (x) t + N V k T (x) T. t: derivative of the
- * trace of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a point; k:
- * mean_dilatation_stiffness. */
+/* Changes the stiffness K[n][n] of cell I for displacements of its corners [N/m] such that all points of `material`
+ * have one dilatation, the mean of theirs (mesh_law.h): K - sum V k t (x) t + N V k T (x) T. t: derivative of the trace
+ * of the strain at a point by the displacements; T: mean of t over the N points; V: volume of a point; k:
+ * mean_dilatation_stiffness. m: elastic constants of the material. */
 static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
                                uint8_t material, real *K)
 {
@@ -93,8 +93,8 @@ struct scaled_cell {
     int n;
 };
 
-/* Computes y = K x for largest_eigenvalue, with K scaled by the masses, column by column in whole vectors. context: a
- * struct scaled_cell. */
+/* Computes y = m^-1/2 K m^-1/2 x for one cell, with its stiffness K and the lumped masses m of its corners, column by
+ * column in whole vectors. context: the scaled matrix, a struct scaled_cell. Called by largest_eigenvalue. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
@@ -130,8 +130,8 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Returns true if a point of cell I has a partial stress: bonds carry a part of its stress, so that the cell is softer
- * than without bonds. */
+/* Returns true if bonds carry a part of the stress of a point of cell I (partial stress), so that the cell is softer
+ * than without bonds. partial: NULL if no point has bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;
