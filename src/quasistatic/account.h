@@ -12,11 +12,12 @@ struct account {
     real *x[DIM_MAX];       /* [particles of the body] positions [m] */
 };
 
-/* Stores a copy of the present applied forces in applied[dim] [particles of the body] [N], 0 before the first solution.
- * The caller frees the arrays. */
+/* Stores a copy of the present applied forces in applied[dim], arrays with a value for each particle of the body [N]; 0
+ * before the first solution. The caller frees the arrays. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *part);
 
-/* Copies the present positions, displacements and forces into *a. account_end or account_free frees the storage. */
+/* Copies the present positions, displacements and forces into *a, for account_end. The storage is freed by account_end
+ * or account_free. */
 void account_start(struct account *a, const struct statics *s, const struct particles *part);
 
 /* Adds the work of supports and of applied forces since account_start to that of the loads: the mean of the initial and

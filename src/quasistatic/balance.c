@@ -23,8 +23,8 @@ enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
 /* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s]: the
- * projection of the growth on their values at the last equilibrium [1]; 0 if these are 0. before: applied forces of the
- * last equilibrium [dim][particles] [N]. */
+ * projection of their growth on their values at the last equilibrium, over the square of these [1]; 0 if these are 0.
+ * before[dim]: applied forces of the last equilibrium, a value for each particle [N]. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -38,9 +38,9 @@ static real load_growth(const struct statics *s, const struct particles *part, r
     return initial > 0 && t != s->t ? now / initial - 1 : 0;
 }
 
-/* Stores in s->increment the displacement increment to pseudo-time t [s]: the prescribed displacements of supports; for
- * all other components a prediction, which scales the present displacements by the growth of the loads. before: applied
- * forces of the last equilibrium [dim][particles] [N]. */
+/* Stores in s->increment the displacement increment to pseudo-time t [s]: that of supports as prescribed, all other
+ * components as predicted by scaling the present displacements with the growth of the loads. before[dim]: applied
+ * forces of the last equilibrium, a value for each particle [N]. */
 static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
                               const struct loads *loads, real t, real *const *before)
 {
@@ -63,7 +63,8 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     field_remove_free_rigid_motion(s, &s->increment);
 }
 
-/* Returns ten times the norm of the bond forces caused by round-off of the positions [N]. */
+/* Returns ten times the norm of the bond forces that round-off of the positions causes [N], the noise level of
+ * forces. */
 static real round_off_force(const struct bonds *bonds, const struct particles *part)
 {
     real sum = 0;
@@ -77,11 +78,11 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects the energy that the solver has lost since its losses were `lost` [J]. If points yield or faces come into
- * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only. A
- * loss within this range is then moved to the work of loads. in_contact: true if anything is in contact at the start or
- * the end of the increment; yields: true if points or bonds may yield. Returns true if energy was gained in contact
- * beyond this range: faces have then passed through each other. */
+/* Corrects q->lost, the energy that the solver has lost; it was `lost` before this solution [J]. If points yield or
+ * faces come into contact, forces do not change linearly over the increment, and the work of loads is known up to
+ * +-`range` only [J]. A loss within this range is then moved to the work of loads. in_contact: true if anything is in
+ * contact at the start or the end of the increment; yields: true if points or bonds may yield. Returns true if more
+ * than GAIN_MOST times `range` was gained in contact: faces have then passed through each other. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {

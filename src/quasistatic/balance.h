@@ -10,10 +10,10 @@
  * found; INTERRUPTED if the run is to stop. */
 status equilibrium_find_at_time(struct run *e, real t);
 
-/* Solves for the equilibrium at pseudo-time t [s] from the present one, sets the present pseudo-time to t, and updates
- * no account and no reaction. applied: the applied forces of the present equilibrium [dim][particles, N]; other storage
- * than that of e->statics. Returns FAILED, with the position of the largest residual in the message, if no equilibrium
- * is found; INTERRUPTED if the run is to stop. */
+/* Solves for the equilibrium at pseudo-time t [s] from the present one, and sets the present pseudo-time to t. Does not
+ * update work, energy losses and reactions. applied[dim]: applied forces of the present equilibrium, a value for each
+ * particle [N]; they must not be the arrays e->statics->applied. Returns FAILED, with the position of the largest
+ * residual in the message, if no equilibrium is found; INTERRUPTED if the run is to stop. */
 status equilibrium_solve(struct run *e, real t, real *const *applied);
 
 /* Converts the material points that broken bonds or high stress require to peridynamic particles and finds the

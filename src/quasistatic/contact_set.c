@@ -24,7 +24,7 @@ enum { SUBSTEPS_MOST = 10000 };
 
 bool crack_faces_are_in_contact(const struct contact *c) { return c->law.between == CONTACT_ALL && c->touching > 0; }
 
-/* Returns the number of free motions of all unconstrained fragments. */
+/* Returns the number of free motions (rigid motions that nothing resists) of all unconstrained fragments together. */
 static int free_motions(const struct statics *s)
 {
     int n = 0;
@@ -32,8 +32,8 @@ static int free_motions(const struct statics *s)
     return n;
 }
 
-/* Updates the unconstrained fragments after contact has changed, and discards the preconditioner if the number of free
- * motions has changed. */
+/* Finds the unconstrained fragments again after contact has changed. Discards the preconditioner if the total number of
+ * their free motions (rigid motions that nothing resists) has changed. */
 static void unconstrained_update(struct run *e)
 {
     const int before = free_motions(e->statics);
@@ -77,9 +77,9 @@ static real energy_present(struct run *e)
 
 bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
 
-/* Prepares contact for the solution at pseudo-time t [s]: stores the energy, moves rigid bodies, and searches for
- * contacts. The stored energy includes contact energy only if anything was in contact. Without contact, fragments are
- * not constrained by contact either. */
+/* Prepares contact for the solution at pseudo-time t [s]: stores the energy before it, moves rigid bodies, and searches
+ * for contacts. The stored energy includes contact energy only if anything was in contact. If anything is in contact
+ * now, also finds the unconstrained fragments again, which contact may constrain. */
 void statics_contact_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -99,9 +99,10 @@ void statics_contact_begin(struct run *e, real t)
     q->reach = contact_list_largest_safe_motion(e->contact);
 }
 
-/* Updates contact at the end of a solution: searches for pairs if particles have moved far, else marks active contacts
- * by their overlap. Recomputes the norm of the loads from the final contact forces, not from those of intermediate
- * states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run. */
+/* Updates contact at the end of a solution: searches for pairs if particles have moved far, else selects the active
+ * contacts by their overlap. Recomputes the norm of the loads with the final contact forces, not with those of
+ * intermediate states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run
+ * (struct run). */
 bool statics_contact_update_set(void *engine)
 {
     struct run *e = engine;

@@ -49,9 +49,9 @@ real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *
     return on ? 0.5 : 1;
 }
 
-/* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, limited to the
- * shortest side of the body (doubled by a plane of symmetry along the crack), and at least one spacing. Returns 1 for a
- * plane body, whose section contains its thickness. */
+/* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, at most the
+ * shortest side of the body, and at least one spacing. The side counts twice if a plane of symmetry along the crack
+ * halves it. Returns 1 for a plane body, since its section contains its thickness. */
 static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;
@@ -81,8 +81,8 @@ real crack_area_of_spacing(const struct run *e)
     return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
 }
 
-/* Returns the number of pairs of bonds that may break between two equilibria: `steps.breaks` for each spacing of the
- * crack front. front: its length [m]. */
+/* Returns the number of pairs of bonds that may break between two equilibria: the key `steps.breaks` for each spacing
+ * of the crack front. front: length of the crack front [m]. */
 static int64_t breaks_most(const struct scene *s, real front)
 {
     const real along = s->dim < 3 ? 1 : front / s->spacing;
@@ -92,9 +92,10 @@ static int64_t breaks_most(const struct scene *s, real front)
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
 /* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
- * and appends them to the list of the next increment. *a: receives the energy cost of the bonds and the energy release.
- * In space, the part of the body that is left at the far side of SIF-driven crack fronts breaks in larger groups,
- * because no load depends on the path there. Returns FAILED, with a message, if an equilibrium is not found. */
+ * and appends them to s->next, the list of bonds of the next increment. *a: receives the energy cost of the bonds and
+ * the energy release over the squared load size. In space, the remnant of the body behind SIF-driven crack fronts
+ * breaks in larger groups, because no load depends on the path there. Returns FAILED, with a message, if an equilibrium
+ * is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -120,7 +121,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
     return OK;
 }
 
-/* Returns true if the scene has a pre-crack in the body and no crack increment has been made. */
+/* Returns true if the body has a pre-crack and no crack increment has been made. */
 static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics *statics)
 {
     bool any = false;

@@ -5,9 +5,9 @@
 #include "fracture/tips.h"
 #include "run/run.h"
 
-/* Returns the share of the crack area whose energy belongs to the body [1]: 1/2 if all cracks t lie on planes of
- * symmetry, else 1. source: planes of symmetry; d: only planes perpendicular to axis d are considered, -1: all
- * planes. */
+/* Returns the share of a crack area whose energy belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry,
+ * else 1. t: tips of the cracks; source: planes of symmetry; d: only planes perpendicular to axis d are considered, -1
+ * for all planes. */
 real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d);
 
 /* Returns the crack area that is created if all cracks grow by one spacing along their whole fronts [m^2], halved on

@@ -7,8 +7,8 @@
 
 /* ---- load size --------------------------------------------------------------------------------------------------- */
 
-/* Returns the sum of the squares of the displacements of the first n rigid bodies r->body from the start to pseudo-time
- * t [s] [m^2]. */
+/* Returns the sum of the squared displacements of the rigid bodies r->body[0 .. n - 1] from the start to pseudo-time t
+ * [s], in [m^2]. */
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];
@@ -16,8 +16,8 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* Returns the load size at pseudo-time t [s]: the norm of the prescribed displacements of supports and rigid bodies
- * [m], or, if these do not move, the norm of the applied forces [N]. */
+/* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
+ * displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces [N]. */
 real statics_load_size(const struct run *e, real t)
 {
     real sum = 0, forces = 0;
@@ -55,8 +55,8 @@ real statics_time_of_load_size(const struct run *e, real size)
 
 /* ---- crack increments -------------------------------------------------------------------------------------------- */
 
-/* Returns the energy released since the start [J]: the fracture energy of broken bonds and the energy that solutions
- * have lost. */
+/* Returns the energy released since the start [J]: the fracture energy of broken bonds plus s->balance.lost, the energy
+ * lost in solutions. */
 real statics_energy_released(const struct statics *s, const struct bonds *b)
 {
     return bonds_fracture_energy(b) + s->balance.lost;

@@ -35,9 +35,9 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the load size at which the next crack increment is made while loads grow. For the first increment it is the
- * load of the pre-crack, s->due. For later ones it is at least the load at which the increment alone is in balance, so
- * that loads oscillate about those of a crack that grows continuously. */
+/* Returns the load size at which the next crack increment is made while loads grow. For the first increment it is
+ * s->due, the load of the pre-crack. For later ones it is at least the load at which the increment alone releases the
+ * energy that it costs: loads then oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
     return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load(&s->ahead)) : s->due;
@@ -51,17 +51,18 @@ static void state_sample(struct run *e)
     rigid_forces_note(e->rigid, e->scene->rigids);
 }
 
-/* Finds the equilibrium at load size `size` (norm of prescribed displacements [m] or of applied forces [N]), with the
- * pseudo-time limited to least .. most [s]. Returns FAILED, with a message, if there is none. */
+/* Finds the equilibrium at the load size `size` (norm of prescribed displacements [m] or of applied forces [N]). The
+ * pseudo-time of that load size is limited to least .. most [s]. Returns FAILED, with a message, if there is no
+ * equilibrium. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
     return equilibrium_find_at_time(e, real_min(real_max(statics_time_of_load_size(e, size), least), most));
 }
 
-/* Finds the equilibrium at pseudo-time t [s], or at an earlier one at which bonds come near their critical stretch, and
- * then determines the next crack increment. The earlier one is needed because a body far beyond the critical stretch
- * would have broken before: the energies of its equilibrium hide the energy that an increment releases, and bonds yield
- * that would not yield. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Finds the equilibrium at pseudo-time t [s], then determines the next crack increment. If bonds are far beyond their
+ * critical stretch at t, an earlier equilibrium is used, at which they come near it. The body would have broken before:
+ * energies of the equilibrium at t would hide the energy that an increment releases, and bonds would yield that
+ * otherwise do not. Returns FAILED, with a message, if an equilibrium is not found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -85,8 +86,8 @@ static status approach_loads(struct run *e, real t)
     return crack_increment_find(e);
 }
 
-/* Makes the next crack increment at the load size at which it is due or, if it was due at smaller loads, at the load
- * size of the previous increment; then determines the increment after it. *size: load size of the previous increment,
+/* Makes the next crack increment and determines the one after it. The load size is that at which the increment is due
+ * or, if it was due at smaller loads, that of the previous increment. *size: load size of the previous increment,
  * replaced by that of this one. The largest forces of the rigid bodies are updated at this load size. from, t: range of
  * the pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
@@ -109,8 +110,8 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     return crack_increment_find(e);
 }
 
-/* Increases the pseudo-time to t [s] and makes all crack increments that are due until then. The pseudo-time never
- * decreases. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Increases the loads to those of pseudo-time t [s], and makes all crack increments that are due at smaller loads. The
+ * pseudo-time never decreases. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -147,7 +148,8 @@ static status step_by_energy(struct run *e, real most)
     return OK;
 }
 
-/* Returns the increase of the distance between the two gauge particles of the scene, the opening [m]. */
+/* Returns the opening: the increase of the distance between the two gauge particles of the scene since the start
+ * [m]. */
 static real opening_now(const struct particles *part, const struct statics *statics)
 {
     real now = 0, initial = 0;
@@ -215,10 +217,10 @@ static status step_by_opening(struct run *e)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Prepares a load step so that the search for equilibria depends only on data of the checkpoint: a resumed run must
- * compute the same bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
- * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
- * stiffness of contact, which depends on the positions at that time. */
+/* Prepares a load step such that its results depend only on data of the checkpoint: a resumed run must compute the same
+ * bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions. Discards a
+ * preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the stiffness of
+ * contact, which depends on the positions at that time. */
 static void load_step_begin(struct run *e)
 {
     struct statics *s = e->statics;
@@ -303,8 +305,8 @@ status statics_check_scene(const struct run *e)
     return OK;
 }
 
-/* Warns that crack faces interpenetrate if K_I is negative and faces have no contact. K_I: mode I stress-intensity
- * factor of the tip with the largest growth [Pa m^(1/2)]. */
+/* Warns that crack faces overlap if K_I is negative and contact does not act between particles. K_I: mode I
+ * stress-intensity factor of the tip with the largest growth [Pa m^(1/2)]. */
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
@@ -339,9 +341,9 @@ static void warn_at_end(struct run *e)
     rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
-/* Checks for fragments that nothing constrains although the loads on them are not balanced; returns FAILED, with a
- * message, if there is one. Under energy control such a fragment means, once bonds have broken, that the crack has
- * severed the body: then *apart is set to true, a warning is printed, and OK is returned. */
+/* Checks that the loads on fragments that nothing constrains are balanced. Returns FAILED, with a message, if those on
+ * one are not. Under energy control such a fragment means, once bonds have broken, that the crack has severed the body:
+ * then *apart is set to true, a warning is printed, and OK is returned. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -18,8 +18,9 @@ real grid_relaxation_ramp_time(real length, real wave_speed, real dt)
     return ceil(2 * length / (wave_speed * dt)) * dt;
 }
 
-/* Adds the sums of m u^2 and m v^2 of particles first .. end - 1 to sum[0] and sum[1]; a block function of
- * reproducible_sums. context: the particles. */
+/* Adds the sums of m u^2 [kg m^2] and m v^2 [J] of particles first .. end - 1, with their masses m, displacements u and
+ * velocities v, to sum[0] and sum[1]. context: the particles (struct particles). reproducible_sums calls it for each
+ * block of particles. */
 static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -30,8 +31,8 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Adds the squares of the forces that accelerate grid nodes first .. end - 1 to sum[0] [N^2]; a block function of
- * reproducible_sums. context: the grid method. */
+/* Adds the squares of the forces that accelerate grid nodes first .. end - 1 to sum[0] [N^2]. context: the grid method
+ * (struct grid_method). reproducible_sums calls it for each block of nodes. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
@@ -40,8 +41,8 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
         for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
-/* Adds the squares of the forces on particles first .. end - 1 that are not on the grid to sum[0] [N^2]; a block
- * function of reproducible_sums. context: the particles. */
+/* Adds the squares of the forces on those of the particles first .. end - 1 that are not on the grid to sum[0] [N^2].
+ * context: the particles (struct particles). reproducible_sums calls it for each block of particles. */
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;

@@ -27,8 +27,8 @@ enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
 /* Number of time steps of the clock of a release, so large that no frame or sample is due. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Sets boundary[scene->boundaries] to the boundaries of the scene with constant loads, those of pseudo-time t [s], and
- * with supports at rest. */
+/* Sets boundary[scene->boundaries] to copies of the boundaries of the scene in which the loads keep their values at
+ * pseudo-time t [s] and supports are at rest. */
 static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
@@ -55,7 +55,8 @@ static void boundaries_restore(struct boundary *boundary, const struct scene *sc
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Fixes all rigid bodies if `hold` is true; else makes those with a prescribed velocity move with it again. */
+/* Fixes all rigid bodies if `hold` is true. If it is false, makes those with a prescribed velocity move with it
+ * again. */
 static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {
@@ -82,7 +83,7 @@ static real kinetic_present(const struct particles *part, const struct reference
     return particles_kinetic_energy(part) + frame_kinetic_energy(frame);
 }
 
-/* Makes time steps until the body is at rest, first undamped, then damped. *broken: receives the number of directed
+/* Makes time steps, first undamped, then damped, until the body is at rest. *broken: receives the number of directed
  * bonds that break. Returns FAILED, with a message, if the motion diverges. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {

@@ -36,7 +36,7 @@ bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_cra
 
 /* ---- factors ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the material of the particle of the body that is nearest to the tip. */
+/* Returns the material of the particle nearest to the tip, among the particles of the body that contains the tip. */
 static const struct material *material_at(const struct sif_cracks *l, const struct particles *p,
                                           const struct sif_crack_tip *tip)
 {
@@ -51,8 +51,9 @@ static const struct material *material_at(const struct sif_cracks *l, const stru
     return &l->scene->material[p->material[nearest]];
 }
 
-/* Returns a list of *n segments in the plane of the tips: the pre-cracks and the path of the tips. The list refers to
- * the path, which must not change while it is used. Release it with crack_segments_free. */
+/* Returns a list of all crack segments in the plane in which the tips move: the pre-cracks and the path of the tips.
+ * *n: receives their number. The list refers to the stored path, which must not change while the list is used. Release
+ * it with crack_segments_free. */
 static struct crack *crack_segments(const struct sif_cracks *l, int *n)
 {
     const int given = l->source->cracks;
@@ -75,9 +76,10 @@ static void crack_segments_free(struct crack *crack, int n)
     memory_free(crack);
 }
 
-/* Returns the elastic constants for the crack-tip fields at a tip: in a plane body those of its space; in space those
- * of plane stress at a distance of half the thickness or more from the front (Nakamura & Parks 1988), nearer to it
- * those of plane strain. radius: mean radius of the ring of particles used for the fit [m]. */
+/* Returns the elastic constants for the crack-tip fields at `tip`. In a plane body they are those of its space. In
+ * space they are those of plane stress if the fit is at a distance of half the thickness or more from the front
+ * (Nakamura & Parks 1988), else those of plane strain. radius: mean radius of the ring of particles used for the fit
+ * [m]. */
 static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {
@@ -122,7 +124,7 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
 }
 
 /* Returns the tip that has grown most, the first one of several with equal growth; NULL if there is none. on: true to
- * consider only tips that can still grow. */
+ * consider only tips that can still grow, false for all. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
     const struct sif_crack_tip *first = NULL;
@@ -153,8 +155,8 @@ void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX]
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the fraction of the segment from a to b at which it intersects the segment of crack c [1]; 1 if it does not.
- * a, b: two coordinates in the plane of the tips [m]. */
+/* Returns the fraction of the segment from a to b at which crack segment c intersects it [1]; 1 if it does not. a, b:
+ * points in the plane in which the tips move, two coordinates each [m]. */
 static real intersection_share(const struct crack *c, const real *a, const real *b)
 {
     const real *p = c->corner[0], *q = c->corner[1];
@@ -166,8 +168,8 @@ static real intersection_share(const struct crack *c, const real *a, const real 
     return !parallel && share >= 0 && share < 1 && at >= 0 && at <= 1 ? share : 1;
 }
 
-/* Returns true if an end of crack c is closer than `within` [m] to the tip. This is so for the tip's own last
- * segment. */
+/* Returns true if an end of crack segment c is at most `within` [m] from the tip. This is so for the last segment of
+ * the tip's own path. */
 static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip *tip, real within)
 {
     return sif_plane_point_distance(c->corner[0], tip->position) <= within ||
@@ -217,7 +219,8 @@ static bool body_continues(const struct sif_cracks *l, const struct particles *p
     return wide > 0 && free_ones >= 2 * floor(wide);
 }
 
-/* Appends the segment from tip number k to point to[2] of the plane [m] to the path of the cracks. */
+/* Appends the segment from the position of tip number k to the point to[2] to the path of the cracks, l->path.
+ * Coordinates are those in the plane in which the tips move [m]. */
 static void sif_path_add(struct sif_cracks *l, int k, const real *to)
 {
     GROW("led.path", l->path, l->segments + 1);
@@ -227,9 +230,10 @@ static void sif_path_add(struct sif_cracks *l, int k, const real *to)
     for (int d = 0; d < 2; d++) s->at[tip->reversed][d] = tip->position[d], s->at[!tip->reversed][d] = to[d];
 }
 
-/* Turns the frame of the stress-intensity factors, tip->along, towards the direction of growth, exponentially over the
- * smoothing length. At a kink of a pre-crack the frame takes this direction at once, and the crack then grows straight
- * for some spacings. growth: length of the present increment [m]; h: lattice spacing [m]. */
+/* Turns tip->along, the x axis of the frame in which stress-intensity factors are computed, towards the direction of
+ * growth. The difference decays exponentially with the growth, over a length SMOOTHING h. At a kink of a pre-crack the
+ * axis takes the direction of growth at once, and the crack then grows straight for some spacings. growth: length of
+ * the present increment [m]; h: lattice spacing [m]. */
 static void tip_frame_turn(struct sif_crack_tip *tip, real growth, real h)
 {
     const real *a = tip->last, *b = tip->heading, share = -expm1(-growth / (SMOOTHING * h));

@@ -18,15 +18,17 @@
 const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, const struct crack_list *cracks,
                            const struct particles *p);
 
-/* Projects the point X, dim components [m], onto the plane and stores its two coordinates in the plane in to[] [m]. */
+/* Projects the point X, dim components [m], onto the plane, and stores the two coordinates of the projection in the
+ * plane in to[2] [m]. */
 void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2]);
 
 /* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in to[]
  * [m]. */
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2]);
 
-/* Computes the straight segment in which the pre-crack c intersects the plane and stores its ends in at[0] and at[1],
- * as coordinates in the plane [m]. Returns false if the pre-crack is not perpendicular to the plane. */
+/* Computes the straight segment in which the pre-crack c intersects the plane, and stores its ends in at[0] and at[1],
+ * as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to the crack fronts, i.e. not
+ * perpendicular to the plane. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX]);
 
 /* Returns the width of the body along the crack front [m], averaged over the segment between the points `from` and
@@ -102,8 +104,8 @@ void sif_cracks_free(struct sif_cracks *l);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
-/* Breaks the intact bonds that cross the last part of the pre-crack behind a tip, at no cost of energy. Needed after a
- * tip has been moved off a row of particles (sif_start.c). */
+/* Breaks the intact bonds that cross the last part of the pre-crack behind a tip; they add no fracture energy. Needed
+ * after a tip has been moved off a row of particles (sif_start.c). */
 void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks under the present loads. For each tip that can grow, a
@@ -112,13 +114,14 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip);
  * statics.due. Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
-/* Moves all tips that take part in the present crack increment (member `selected`) to the ends of their increments. */
+/* Moves all tips that take part in the present crack increment (member `selected` of struct sif_crack_tip) to the ends
+ * of their increments, and clears `selected`. */
 void sif_tips_advance(struct sif_cracks *l, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
-/* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow; false also if the
- * cracks of the scene are not SIF-driven, with the reason in sif.fault of e->statics. */
+/* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow. Returns false if
+ * none can, or if the cracks of the scene are not SIF-driven; the reason is then in sif.fault of e->statics. */
 bool sif_cracks_initialise(struct run *e);
 
 #endif

@@ -21,8 +21,9 @@ enum { CONVERSIONS_MOST = 4 }; /* of material points and direction, one after th
 
 /* ---- bonds across a segment -------------------------------------------------------------------------------------- */
 
-/* Appends to `list` the intact bonds of row r that cross one of `segments`, in the plane of the tips. A record of the
- * list contains row, entry and energy of a bond. */
+/* Appends to `list` a record of each intact bond in row r (bonds of one particle) that crosses one of `segments`. Bonds
+ * and segments are projected onto the plane in which the tips move. A record contains row, entry and energy of a
+ * bond. */
 static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, const struct particles *p, int64_t r,
                           const struct crack_list *segments, struct break_list *list)
 {
@@ -42,8 +43,8 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     }
 }
 
-/* Stores in `segments` the segment from .. to of the path of a tip (two coordinates each, in the plane of the tips [m])
- * and its mirror images. Release them with crack_list_free. */
+/* Makes a list of the segment from .. to of the path of a tip (two coordinates each, in the plane in which the tips
+ * move [m]) and of its mirror images, and stores it in `segments`. Release it with crack_list_free. */
 static void segment_images(const struct sif_cracks *l, const struct sif_crack_tip *tip, const real from[2],
                            const real to[2], struct crack_list *segments)
 {
@@ -56,10 +57,10 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Replaces the energy costs of the bonds of the next segment of a tip, the members `held` of the records in `list` [J],
- * such that their sum is crack area times crack energy per area. This is needed for state-based bonds, which have no
- * energy of their own. It is also needed in space, where bonds at the sides of the body have surface weights and some
- * bonds at a pre-crack are already broken. */
+/* Sets the energy costs of the bonds that the next segment of a tip cuts, the members `held` of the records in `list`
+ * [J], such that their sum is crack area times crack energy per area. State-based bonds have no energy of their own. In
+ * space the energies of bonds at the sides of the body contain surface weights, and some bonds at a pre-crack are
+ * already broken. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -72,7 +73,7 @@ static void segment_cost_set(const struct sif_cracks *l, const struct particles 
         list->bond[k].held = state_based ? whole / (real)list->n : list->bond[k].held * whole / sum;
 }
 
-/* Appends to `list` the bonds that cross the next segment of a tip. Returns their total energy cost [J]. */
+/* Appends to `list` the bonds that cross the next segment of the path of `tip`. Returns their total energy cost [J]. */
 static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, const struct particles *p,
                           const struct sif_crack_tip *tip, struct break_list *list)
 {
@@ -105,8 +106,8 @@ void sif_tip_break_bonds_behind(struct run *e, const struct sif_crack_tip *tip)
 
 /* ---- trials ------------------------------------------------------------------------------------------------------ */
 
-/* Flags the material points within a horizon of the next segment of a tip for conversion, since only bonds can break.
- * Returns the number of points flagged. */
+/* Marks the material points within a horizon of the next segment of the path of `tip` for conversion to peridynamic
+ * particles, since only bonds can break. Returns the number of points marked. */
 static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, const struct sif_crack_tip *tip)
 {
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->position[0], tip->position[1]};
@@ -123,9 +124,9 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
     return marked;
 }
 
-/* Sets the direction of growth of all tips that can grow, and converts material points near their next segments to
- * peridynamic particles. Both are repeated while points convert, since these change the equilibrium. Returns FAILED,
- * with a message, if an equilibrium is not found. */
+/* Determines the direction of growth of all tips that can grow, and converts material points near their next segments
+ * to peridynamic particles. Since converted points change the equilibrium, both are repeated until none is converted,
+ * at most CONVERSIONS_MOST times. Returns FAILED, with a message, if an equilibrium is not found. */
 static status tips_turn_all(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
@@ -142,8 +143,8 @@ static status tips_turn_all(struct run *e)
     return OK;
 }
 
-/* Breaks the bonds of list l, finds the equilibrium at the present pseudo-time, and stores the energy release over the
- * squared load size in a->release. Returns FAILED, with a message, if there is no equilibrium. */
+/* Breaks the bonds of list l and finds the equilibrium at the present pseudo-time. Stores the energy released by that,
+ * divided by the square of the load size, in a->release. Returns FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
     const real before = statics_energy_released(e->statics, &e->bonds);
@@ -154,9 +155,9 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Stores in tip->behind a fictitious previous increment of a tip at the end of a pre-crack. It is extrapolated from the
- * first increment, whose bonds are broken already, and a trial of a second one straight ahead. Returns FAILED, with a
- * message, if an equilibrium is not found. */
+/* Stores in tip->behind a fictitious increment before the first one, for a tip at the end of a pre-crack. It is
+ * extrapolated from the first increment, whose bonds must be broken already, and from a trial of a second one straight
+ * ahead. Returns FAILED, with a message, if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -174,9 +175,9 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Determines tip->ahead.release, the energy release of the next increment of a tip, by breaking its bonds l in a trial,
- * which is undone. For the first increment of the tip, the fictitious previous one is stored as well. Returns FAILED,
- * with a message, if an equilibrium is not found. */
+/* Determines tip->ahead.release, the energy release of the next increment of a tip, by a trial in which the bonds in
+ * list l break and which is then undone. If it is the first increment of the tip, also sets tip->behind, a fictitious
+ * increment before it. Returns FAILED, with a message, if an equilibrium is not found. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -187,7 +188,7 @@ static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct
     return tried;
 }
 
-/* Returns true if list l contains the bond of the record (equal row and entry). */
+/* Returns true if list l contains the bond of *record, i.e. a record with the same row and entry. */
 static bool list_has(const struct break_list *l, const struct broken_bond *record)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -195,9 +196,9 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
     return false;
 }
 
-/* Selects the tips of the next crack increment: the one due at the smallest load size, and those due at nearly the same
- * load size. Combines their bonds in s->next and their energies in s->ahead and s->behind. list[k]: bonds of the next
- * segment of tip k. */
+/* Selects the tips that make the next crack increment: the one whose increment is due at the smallest load size, and
+ * those whose increments are due at nearly the same. Combines their bonds in s->next, their energies in s->ahead and
+ * s->behind, and computes the common load size s->due. list[k]: bonds of the next segment of tip k. */
 static void increment_choose(struct statics *s, struct break_list *list)
 {
     struct sif_cracks *l = &s->sif;
@@ -216,10 +217,10 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = increments_energy_balance_load(&s->ahead, &s->behind);
 }
 
-/* Recomputes the energy release of the selected tips, if there are several, by breaking their bonds together, which
- * releases more energy than one tip after the other. The sum is divided among the tips in proportion to their separate
- * values. Also updates the load size at which the increment is due, unless a tip makes its first increment: the
- * fictitious increments before the first ones were not divided like this. Returns FAILED, with a message, if an
+/* If several tips are selected, recomputes their energy release by breaking their bonds together, which releases more
+ * energy than one tip after the other. The sum s->ahead.release is divided among the tips in proportion to their
+ * separate values. Also updates the load size s->due of the increment, unless a tip makes its first increment: the
+ * fictitious increments before the first ones were not divided in this way. Returns FAILED, with a message, if an
  * equilibrium is not found. */
 static status increment_try_together(struct run *e)
 {
@@ -240,9 +241,9 @@ static status increment_try_together(struct run *e)
     return tried;
 }
 
-/* Determines the next increment of a tip and the load size at which it is due, tip->due; INFINITY if it does not grow.
- * A tip under compression (K_I < 0) does not grow, and one without bonds ahead has ended. list: receives the bonds of
- * its next segment. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Determines the bonds and the energies of the next increment of a tip, and tip->due, the load size at which it is
+ * made; INFINITY if the tip does not grow. A tip under compression (K_I < 0) does not grow, and a tip without bonds
+ * ahead has ended. list: receives the bonds. Returns FAILED, with a message, if an equilibrium is not found. */
 static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct crack_increment){0}, tip->due = INFINITY;

@@ -27,9 +27,9 @@ static void make_unit(real *a)
     for (int d = 0; d < 3; d++) a[d] /= length;
 }
 
-/* Sets the axes of the plane across plane->front. They are axes of space where these are perpendicular to the front, so
- * that planes of symmetry are perpendicular to an axis. A front nearly parallel to an axis of space is set exactly to
- * it. */
+/* Sets the two axes of the plane perpendicular to plane->front, the direction of the crack fronts. Axes of space that
+ * are perpendicular to the front are used, so that planes of symmetry are perpendicular to an axis of the plane. A
+ * front nearly parallel to an axis of space is set exactly to it. */
 static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;
@@ -61,7 +61,7 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
 
-/* Stores the common direction of the fronts of all pre-cracks in plane->front. Returns NULL, or the reason, as text,
+/* Stores the common direction of the fronts of all pre-cracks in plane->front. Returns NULL, or a text with the reason
  * why there is no common direction. */
 static const char *front_find(const struct crack_tips *t, struct sif_plane *plane)
 {
@@ -86,8 +86,9 @@ static void front_middle(const struct crack_tips *t, struct sif_plane *plane)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
 }
 
-/* Lists in plane->mirror the planes of symmetry parallel to the fronts, each with the axis of the plane to which it is
- * perpendicular. Returns NULL, or the reason, as text, if one is neither parallel nor perpendicular to the fronts. */
+/* Lists in plane->mirror the planes of symmetry parallel to the crack fronts, each with the axis of the plane of the
+ * tips to which it is perpendicular. Returns NULL, or a text with the reason, if one is neither parallel nor
+ * perpendicular to the fronts. */
 static const char *mirrors_find(struct sif_plane *plane)
 {
     for (int k = 0; k < plane->body_mirrors; k++) {
@@ -102,8 +103,9 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Computes the segment at[0] .. at[1] in which the plane cuts pre-crack c [m], oriented such that its normal is on the
- * side of the normal of the polygon. Returns false if the pre-crack is not parallel to the fronts. */
+/* Computes the segment in which the plane of the tips cuts pre-crack c, and stores its ends in at[0] and at[1] [m].
+ * Their order is such that the normal of the segment is on the side of the normal of the polygon. Returns false if the
+ * pre-crack is not parallel to the crack fronts. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
@@ -123,8 +125,8 @@ bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-/* Returns NULL if all pre-cracks of l are rectangles with edges along the fronts, else the reason, as text, why they
- * are not. */
+/* Returns NULL if all pre-cracks of l are rectangles with edges along the crack fronts, else a text with the reason why
+ * they are not. */
 static const char *cracks_check(const struct crack_list *l, const struct sif_plane *plane)
 {
     for (int k = 0; k < l->n; k++) {
@@ -142,7 +144,8 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
     return NULL;
 }
 
-/* Returns NULL if all fronts run through the whole width of the body, else the reason, as text, why they do not. */
+/* Returns NULL if all crack fronts of t run through the whole width of the body, else a text with the reason why they
+ * do not. */
 static const char *fronts_check(const struct crack_tips *t, const struct particles *p, const struct sif_plane *plane)
 {
     const real h = plane->spacing;
@@ -175,8 +178,8 @@ const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, 
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the share of particle i that belongs to the body [1]: 1, halved for each plane of symmetry across the front
- * that passes through the particle. */
+/* Returns the share of particle i that belongs to the body [1]: 1, halved for each plane of symmetry that is
+ * perpendicular to the crack front and passes through the particle. */
 static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;
@@ -188,8 +191,8 @@ static real share_beside_mirrors(const struct sif_plane *plane, const struct par
     return share;
 }
 
-/* Returns the length of the intersection of the cube of particle i with the line along the front through the point P of
- * the plane [m]. */
+/* Returns the length that the cube of particle i has in common with a line parallel to the crack front [m]. P: point in
+ * which the line intersects the plane of the tips, two coordinates [m]. */
 static real chord(const struct sif_plane *plane, const struct particles *p, int64_t i, const real *P)
 {
     const real half = 0.5 * cbrt(p->volume0[i]);

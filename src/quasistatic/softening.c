@@ -18,8 +18,8 @@ enum { BISECTIONS_MOST = 100 };
             if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
-/* Appends bond `bond` of row `row`, which softens, to the list l: its present stretch divided by `factor` [1], its
- * largest stretch at the last equilibrium, its range of softening and its energy scale. */
+/* Appends bond `bond` of row `row`, which softens, to the list l. Stores its present stretch divided by `factor` [1],
+ * its largest stretch at the last equilibrium, the stretches between which it softens, and its energy scale. */
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {
@@ -86,7 +86,8 @@ void softening_list_store(const struct softening_list *l, struct bonds *b, real 
 
 /* ---- equilibria -------------------------------------------------------------------------------------------------- */
 
-/* Settles the bond `bond` of row `row`. */
+/* Stores the largest stretch of bond `bond` of row `row` as that of the last equilibrium. A bond that has not exceeded
+ * its onset of softening counts as not begun again. limit: critical stretches and softening of bonds. */
 static void settle_bond(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
                         const struct bond *bond)
 {

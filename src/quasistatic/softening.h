@@ -20,9 +20,8 @@ struct softening_list {
     const struct softening_curve *curve;
 };
 
-/* Lists in l the intact bonds that soften, in the order of rows. factor: factor by which the present displacements are
- * scaled [1]; the stored stretches are those at a factor of 1. Replaces the former contents of *l; free l->bond with
- * memory_free. */
+/* Lists in l the intact bonds that soften, in the order of rows, with their stretches at the present displacements
+ * divided by `factor` [1]. Replaces the former contents of *l; free l->bond with memory_free. */
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor);
 
 /* Returns the energy that the bonds of the list would have dissipated since the last equilibrium if their stretches
@@ -34,14 +33,14 @@ real softening_list_spent(const struct softening_list *l, real factor);
  * dissipated at least `wanted`. */
 real softening_list_factor(const struct softening_list *l, real wanted, real high);
 
-/* Sets the largest stretch k of each bond of the list to the larger one of that of the last equilibrium and `factor`
- * times its stretch. */
+/* Sets the largest stretch of each bond of the list to that of the last equilibrium or, if larger, to `factor` times
+ * the stretch stored in the list. */
 void softening_list_store(const struct softening_list *l, struct bonds *b, real factor);
 
 /* Stores the present largest stretches of bonds as those of the last equilibrium, from which later solutions start.
- * Bonds that have not exceeded their onset count as not begun again, so that the stress across them is examined again.
- * limit: of the bonds. Allocates the storage of load steps in b->soft on its first call: from then on forces are those
- * of the stored stretches. */
+ * Bonds that have not exceeded their onset of softening are marked as not begun again, so that the stress across them
+ * is examined again. limit: critical stretches and softening of bonds. The first call allocates storage in b->soft;
+ * from then on forces are computed from the stored largest stretches. */
 void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Resets the largest stretches of all softening bonds to those of the last equilibrium (softening_settle). */

@@ -46,7 +46,8 @@ struct search {
     real residual; /* of the last state, with k = max(k_0, s) [1] */
 };
 
-/* Moves the body to `factor` times the displacements of the last solution. The forces there are not used. */
+/* Moves the body to `factor` times the displacements q->u of the last solution (q = f->q). The forces computed there
+ * are not used. */
 static void body_scale(const struct search *f, real factor)
 {
     struct newton_solver *q = f->q;
@@ -55,9 +56,10 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Returns the factor on the present displacements at which bonds dissipate the energy f->spent, at most `most`, and
- * sets the largest stretches k of the bonds by it. most: ratio of the loads at the end to the present ones [1]. With
- * f->spent = INFINITY (given loads) the factor is `most`. */
+/* Returns the factor on the displacements of the last solution at which bonds dissipate the energy f->spent, but at
+ * most `most`. Sets the largest stretches of the bonds to those at this factor. most: ratio of the loads at the end to
+ * the present ones [1]. If f->spent is INFINITY (the loads are given), the factor is `most`. f->at_end: set to true if
+ * the factor is `most`. */
 static real secants_choose(struct search *f, real most)
 {
     const bool given = !isfinite(f->spent);
@@ -76,8 +78,8 @@ static real secants_choose(struct search *f, real most)
     return factor;
 }
 
-/* Returns the residual of the forces at the displacements q->u of the last solution, relative to the scale of the
- * solver [1]. Stores the forces in q->f. */
+/* Returns the norm of the unbalanced forces at the displacements q->u of the last solution over q->scale, the force
+ * scale of the solver [1]. Stores the forces in q->f. Components that boundaries prescribe are left out. */
 static real residual_now(struct newton_solver *q)
 {
     real sum = 0;
@@ -87,9 +89,9 @@ static real residual_now(struct newton_solver *q)
     return sum > 0 ? sqrt(sum) / q->scale : 0;
 }
 
-/* Finds the next equilibrium: solves with fixed largest stretches k of the bonds, chooses k anew, and repeats both.
- * Solutions with fixed k need not be more exact than k is. Returns FAILED, with a message, if an equilibrium is not
- * found. */
+/* Finds the next equilibrium by iteration: solves with the largest stretches k of the bonds fixed, then chooses k anew.
+ * Solutions with fixed k are not computed more exactly than k is known. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
@@ -121,9 +123,10 @@ static status search_run(struct run *e, struct search *f)
         isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
 }
 
-/* Tries to find the equilibrium that ends a load step. spent: energy to be dissipated [J]; INFINITY: the loads are
- * those of pseudo-time t [s]. With given loads, work beyond the growth of energies counts as lost, in motion that is
- * not resolved. If the search fails, restores the state before it and returns its status. */
+/* Searches for the equilibrium that ends a load step. spent: energy that bonds shall dissipate in the step [J];
+ * INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
+ * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns its
+ * status. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
@@ -160,9 +163,10 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
     return least;
 }
 
-/* Under control by energy the first step ends where bonds begin to soften: on a coarse lattice that may be the largest
- * load, and the work over a step is computed from both its ends. If no equilibrium is found, the search is repeated
- * with a half, a quarter .. of the energy that bonds dissipate. */
+/* Makes one load step of a body whose bonds soften. If bonds shall dissipate a given energy (control `energy`), the
+ * first step ends where they begin to soften: on a coarse lattice that may be the largest load, and the work over a
+ * step is computed from both its ends. If no equilibrium is found, the search is repeated with a half, a quarter .. of
+ * the energy. t: pseudo-time at the end of a step with given loads [s]. */
 status softening_step(struct run *e, real t)
 {
     struct statics *s = e->statics;

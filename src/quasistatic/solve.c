@@ -13,7 +13,7 @@
 #include "run/energies.h"
 #include "step/sample.h"
 
-/* Returns the parts of the run on which the solvers work (borrowed). */
+/* Returns the parts of the run that the solvers read and change, as pointers into *e. */
 static struct static_body static_body_of(struct run *e)
 {
     return (struct static_body){&e->part,
@@ -59,7 +59,7 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-/* Warns of bonds beyond their critical stretch in a static solution. past: number of these bonds; 0: no warning. */
+/* Warns that `past` bonds exceed their critical stretch in a static solution. Does nothing if past = 0. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[200];

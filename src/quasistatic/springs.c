@@ -24,8 +24,8 @@ struct springs {
     int64_t *next; /* [n] next entry of each row to be stored; NULL in the first pass */
 };
 
-/* Adds the block K to the matrix at `row` and `column`. In the first pass, in which s->next is NULL, the entry is only
- * counted. */
+/* Adds the block K[dim][dim] at the position `row`, `column` to the matrix s->a. In the first pass of the assembly, in
+ * which s->next is NULL, the entry is only counted. */
 static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
 {
     const int dim = s->a->dim;
@@ -49,7 +49,8 @@ struct movers {
     real share[CORNERS_MAX];   /* [n] weights [1] */
 };
 
-/* Returns the unknowns that determine the displacement of particle i of the body, and their weights. */
+/* Returns the unknowns that determine the displacement of particle i of the body, with their weights: the particle's
+ * own one, or for a point of the mesh those of the corners of its cell. None if it has no unknown. */
 static struct movers movers_list(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
@@ -64,16 +65,17 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* Returns the unknowns that determine the displacement of particle or mirror image i. sign[d]: receives -1 if component
- * d of an image moves opposite to that of its source, else 1. */
+/* Returns the unknowns that determine the displacement of particle or mirror image i, with their weights. sign[d]:
+ * receives -1 if component d of an image moves opposite to that of the particle that it mirrors, else 1. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
     image_displacement_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
-/* Adds the stiffness of a bond of particle i, a spring along its reference direction for tension, to the rows of the
- * unknowns that determine the displacement of i. The row of the particle at the other end adds the other half. */
+/* Adds the stiffness of a bond of particle i to the rows of the unknowns that determine the displacement of i. The bond
+ * counts as a spring along its reference direction, with its stiffness in tension. The row of the other particle of the
+ * bond adds the other half. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
@@ -94,7 +96,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     }
 }
 
-/* Adds the stiffness of the intact bonds of row r of the bonds to the matrix. */
+/* Adds the stiffness of the intact bonds in row r (all bonds of one particle) to the matrix. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
     for (struct bond_iterator it = bond_iterator_of_row(&s->e->bonds, r); bond_next(&it);)
@@ -103,8 +105,8 @@ static void springs_row_add(struct springs *s, int64_t r)
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the stiffness of contact t to the matrix: its stiffness times the products of the derivatives of its gap.
- * context: a struct springs. */
+/* Adds the stiffness of contact t to the matrix: its stiffness times the products of the derivatives of its gap. It is
+ * called for each contact; context: a struct springs. */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
     struct springs *s = context;
@@ -208,8 +210,8 @@ static void rows_close(struct block_matrix *a, const int64_t *kept)
     a->first[a->n] = to;
 }
 
-/* Assembles the matrix s->a in two passes: the first one counts entries, the second one stores them. Allocates its
- * arrays. */
+/* Assembles the matrix s->a in two passes: the first one counts the entries of each row, the second one stores them.
+ * Allocates the arrays of the matrix. */
 static void matrix_fill(struct springs *s)
 {
     struct block_matrix *a = s->a;
@@ -240,7 +242,7 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
-/* Returns the stiffness matrix of the present bonds, cells and contacts, scaled. It is freed by
+/* Returns the stiffness matrix of the present bonds, cells and contacts, divided by its largest entry. It is freed by
  * statics_preconditioner_free. */
 static struct block_matrix *matrix_make(const struct run *e)
 {

@@ -7,7 +7,8 @@
 
 #include "base/memory.h"
 
-/* Finds row, entry and weight of the bonds of list l by their particles, after rows have been rebuilt. */
+/* Sets row, entry and weight of the bonds of list l again after the rows of `bonds` have been rebuilt. A bond is found
+ * by its two particles. */
 static void list_find(const struct bonds *bonds, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {

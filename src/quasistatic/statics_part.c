@@ -12,7 +12,7 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-/* Frees the state of load steps (`free` of struct part). */
+/* Frees the state of load steps. It is the callback `free` of struct part. */
 static void statics_free_all(struct run *e) { statics_free(e->statics), sif_cracks_free(&e->statics->sif); }
 
 #define STEP_SPACINGS_MOST 0.5 /* growth of a crack in a load step without a warning [spacings] */
@@ -35,10 +35,10 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
     }
 }
 
-/* Warns of load steps in which softening bonds dissipate the energy of more than half a spacing of new crack.
- * of_spacing: energy of one spacing of crack [J]. Errors of the largest load by edge notches of 0.5 to 1.5 mm in glass,
- * at spacings of 0.05 and 0.1 mm, relative to that in steps of a twentieth of a spacing: +-4 % at half a spacing, 8 %
- * at one, 15 % at two, 23 % at four. */
+/* Warns if the softening bonds dissipate more energy in a load step than half a spacing of new crack needs. of_spacing:
+ * energy of one spacing of crack [J]. Reason: with edge notches of 0.5 to 1.5 mm in glass, at spacings of 0.05 and 0.1
+ * mm, the largest load differs from that in steps of a twentieth of a spacing by +-4 % for steps of half a spacing, 8 %
+ * for one, 15 % for two, 23 % for four. */
 static void warn_of_large_steps(const struct scene *s, real of_spacing, struct warnings *to)
 {
     const real given = s->steps.energy, spacings = given / of_spacing;
@@ -55,8 +55,8 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
         STEP_SPACINGS_MOST * given / spacings);
 }
 
-/* Adds warnings about parts of the scene that a static solution ignores or treats in another way (`warn` of struct
- * part). */
+/* Warns of parts of the scene that a static solution ignores or treats differently. It is the callback `warn` of struct
+ * part. */
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -81,7 +81,8 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
                      s->duration);
 }
 
-/* Writes the summary of load steps: steps, equilibria, energy released (`summary` of struct part). */
+/* Writes the results of load steps to the summary j: control, steps, equilibria, energy released. It is the callback
+ * `summary` of struct part. */
 static void put_load_steps(const struct run *e, struct json *j)
 {
     static const char *const control[] = {

@@ -38,9 +38,9 @@ int statics_list_columns(const struct run *e, struct column *column)
     return n;
 }
 
-/* Returns the area by which the cracks grow per spacing [m^2]: spacing times the sum of the lengths of the fronts of
- * all pre-cracks, or times one spacing without pre-cracks; for a bar its section. section: section of a bar [m^2],
- * thickness of a plane body [m]. */
+/* Returns the area by which the cracks grow if each grows by one spacing [m^2]: the spacing times the total length of
+ * the fronts of all pre-cracks, or times one spacing if there are none. For a bar it is its section. section: section
+ * of a bar [m^2], thickness of a plane body [m]. */
 static real growth_by_spacing(const struct crack_tips *t, real section)
 {
     real wide = 0;
@@ -51,8 +51,8 @@ static real growth_by_spacing(const struct crack_tips *t, real section)
     return t->spacing * wide;
 }
 
-/* Returns the damage of the particles beside a cut between two planes of a lattice [1]: half of the fraction of bonds
- * that are not parallel to the cut. */
+/* Returns the damage of the particles next to a cut that separates two neighbouring planes of a lattice [1]: half of
+ * the fraction of bonds that are not parallel to the cut. */
 static real damage_beside_cut(const struct scene *s)
 {
     const int reach = (int)s->horizon, wide = s->dim > 1 ? reach : 0, deep = s->dim > 2 ? reach : 0;
@@ -66,7 +66,8 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the area along the paths of the SIF-driven tips, the sum over their segments. */
+/* Returns the crack area along the paths of the SIF-driven tips, summed over the segments: the area that belongs to the
+ * body, and the area of the whole faces, of which planes of symmetry cut off half [m^2]. */
 static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     struct crack_area area = {0};
@@ -78,10 +79,10 @@ static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct
     return area;
 }
 
-/* Updates the crack area, the energy released, and the release rate over the last two growths, in e->statics->record.
- * The crack area is that of the paths of SIF-driven tips, unless damaged particles indicate more than another spacing
- * of growth. Otherwise it is that of the damaged particles, or in space without SIF-driven tips that of the broken
- * bonds. A length by damaged particles changes in steps of one spacing, so its growth counts only after several
+/* Updates crack area, energy released and release rate in e->statics->record; the rate is that over the last two
+ * growths of the crack. The crack area is that of the paths of SIF-driven tips, unless damaged particles indicate more
+ * than another spacing of growth. Without such tips it is that of the damaged particles, in space that of the broken
+ * bonds. An area by damaged particles changes in steps of one spacing, so its growth counts only after several
  * spacings. A load step without growth leaves the rate unchanged. */
 static void measure(struct run *e)
 {

@@ -12,8 +12,8 @@
     1e-7 /* relative difference of stretch ratios below which bonds break together, so that round-off decides no order \
           */
 
-/* Returns the ratio of stretch to critical stretch of a bond of particle i [1]. limit: rule for the critical stretch.
- * If the critical stretch is 0 or less, the ratio has no meaning for the order of breaking. */
+/* Returns the ratio of stretch to critical stretch of a bond in the row of particle i [1]. limit: critical stretches.
+ * If the critical stretch is 0 or less, ratios do not give the order in which bonds break. */
 static real stretch_ratio_of(const struct particles *p, const struct bond_limit *limit, const struct bond *bond,
                              int32_t i)
 {
@@ -21,8 +21,8 @@ static real stretch_ratio_of(const struct particles *p, const struct bond_limit 
     return stretch / bond_breaking_stretch(p, limit, i, bond->nbr);
 }
 
-/* Returns a lower bound of the critical stretches of all bonds [1]: the least of all pairs of materials times the least
- * strength of a particle. */
+/* Returns a lower bound of the critical stretches of all bonds [1]: the smallest critical stretch of a pair of
+ * materials times the smallest strength factor of a particle. */
 static real critical_stretch_least(const struct bond_limit *limit, const struct particles *part)
 {
     real least = INFINITY, weakest = 1;
@@ -31,8 +31,9 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the larger of `most` and the largest ratio of stretch to critical stretch of the intact bonds in row block g
- * [1]. weakest: lower bound of the critical stretches, by which most row blocks are skipped [1]. */
+/* Returns the largest ratio of stretch to critical stretch of the intact bonds in row block g (bonds of eight
+ * particles), or `most` if that is larger [1]. weakest: lower bound of the critical stretches, by which most row blocks
+ * are skipped [1]. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
 {
@@ -59,9 +60,9 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Returns half of the energy that stretches a bond of particle i from zero force to its critical stretch [J]: the
- * energy that it stores and the work still to be done. Work already dissipated by yielding is not included. limit: rule
- * for the critical stretch. */
+/* Returns half of the energy that stretches a bond of particle i from zero force to its critical stretch [J]: what it
+ * stores now and the work still to be done. Work that yielding has dissipated is not included. limit: critical
+ * stretches. */
 static real half_energy_to_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  const struct bond *bond, int32_t i)
 {
@@ -109,8 +110,8 @@ static void overstretched_add(struct overstretched *o, real over, const struct b
     o->record[o->n++] = *record;
 }
 
-/* Appends the bonds of row block g with a stretch ratio above `least` to o, in the order of rows. limit: rule for the
- * critical stretch. */
+/* Appends the bonds of row block g (bonds of eight particles) with a stretch ratio above `least` to o, in the order of
+ * rows. limit: critical stretches. */
 static void row_block_overstretched(struct overstretched *o, const struct bonds *b, const struct particles *p,
                                     const struct bond_limit *limit, int64_t g, real least)
 {
@@ -154,8 +155,8 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the directed bond of a record; half of the energy of the bond becomes fracture energy of its row. limit: rule
- * for the critical stretch; the last force of softening bonds is not used. */
+/* Breaks the directed bond of *record. Half of its energy becomes fracture energy of its row. limit: critical
+ * stretches; its rule for the force of a bond in the step in which it breaks is not used. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {
@@ -163,11 +164,11 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds whose ratio of stretch to critical stretch is within the fraction `tolerance` of the largest one, at
- * most max_pairs pairs, and appends them to the list of the next increment. Adds their energy to *cost [J] and their
- * area to *area [m^2]. State-based bonds have no energy of their own; their cost follows from the energy lost as they
- * break: in a linear body the energy at the critical stretch times the square of the ratio. Returns the number of
- * directed bonds broken. */
+/* Breaks the bonds whose ratio of stretch to critical stretch is at most the fraction `tolerance` below the largest
+ * one, at most max_pairs pairs, and appends them to the list of the next increment. Adds their energy to *cost [J] and
+ * their crack area to *area [m^2]. State-based bonds have no energy of their own. Their cost follows from the energy
+ * that is lost as they break, which in a linear body is that at the critical stretch times the square of the ratio.
+ * Returns the number of directed bonds broken. */
 int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -195,9 +196,9 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
     return l->n - had;
 }
 
-/* Breaks all bonds of list l at once, although the last ones reach their critical stretch only after the first have
- * broken. Each bond therefore adds the energy `held` of its record to the fracture energy. The difference from its
- * present energy is counted as lost, in the solver and in the run. */
+/* Breaks all bonds of list l at once, although the last ones would reach their critical stretch only after the first
+ * have broken. Each bond therefore adds the member `held` of its record, its energy at the critical stretch, to the
+ * fracture energy. The difference from its present energy is counted as lost, in the solver and in the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

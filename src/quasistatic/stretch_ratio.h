@@ -6,19 +6,18 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the largest ratio of stretch to critical stretch among all intact bonds [1]. limit: rule for the critical
- * stretch. */
+/* Returns the largest ratio of stretch to critical stretch among all intact bonds [1]. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
- * largest one by at most the fraction `tolerance` [1], but no more than `max_pairs` pairs of particles and the pairs
- * whose ratio equals that of the last pair up to round-off. Appends the bonds to the list of the next crack increment
- * (statics.next). Adds their energy at the critical stretch to *cost [J] and the crack area that corresponds to it to
- * *area [m^2]. Returns the number of directed bonds broken. */
+ * largest one by at most the fraction `tolerance` [1]. No more than `max_pairs` pairs of particles are separated, plus
+ * pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the next crack
+ * increment (statics.next). Adds their energy at the critical stretch to *cost [J], and the crack area that corresponds
+ * to it to *area [m^2]. Returns the number of directed bonds broken. */
 int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area);
 
-/* Breaks the bonds of the list l. The stored energy of a bond beyond its energy at the critical stretch (member `held`
- * of its record) is added to the losses of the solver and of the run. */
+/* Breaks the bonds of the list l. What a bond stores beyond its energy at the critical stretch (member `held` of its
+ * record) is not fracture energy; it is added to the energy lost by the solver and by the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
 /* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
@@ -28,9 +27,9 @@ void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *
 /* Appends a copy of *record to the list l, which grows as needed. */
 void break_list_add(struct break_list *l, const struct broken_bond *record);
 
-/* Returns the record of an intact bond, from which bonds_restore_broken can restore it. row: index of the row (all
- * bonds of one particle) that contains the bond. limit: rule for the critical stretch; it determines the member `held`,
- * half of the energy of the bond at its critical stretch [J]. */
+/* Returns a record of the intact bond `bond`, from which bonds_restore_broken can restore it after it has been broken.
+ * row: index of its row (all bonds of one particle). limit: critical stretches; the member `held` of the record is half
+ * of the energy of the bond at its critical stretch [J]. */
 struct broken_bond bond_make_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     const struct bond *bond, int64_t row);
 

@@ -14,8 +14,8 @@
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
- * optional_arrays: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or
- * has another size. */
+ * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is
+ * missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a)
 {
     TRY(bonds_save_or_load(b, p, a));
@@ -77,8 +77,8 @@ static void forces_present(struct run *e)
     if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
-/* Computes the forces f [N] on all unknowns at the displacements u [m] (callback `force` of solver/equilibrium.h),
- * without components along free rigid motions. context: a struct run. */
+/* Computes the forces f on all unknowns at the displacements u [m], without the components along free rigid motions of
+ * unconstrained fragments [N]. It is the callback `force` of solver/equilibrium.h; context: the run (struct run). */
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
     struct run *e = context;

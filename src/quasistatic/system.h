@@ -18,16 +18,16 @@ void statics_unknowns_free(struct statics *s);
 void plastic_state_update(struct run *e);
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
- * optional_arrays: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or
- * has another size. */
+ * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is
+ * missing or has another size. */
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a);
 
-/* Copies the plastic state of bonds and points to *m, whose former contents it frees: the state from which the next
- * solutions start. optional: as in plastic_state_save_or_load. */
+/* Copies the plastic state of bonds and points to *m, and frees the former contents of *m. Later solutions start from
+ * this state (plastic_state_restore). optional: which optional arrays the particles have, a set of bits WITH_... */
 void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
 
 /* Restores the plastic state of bonds and points that plastic_state_save has copied to *m. Does nothing if there is no
- * copy. */
+ * copy. optional: which optional arrays the particles have, a set of bits WITH_... */
 void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
 
 #endif

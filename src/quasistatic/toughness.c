@@ -19,9 +19,9 @@ real toughness_of_material(const struct family *family, enum model model, const 
     return elastic * taken / (0.5 * square(limit));
 }
 
-/* Returns the crack energy per area between materials a and b [J/m^2]: the one given for their interface (state-based
- * models), else the smaller one of both materials. For two different elastic materials with bond-based models it is the
- * energy of the bonds at the critical stretch of the pair. */
+/* Returns the crack energy per area between materials a and b [J/m^2]. For state-based models it is that of their
+ * interface if the scene gives one, else the smaller one of both materials. For two different elastic materials with
+ * bond-based models it is the energy of the bonds at the critical stretch of the pair. */
 static real toughness_of_pair(const struct scene *s, const struct bond_source *source, int a, int b)
 {
     const struct family *family = &source->family;

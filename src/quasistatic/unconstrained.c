@@ -30,8 +30,8 @@ static int32_t root_node(int32_t *parent, int32_t k)
     return k;
 }
 
-/* Joins the components of nodes a and b. The smaller root becomes the root of both, so that the result does not depend
- * on the order of joins. */
+/* Joins the components of nodes a and b in the forest parent[nodes]. The smaller root becomes the root of both, so that
+ * the result does not depend on the order of joins. */
 static void nodes_join(int32_t *parent, int32_t a, int32_t b)
 {
     const int32_t x = root_node(parent, a), y = root_node(parent, b);
@@ -94,7 +94,7 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Stores the unknown of each particle and mesh node; a mirror node gets the unknown of its image. */
+/* Stores in s the unknown of each particle and mesh node; a mirror node gets that of the node that it mirrors. */
 static void unknowns_number(struct search *s)
 {
     const struct statics *statics = s->statics;
@@ -149,8 +149,8 @@ struct candidate {
 /* Returns the number of rigid motions in a body of dimension dim. */
 static int motions(int dim) { return dim * (dim + 1) / 2; }
 
-/* Computes rigid motion k of a fragment at the point x: first translations, then rotations, scaled so that the
- * displacement of its nodes is about 1. u: displacement [dim]. */
+/* Computes rigid motion number k of a fragment at the point x [m]: first translations, then rotations, scaled such that
+ * its nodes move by about 1. u[dim]: receives the displacement. */
 static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
 {
     for (int d = 0; d < dim; d++) u[d] = d == k;
@@ -160,21 +160,21 @@ static void motion_at(const struct candidate *c, int dim, int k, const real *x, 
     u[b] = (x[a] - c->centre[a]) / c->radius;
 }
 
-/* Stores the present position of node k in x [m]. */
+/* Stores the present position of the unknown k (a particle or a mesh node) in x[dim] [m]. */
 static void node_now(const struct search *s, int64_t k, real *x)
 {
     for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
 }
 
-/* Adds the constraint of one displacement component to the resistance of the m motions. along[m]: that component of
- * each motion. */
+/* Adds the constraint of one displacement component to c->resistance, the resistance of the m rigid motions. along[m]:
+ * that component of each motion. */
 static void resist(struct candidate *c, int m, const real *along)
 {
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-/* Adds the constraints of supports and planes of symmetry on components of nodes. */
+/* Adds the constraints of supports and planes of symmetry on unknowns to their fragments. */
 static void supports_resist(const struct search *s)
 {
     const struct newton_solver *q = &s->statics->balance;
@@ -193,8 +193,8 @@ static void supports_resist(const struct search *s)
     }
 }
 
-/* Adds the constraint of a bond between particle i of fragment c and a mirror image to c: it resists a change of its
- * length. */
+/* Adds the constraint of a bond between particle i of fragment c and the mirror image `image` to c: the bond resists a
+ * change of its length. */
 static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = s->part;
@@ -223,8 +223,8 @@ static void images_resist(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Adds the constraints of mirror nodes: such a node moves as the mirror image of a node and is a corner of cells of the
- * body. */
+/* Adds the constraints of mirror nodes of the mesh to their fragments: such a node is a corner of cells of the body and
+ * moves as the mirror image of another node. */
 static void mirror_nodes_resist(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -256,7 +256,7 @@ static int32_t fragment_of(const struct search *s, int32_t particle)
     return k < 0 ? -1 : s->fragment[k];
 }
 
-/* Returns the rate of the gap of a contact under motion a of fragment `which` [1]. */
+/* Returns the rate at which rigid motion number a of fragment `which` changes the gap of contact t [1]. */
 static real gap_rate(const struct search *s, const struct contact_term *t, int32_t which, int a)
 {
     const struct particles *p = s->part;
@@ -273,7 +273,7 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
     return rate;
 }
 
-/* Adds the constraint of a contact, which resists a change of its gap, to each fragment that it touches, as if the
+/* Adds the constraint of contact t, which resists a change of its gap, to each fragment that it touches, as if the
  * other one were fixed. context: a struct search. */
 static void contact_resists(void *context, const struct contact_term *t)
 {
@@ -294,8 +294,8 @@ static void contact_resists(void *context, const struct contact_term *t)
     }
 }
 
-/* Finds the motions without resistance as linear combinations of the m rigid motions, free[][m], by Gaussian
- * elimination with full pivoting of the resistance. Returns their number. */
+/* Finds the motions of c without resistance by Gaussian elimination with full pivoting. free[][m]: receives each as a
+ * linear combination of the m rigid motions. Returns their number. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
     real R[MODES_MOST][MODES_MOST], most = 0;
@@ -353,8 +353,8 @@ static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
     f->motions = kept;
 }
 
-/* Initialises fragment `which` as an unconstrained fragment with `count` free motions, whose combinations of rigid
- * motions are free[count]. */
+/* Initialises f as fragment number `which` with `count` free motions. free[count][m]: these, as combinations of the m
+ * rigid motions. */
 static void fragment_motions(const struct search *s, struct unconstrained_fragment *f, int64_t which,
                              real free[MODES_MOST][MODES_MOST], int count)
 {
@@ -453,9 +453,9 @@ void field_remove_free_rigid_motion(const struct statics *s, struct field *v)
 
 /* ---- unbalanced loads -------------------------------------------------------------------------------------------- */
 
-/* Returns the largest unbalanced share of the loads on a fragment along one of its free motions: the absolute value of
- * their sum over the sum of their absolute values [1]; stores the latter in *size. Motions along which loads are much
- * smaller than along another one are ignored. */
+/* Returns the largest unbalanced share of the loads on a fragment along its free motions: |sum| of the loads along a
+ * motion over the sum of their absolute values [1], which *size receives. Motions along which loads are much smaller
+ * than along another one are ignored. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {
@@ -474,8 +474,8 @@ static real unbalanced_share(const struct statics *s, const struct particles *pa
     return most;
 }
 
-/* Returns the sum of the absolute values of all applied forces over the root of the number of nodes of a fragment,
- * comparable to *size of unbalanced_share. */
+/* Returns the sum of |f| over the components f of all applied forces over the root of the number of nodes of a
+ * fragment, comparable to *size of unbalanced_share. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;

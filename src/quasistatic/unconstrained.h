@@ -5,20 +5,22 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Finds the unconstrained fragments for the present bonds, supports and contacts, with their free rigid motions, and
- * stores them in e->statics. An earlier list is freed. */
+/* Finds the unconstrained fragments for the present bonds, supports and contacts, and stores them with their free rigid
+ * motions in e->statics. A fragment is a connected part of the body; it is unconstrained if nothing resists some of its
+ * rigid motions. The list found before is freed. */
 void unconstrained_fragments_find(struct run *e);
 
 /* Frees the list of unconstrained fragments in *s. */
 void unconstrained_fragments_free(struct statics *s);
 
-/* Checks that the applied forces on each unconstrained fragment are balanced along its free rigid motions. solved: the
- * nodal forces are those of an equilibrium; if false, only loads on peridynamic particles are checked. step: number of
- * the load step, for the message. Returns FAILED, with position and size of the fragment, if they are not. */
+/* Checks that the applied forces on each unconstrained fragment are balanced along its free rigid motions. solved: true
+ * if the nodal forces are those of an equilibrium; if false, only loads on peridynamic particles are checked. step:
+ * number of the load step, for the message. Returns OK if they are balanced, else FAILED, with position and size of the
+ * fragment in the message. */
 status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool solved, int64_t step);
 
 /* Removes from the field v (nodal forces or displacements) its components along the free rigid motions of the
- * unconstrained fragments, by orthogonal projection. */
+ * unconstrained fragments (motions that nothing resists), by orthogonal projection. */
 void field_remove_free_rigid_motion(const struct statics *s, struct field *v);
 
 #endif

@@ -9,11 +9,11 @@
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if there is a mesh and its node I has mass. */
+/* Returns true if there is a mesh and its node I has mass, so that its displacement is unknown. */
 static bool node_has_mass(const struct mesh *mesh, int64_t I) { return mesh->points > 0 && mesh->grid.mass[I] > 0; }
 
-/* Returns an array [mesh->grid.n] that is 1 for mirror nodes, which follow their images and are no unknowns, else 0.
- * The caller frees it. */
+/* Returns an array [mesh->grid.n] that is 1 for mirror nodes, else 0. Mirror nodes are beyond a plane of symmetry and
+ * move as the images of other nodes, so that they are no unknowns. The caller frees the array. */
 static uint8_t *mirror_node_flags(const struct mesh *mesh)
 {
     uint8_t *follows = NEW("statics.follows", mesh->grid.n, uint8_t);
@@ -21,8 +21,9 @@ static uint8_t *mirror_node_flags(const struct mesh *mesh)
     return follows;
 }
 
-/* Lists the unknowns: peridynamic particles, then mesh nodes with mass. *particles: receives the number of particles.
- * node: receives the indices of particles and nodes; NULL: they are only counted. Returns the number of unknowns. */
+/* Lists the unknowns in node[]: the indices of the peridynamic particles, then those of the mesh nodes with mass.
+ * *particles: receives the number of particles among them. node = NULL: the unknowns are only counted. Returns their
+ * number. */
 static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, int32_t *node, int64_t *particles)
 {
     int64_t n = 0;
@@ -40,7 +41,8 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
     return n;
 }
 
-/* Marks component d of unknown k as held. load: number of the boundary that prescribes it; -1: a mirror does. */
+/* Marks component d of unknown k as prescribed. load: number of the boundary that prescribes it, -1 for a plane of
+ * symmetry. */
 static void component_hold(struct statics *s, int64_t k, int d, int load)
 {
     s->balance.held[k] |= (uint8_t)(1 << d);

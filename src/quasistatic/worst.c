@@ -17,8 +17,8 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar products of the loads at load time t with those at load time u [s]: product[DISPLACEMENTS] of the
- * prescribed displacements [m^2] and product[FORCES] of the applied forces [N^2]. */
+/* Computes the scalar products of the loads at time t with the loads at time u [s]: product[DISPLACEMENTS] for the
+ * prescribed displacements [m^2], product[FORCES] for the applied forces [N^2]. */
 static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
@@ -60,16 +60,17 @@ struct found {
     real largest, back, beside;
 };
 
-/* Replaces worst->largest, the time of the largest loads, by t [s] if the loads at t are larger. own: scalar product of
- * the loads at t with themselves; found->largest: largest such product so far, updated. */
+/* Sets worst->largest, the time at which the loads are largest, to t [s] if the loads at t are larger than all before.
+ * own: scalar product of the loads at t with themselves; found->largest: largest such product so far, updated. */
 static void largest_update(real t, real own, struct worst *worst, struct found *found)
 {
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Replaces worst->back, the time of the loads that point most against the largest ones, and worst->beside, the time of
- * those most perpendicular to them, by t [s] if the loads at t do so more. own: scalar product of the loads at t with
- * themselves; with: that with the largest loads; found: products so far, updated. */
+/* Sets worst->back, the time at which the loads point most against the largest ones, to t [s] if those at t do so more
+ * than all before; likewise worst->beside, the time at which they are most perpendicular to the largest ones. own,
+ * with: scalar products of the loads at t with themselves and with the largest loads; found: products so far,
+ * updated. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;
@@ -77,8 +78,8 @@ static void others_update(real t, real own, real with, struct worst *worst, stru
     if (beside > real_max(found->beside, square(SIDEWAYS) * size)) found->beside = beside, worst->beside = t;
 }
 
-/* Stores in t[] LOAD_TIMES evenly distributed times up to `end` [s], and the times in the tables of the loads before
- * `end`. t: NULL: count only. Returns the number of times. */
+/* Stores the times at which loads are sampled in t[] [s]: LOAD_TIMES evenly distributed times up to `end`, then the
+ * times in the tables of the loads before `end`. t = NULL: the times are only counted. Returns their number. */
 static int64_t load_times(const struct loads *loads, real end, real *t)
 {
     int64_t n = 0;
@@ -95,8 +96,9 @@ static int64_t load_times(const struct loads *loads, real end, real *t)
     return n;
 }
 
-/* Finds the times of the largest, most opposed and most perpendicular loads, worst[SORTS], and their scalar products,
- * found[SORTS], for displacements and for forces. */
+/* Finds the times at which the loads are largest, point most against the largest ones, and are most perpendicular to
+ * them. Stores the times in worst[SORTS] and scalar products of the loads in found[SORTS], separately for prescribed
+ * displacements and for applied forces. */
 static void worst_times_find(const struct run *e, struct worst *worst, struct found *found)
 {
     const int64_t n = load_times(&e->loads, e->scene->duration, NULL);
@@ -124,8 +126,8 @@ status engine_find_trial_equilibrium(struct run *e, real t)
     return unconstrained_fragments_check(e->statics, &e->part, true, e->clock.step + 1);
 }
 
-/* Finds the equilibrium at load time t [s]; NAN: does nothing. If its largest stretch ratio exceeds *ratio, it is
- * stored in *ratio and t in *at. Returns FAILED, with a message, if there is no equilibrium. */
+/* Finds the equilibrium at time t [s]; does nothing if t is NAN. If the largest ratio of stretch to critical stretch
+ * exceeds *ratio, stores it in *ratio and t in *at. Returns FAILED, with a message, if there is no equilibrium. */
 static status worst_try(struct run *e, real t, real *at, real *ratio)
 {
     if (isnan(t)) return OK;
