@@ -54,7 +54,8 @@ static bool in_foreign_box(const struct particles *p, const struct body_box *box
     return false;
 }
 
-/* Returns true if particle i is closer than `reach` [m] to the surface of one of the rigid bodies rigid[rigids]. */
+/* Returns true if particle i is closer than `reach` [m] to the surface of one of the rigid bodies rigid[0 .. rigids -
+ * 1]. */
 static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
@@ -64,8 +65,8 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
-/* Marks particle i as near another body: a material point is flagged for conversion (FLAG_NEAR), a peridynamic particle
- * is prevented from reverting for now. */
+/* Marks particle i as near another body. A material point is flagged for conversion (FLAG_NEAR); a peridynamic particle
+ * cannot revert to a material point for now. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)

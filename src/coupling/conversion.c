@@ -20,7 +20,7 @@ static void list_add(struct index_list *l, int64_t i)
 }
 
 /* Finds the particles and mirror images within the cutoff of bonds around particle i, and stores them in near->at. map:
- * map of the lattice sites of the bonds, which makes this faster; NULL: a search is done instead. */
+ * map from lattice sites to particles, which makes this faster; NULL: neighbours are searched for. */
 static void family_find(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
                         const struct particles *p, int64_t i)
 {
@@ -71,8 +71,8 @@ void convert_particles_at_precracks(struct particles *p, const struct bond_sourc
 
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
-/* Returns true if particle i is a material point that must convert because of its flags: it has lost a bond, is near
- * another body or, if the rule converts by stress, has exceeded its stress. */
+/* Returns true if particle i is a material point that must be converted because of its flags: it has lost a bond, is
+ * near another body or, if the rule converts by stress, has exceeded the stress at which points convert. */
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
     /* whatever the criteria, material points convert that lost a bond, as damage is stored in bonds alone, and that are
@@ -89,9 +89,9 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Appends to l the peridynamic particles with a bond to a material point that becomes stiffer when other bonds break,
- * so that the partial stress of the material points there changes. Appends none unless the model is state-based and
- * normalises by the present family (s->local). */
+/* Appends to l the peridynamic particles that have lost a bond and have a bond to a material point. In state-based
+ * models that normalise by the present family (s->local) their other bonds then become stiffer, so that the partial
+ * stress of the material points around them changes. Appends none in other models. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -113,9 +113,10 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the flagged material points and, if rule->block is set, all material points of their body within the cutoff.
- * Appends all of them to `changed` and clears the conversion flags of all particles. map: map of lattice sites; NULL:
- * neighbours are searched for; t: present time [s], which is stored at the first conversion. */
+/* Converts the material points whose flags require it and, if rule->block is set, also all material points of their
+ * body within the cutoff. Appends the converted points to `changed`, and clears the conversion flags of all particles.
+ * map: map from lattice sites to particles, NULL: neighbours are searched for; t: present time [s], stored in *c at the
+ * first conversion. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -155,9 +156,10 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates positions and velocities of all particles within the cutoff of the converted particles `changed`, before
- * bonds to them are made. Each particle is updated once, so that threads write different particles. sync: function that
- * updates listed particles; NULL: none needs it; map: map of lattice sites; NULL: neighbours are searched for. */
+/* Updates positions and velocities of the converted particles `changed` and of all particles within the cutoff of them,
+ * before bonds to these are made. Each particle is updated once, so that threads write different particles. sync:
+ * function that updates listed particles, NULL if none needs it; map: map from lattice sites to particles, NULL:
+ * neighbours are searched for. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

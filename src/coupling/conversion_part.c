@@ -16,23 +16,24 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
 }
 
 /* Returns true if a material point may have been flagged for conversion in this step, or a bond may have changed, so
- * that conversion must be tested. Points on the grid do not record flags; cells of the mesh record whether one of their
- * points is flagged. */
+ * that all flags must be tested. Points on the grid do not record that they are flagged; cells of the mesh record it
+ * for their points. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
            r->levels.returned || mesh_exceeds_conversion_stress(&r->mesh);
 }
 
-/* Updates positions and velocities of those of the n particles list[k] that are points of the mesh. A function for
- * struct conversion_sync; context: the run. */
+/* Updates positions and velocities of those of the n particles list[k] that are points of the mesh. context: the run
+ * (struct run). It is a callback of struct conversion_sync. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
     frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
-/* Requests a search for contact for the n particles list[k], which have become peridynamic. context: the run. */
+/* Requests a contact search for the n particles list[k], which have become peridynamic. context: the run (struct run).
+ * It is a callback of struct conversion_sync. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
@@ -81,8 +82,8 @@ int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examine
     return converted;
 }
 
-/* Sets c->bonded[i] to 1 for material points i with intact bonds to peridynamic particles (PD-MPM bonds), else to 0.
- * Needed for FLIP only. c->bonded becomes NULL if there are no bonds. */
+/* Sets c->bonded[i] to 1 for material points i with intact bonds to peridynamic particles, else to 0; c->bonded becomes
+ * NULL if there are no bonds. Needed for FLIP only. */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
     if (b->rows == 0) { /* all particles have reverted: no material point has bonds */

@@ -13,15 +13,15 @@ static void region_add(struct region *r, const struct solid *s)
 }
 
 /* Returns true if X[dim] [m], a position at an end of crack c, is inside the body: if a particle is within one spacing
- * of it and no mirror continues the crack there. An end outside the body is the mouth of a notch. */
+ * of X, and no plane of symmetry continues the crack there. Outside the body an end is the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !mirrors_continue_crack_end(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_find_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
-/* Adds a ball of `radius` [m] around end k of pre-crack c to region r, if this end is inside the body. In 3D it is a
- * cylinder around the edge from corner k to the next corner. */
+/* Adds a ball of `radius` [m] around end k of pre-crack c to region r, if this end is inside the body. In 3D adds a
+ * cylinder around the edge from corner k to the next corner instead. */
 static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
                                const struct crack *c, int k, real radius)
 {

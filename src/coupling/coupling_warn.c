@@ -26,7 +26,8 @@ static void name_add(struct name_list *l, const char *name)
         snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
-/* Warns of bodies in the reference frame, whose material points have no contact with other bodies. */
+/* Warns, naming the bodies, that the material points of bodies in the reference frame have no contact with other
+ * bodies. */
 static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
     struct name_list names = {0};
@@ -40,8 +41,8 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
                  names.text, names.all > 1 ? "are" : "is");
 }
 
-/* Warns of missing contact between several bodies, depending on the method. approaches: true if particles convert when
- * bodies approach each other, so that the bodies have contact. */
+/* Warns that several bodies have no contact with each other, with the consequence for the method of the scene.
+ * approaches: true if particles convert when bodies approach each other, so that they have contact. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {
@@ -66,8 +67,8 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                                                         : "the coupling is a different one");
 }
 
-/* Returns true if particles i and j start with the same velocity, as parts of bodies meant to be joined; colliding
- * bodies do not. */
+/* Returns true if particles i and j start with nearly the same velocity: parts of bodies that are meant to be joined
+ * do, colliding bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;

@@ -21,9 +21,9 @@ static bool interface_zone_is_free(const struct particles *p, int32_t j)
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[j] to `as` for unmarked particles j within `radius` [m] of the n particles list[k] and of the same body,
- * whose velocity damping may change. With `as` = POINT only material points are marked. Threads that reach the same
- * particle write the same value. */
+/* Sets mark[j] to `as` for the unmarked particles j within `radius` [m] of the n particles list[k] that are of the same
+ * body and whose velocity damping may change. If `as` is POINT, only material points are marked. Threads that reach the
+ * same particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -49,17 +49,17 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles i with mark[i] = `as`, in ascending order, to the members of the interface zone. slot[i]:
- * receives the index of particle i among the members; n: number of particles. */
+/* Appends the particles i with mark[i] = `as`, in ascending order, to r->particle, the members of the interface zone.
+ * slot[i]: receives the index of particle i among the members; n: number of particles. */
 static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
         if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* Finds the members of the interface zone: its material points, which are near peridynamic particles, and then their
- * neighbours outside it. mark[p->n]: 0 before, receives the mark of each particle; slot[p->n]: receives the index of
- * each member. */
+/* Lists the members of the interface zone in r->particle: first its material points, those near peridynamic particles,
+ * then the neighbours of these outside the zone. mark[p->n]: 0 before, receives the mark of each particle; slot[p->n]:
+ * receives the index of each member. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
@@ -71,9 +71,10 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the neighbours of member k of the interface zone in pairs of which at least one is a material point of the
- * zone. mark, slot: as from members_make; to: receives the indices of these neighbours among the members, in the order
- * of particles; NULL: they are only counted; near: working memory. Returns their number. */
+/* Finds the neighbours of member k of the interface zone with which it forms a pair: one of both must be a material
+ * point of the zone, and no pre-crack may separate them. mark, slot: as from members_make; to: receives the indices of
+ * these neighbours among the members, in the order of particles, NULL: they are only counted; near: working memory.
+ * Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
 {
@@ -153,8 +154,8 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e to sum[dim], with the unit vector e from the present position of particle i to that of j.
- * a, b: velocities of i and j [dim]. */
+/* Adds factor ((b - a) . e) e to sum[dim], with the unit vector e from the present position of particle i to that of
+ * particle j. a[dim], b[dim]: vectors of i and of j, such as their velocities. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -173,8 +174,8 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes m d of member k in r->difference [kg m/s]: its mass m times d, the sum of the velocity differences to its
- * neighbours along the lines to them, times r->scale. */
+/* Computes m d of member k of the interface zone, and stores it in r->difference [kg m/s]. m: its mass; d: r->scale
+ * times the sum over its neighbours of their velocity relative to it along the line to them. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -188,8 +189,8 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Computes the change of momentum of member k by damping, in r->change [kg m/s]. share: strength of the damping [1].
- * The terms of the two members of a pair are bitwise opposite, so that momentum is conserved. */
+/* Computes the change of momentum of member k by damping, and stores it in r->change [kg m/s]. share: strength of the
+ * damping [1]. What the two members of a pair exchange is bitwise opposite, so that momentum is conserved. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -201,8 +202,9 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* Returns the second half of the energy that damping removed [J]: -1/2 times the sum over members of change of momentum
- * times present velocity. The first half is that sum with the velocities before the step. */
+/* Returns the second half of the energy that damping has removed [J]: -1/2 sum dp . v over the members, with their
+ * change of momentum dp and their present velocity v. The first half is this sum with the velocities before the
+ * step. */
 real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

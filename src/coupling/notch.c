@@ -16,16 +16,16 @@ enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
 /* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Stores the end points of edge e of crack c in *from and *to: in 3D two corners of its polygon, in 2D twice the end e
- * of its segment. The crack may grow from these edges. */
+/* Stores the end points of edge e of crack c in *from and *to. In 3D they are two corners of its polygon; in 2D both
+ * are end e of its segment. These edges are those from which the crack may grow. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
 }
 
-/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. It does not beyond
- * the mouth of a notch. */
+/* Returns true if the body continues beyond edge e of crack c, away from the middle of the crack. At the mouth of a
+ * notch it does not. */
 static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
 {
     real middle[DIM_MAX] = {0};
@@ -57,8 +57,8 @@ struct crack_edges {
 
 enum { EDGES_MAX = 64 };
 
-/* Returns crack c with the set of its edges that are inside the body. radius: radius of the peridynamic zones around
- * these edges [m]. */
+/* Returns the set of edges of crack c that are inside the body, together with the crack and `radius`, the radius of the
+ * peridynamic zones around these edges [m]. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -91,7 +91,7 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     return crack_cuts_bond(c, a, b, p->dim);
 }
 
-/* Returns true if crack c is within the cutoff of bonds of particle i. */
+/* Returns true if crack c is so near particle i that it may cut a bond of it, i.e. within the cutoff. */
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
@@ -120,8 +120,8 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-/* Counts the particles whose bonds a crack cuts outside the peridynamic zones around its ends, and those of them that
- * are in no mesh. */
+/* Counts the particles that lose bonds by a crack and are outside the peridynamic zones around its edges (member
+ * `particles`), and those of them that are not points of a mesh (member `elsewhere`). zone: the crack and its zones. */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -141,8 +141,8 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     return (struct flanks){particles, elsewhere};
 }
 
-/* Returns the reason, as text, why pre-crack c cannot be a slit (doubled nodes) of the mesh; NULL if it can. radius:
- * radius of the peridynamic zones around its ends [m]. */
+/* Returns a text with the reason why pre-crack c cannot be a slit, along which nodes of the mesh are doubled; NULL if
+ * it can. radius: radius of the peridynamic zones around its ends [m]. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
@@ -156,7 +156,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
     return NULL;
 }
 
-/* Returns true if particle i is within the cutoff of bonds of a slit or of the mirror image of one. */
+/* Returns true if particle i is so near a slit, or the mirror image of one, that this may cut a bond of it. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)
@@ -164,9 +164,9 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Stores in n->lost[i] the fraction of the volume of the family of particle i (its neighbours within the cutoff) that
- * slits separate from it [1]. near: working memory. Returns true if a slit separates the particle from one of its
- * nearest neighbours. */
+/* Stores in n->lost[i] the volume of those neighbours of particle i within the cutoff that slits separate from it, over
+ * the volume of all these neighbours [1]. near: working memory. Returns true if a slit separates the particle from one
+ * of its nearest neighbours. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -190,8 +190,9 @@ static bool beside_void(const struct bond_source *source, int64_t i)
     return particle_is_beside_void(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Stores in n->lost for every particle the fraction of its family that slits separate from it [1], and lists in n->face
- * the particles beside a slit or a narrow void, with their depth below its surface in n->depth [m]. */
+/* Stores in n->lost for every particle the fraction of the volume of its neighbours that slits separate from it [1].
+ * Lists in n->face the particles beside a slit or a narrow void. n->depth: receives for each of these its depth below
+ * the surface of the void, 0 at a slit [m]. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -259,9 +260,9 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which two particles on both sides of a void become peridynamic [m]: VOID_AHEAD spacings
- * before contact, but less than their distance at the start. Returns 0 if no void is between them. k, l: entries of the
- * particles in n->face. */
+/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]; 0
+ * if no void is between them. It is reached when the faces of the void are VOID_AHEAD spacings apart, but is less than
+ * the initial distance of the particles. k, l: indices of the particles in n->face. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -271,8 +272,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Returns the distance below which two particles on both sides of a slit or void become peridynamic [m]; 0 if no slit
- * or void is between them. face, other: entries of the particles in n->face. */
+/* Returns the distance below which two particles on both sides of a slit or void are converted to peridynamic particles
+ * [m]; 0 if no slit or void is between them. face, other: indices of the particles in n->face. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -297,8 +298,8 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns the largest present distance [m] of two particles whose distance after the time `ahead` [s] may be below that
- * of meeting_distance. Two particles approach each other by at most twice the largest speed of all. */
+/* Returns an upper bound of the present distance of two particles that may be nearer than their meeting_distance after
+ * the time `ahead` [s], in [m]. Two particles approach each other by at most twice the largest speed of all. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

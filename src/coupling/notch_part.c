@@ -8,8 +8,8 @@
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the reason, as text, why pre-cracks of scene s may not be slits (doubled nodes) of the mesh; NULL if nothing
- * in the scene prevents it. */
+/* Returns a text with the reason in scene s why pre-cracks may not be slits, along which nodes of the mesh are doubled;
+ * NULL if nothing in the scene prevents it. */
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
@@ -21,8 +21,8 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Returns the reason, as text, why pre-cracks may not be slits (doubled nodes) of the mesh, from the scene, the
- * reference frame or the grid; NULL if nothing prevents it. */
+/* Returns a text with the reason why pre-cracks may not be slits, along which nodes of the mesh are doubled: from the
+ * scene, the reference frame or the grid. NULL if nothing prevents it. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -31,8 +31,8 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
-/* Returns REFUSED, with a message that contains the reason, if the scene requires pre-cracks to be slits (doubled
- * nodes) of the mesh and a pre-crack cannot be one. */
+/* Returns REFUSED, with the reason in the message, if the scene requires that pre-cracks are slits, along which nodes
+ * of the mesh are doubled, and one of them cannot be. Returns OK otherwise. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
@@ -73,8 +73,8 @@ void notch_describe_representation(const struct notches *n, int crack, real spac
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Flags material points beside slits and narrow voids whose faces approach each other (FLAG_NEAR), every APPROACH_STEPS
- * steps. Returns true if faces were examined in this step. */
+/* Flags material points beside slits and narrow voids whose faces approach each other for conversion (FLAG_NEAR), once
+ * in APPROACH_STEPS steps. Returns true if faces were examined in this step. */
 bool flag_points_at_closing_slits(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;

@@ -16,8 +16,8 @@ struct reflection {
     int64_t root;
 };
 
-/* Returns the reflection that maps a particle of the body to entry i of the particle arrays, a mirror image; the
- * identity if i itself is a particle of the body. */
+/* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image i, an entry
+ * of the particle arrays. It is the identity if i itself is a particle of the body. */
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t i);
 
 /* Derivative of the force F of a bond by a uniform strain eps, times the length of the bond [N m]. With the unit vector
@@ -27,28 +27,30 @@ struct response {
     real central, pressure, vector;
 };
 
-/* Returns the derivative of the force of a bond in the row of particle i by a uniform strain (struct response). */
+/* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond. i: particle in whose
+ * row the bond is. */
 struct response bond_strain_response(const struct particles *p, const struct bonds *b, const struct bond_source *source,
                                      int32_t i, const struct bond *bond);
 
-/* Adds to the tensor `tensor` [J] the contribution of the bond from `point`, a material point, to `other`, in
- * proportion to the share of its length inside the cell with the centre `centre` and half edge `half_edge`: T_abcd = l
- * e_b dF_a/deps_cd, with that length l, the unit vector e along the bond and its force F; symmetric in ab and in cd.
- * response: derivative of the force. */
+/* Adds the contribution of a bond to the tensor T = `tensor` of a cell [J], by which bonds reduce the stiffness of the
+ * cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l: length of the bond inside the cell; e: unit vector
+ * along the bond; F: its force. point, other: positions of its material point and of its other particle, dim components
+ * each [m]; centre, half_edge: centre and half edge of the cell [m]; response: r dF/deps, with the length r of the
+ * bond. */
 void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
                              struct response response, int dim);
 
-/* Limits the tensor `tensor` of material point i [J], by which state-based bonds reduce the stiffness of its cell, so
- * that the elastic energy of the point stays positive (partial_positive.c). mean_strain_derivative: receives the
+/* Reduces the tensor `tensor` of material point i [J], by which state-based bonds reduce the stiffness of its cell, as
+ * far as needed for a positive elastic energy of the point (partial_positive.c). mean_strain_derivative: receives the
  * derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the point has no
  * bonds. Returns true if it has bonds. */
 bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                       const struct bonds *b, const struct bond_source *source, int64_t i);
 
-/* Limits the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
- * cell, so that no eigenvalue of V C - `tensor` is negative. V, C: volume and elastic tensor of the point. Otherwise
- * the cell would be unstable with any time step. The limit has an effect only if particles are not on a lattice or
- * bonds are stiffer than the material. */
+/* Reduces the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
+ * cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and elastic tensor of the point.
+ * A cell with a negative eigenvalue would be unstable with any time step. This has an effect only if particles are not
+ * on a lattice or bonds are stiffer than the material. */
 void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *source,
                                      int64_t i);
 
@@ -60,17 +62,18 @@ real particle_half_edge(const struct particles *p, const struct bond_source *sou
  * particles are not on lattices. */
 struct partial_table;
 
-/* Creates the table of the shares of bonds inside cells for the particles p, empty if they are not on lattices. size:
- * number of values of one tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
+/* Creates the table of the shares of bonds inside cells for the particles p. It is empty if they are not on lattices or
+ * have too many bond vectors. size: number of values of the tensor T, by which bonds reduce the stiffness of a cell.
+ * Release with partial_table_free. */
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *source, int size);
 
 /* Releases the table t. */
 void partial_table_free(struct partial_table *t);
 
-/* Returns true if the table t is not empty, i.e. if particles are on lattices. */
+/* Returns true if the table t is not empty, i.e. if particles are on lattices and have few enough bond vectors. */
 bool partial_table_is_filled(const struct partial_table *t);
 
-/* Returns true if the table can be used for every particle: all have the volume of a lattice cell. */
+/* Returns true if the table t can be used for every particle, because all have the volume of a lattice cell. */
 bool partial_table_covers_all(const struct partial_table *t);
 
 /* Returns true if particle i has the volume of a lattice cell, so that the table can be used for it. */

@@ -52,8 +52,8 @@ static void rotate(real *M, real *Z, int n, int p, int q)
     }
 }
 
-/* Returns true if the symmetric matrix M[n][n] has a Cholesky factor, so that all eigenvalues are positive. This is
- * true for most points, and twenty times cheaper than the eigenvalues. */
+/* Returns true if all eigenvalues of the symmetric matrix M[n][n] are positive, i.e. if it has a Cholesky factor. This
+ * is true for most points, and twenty times cheaper to find than the eigenvalues. */
 static bool is_positive(const real *M, int n)
 {
     real F[SYM_MAX * SYM_MAX];
@@ -85,14 +85,14 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the scale of symmetric component c: 1 for normal components, sqrt(2) for shear components, which occur twice
- * in a tensor. A matrix over symmetric components that are multiplied by these factors has the eigenvalues of its
- * tensor. */
+/* Returns the factor on symmetric component c of a tensor, 1 for normal components, sqrt(2) for shear components, which
+ * occur twice in a tensor. A matrix over symmetric components with these factors on its rows and columns has the
+ * eigenvalues of its fourth-order tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Reduces T [J], the part of the stiffness of a point that its bonds replace, so that V C + q L L - T has no negative
- * eigenvalue. C: elastic constants of material m; V: volume of the point [m^3]; q: stiffness [J]; L: symmetric
- * components [1]. */
+/* Reduces T [J], the part of the stiffness of a point that its bonds replace, such that V C + q L L - T has no negative
+ * eigenvalue. C: elastic tensor of material m; V: volume of the point [m^3]; q: stiffness of its bonds against a change
+ * of their mean strain [J]; L: derivative of the mean strain by the strain of the cell, symmetric components [1]. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_component_count(dim);

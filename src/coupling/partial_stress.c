@@ -25,8 +25,8 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the fraction of the segment from a to b that is inside the cube with centre X and half edge half_edge [m]
- * [1]. a, b, X: [dim] [m]. */
+/* Returns the fraction of the segment from a[dim] to b[dim] that is inside a cube [1]. X[dim]: centre of the cube;
+ * half_edge: half of its edge; all positions and lengths in [m]. */
 real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
 {
     real in = 0, out = 1;
@@ -111,7 +111,8 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
-/* Returns the bounding box of all intact bonds of row `row`, in the reference configuration [m]. */
+/* Returns the bounding box of the intact bonds in row `row` (bonds of one particle), in the reference configuration
+ * [m]. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};
@@ -136,9 +137,9 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds to T the contributions of all bonds of material point (or mirror image) j to the cell with centre X[dim] and
- * half edge `half` [m] that they cross. box[rows]: bounding boxes of the bonds of each row, by which most rows are
- * skipped. */
+/* Adds to T the contributions of those bonds of material point (or mirror image) j that cross a cell with the centre
+ * X[dim] and half edge `half` [m]. T: stiffness that bonds add to the cell times its volume [J]. box[rows]: bounding
+ * boxes of the bonds of each row, by which most rows are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -166,8 +167,8 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T V of point i [J], the stiffness that bonds add to its cell, from the bonds of all rows nearby, one by one;
- * for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
+/* Computes T, the stiffness that bonds add to the cell of point i times its volume [J], from all bonds nearby one by
+ * one; for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
  * memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
@@ -181,9 +182,9 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* Computes the matrix M = T C^-1/V over symmetric components, so that M sigma is the part of the stress sigma of point
- * i that bonds carry. T: stiffness that bonds add to its cell, times its volume V [J]; a shear strain counts twice in T
- * : eps. Returns false if no bond crosses the cell of the point. */
+/* Computes the matrix M = T C^-1/V over symmetric components: M sigma is the part of the stress sigma of point i that
+ * bonds carry. C, V: elastic tensor and volume of the point; T: stiffness that bonds add to its cell times V [J]; a
+ * shear strain counts twice in T : eps. Returns false if no bond crosses the cell of the point. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -200,18 +201,20 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Returns the number of values that are stored for a point: those of the matrix M, and for state-based models also
- * those of the tensor L. */
+/* Returns the number of values that are stored for a point: those of the matrix M (share of its stress that bonds
+ * carry), and for state-based models also those of the tensor L (derivative of its mean strain by the strain of its
+ * cell). */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_component_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the values stored for point i under state-based models, the matrix M and then the tensor L, into entry[]. T:
- * stiffness that bonds add to its cell, times its volume [J]; limited here. Returns false if the point needs no entry.
- * In hand-shake coupling (partial->gives_all) a point transmits all its stress itself: M and L are 0, and the entry
- * only marks a point with PD-MPM bonds. */
+/* Computes the values stored for point i of a state-based model, entry[]: the matrix M (share of its stress that bonds
+ * carry), then the tensor L (derivative of its mean strain by the strain of its cell). T: stiffness that bonds add to
+ * its cell times its volume [J]; reduced here if necessary. Returns false if the point needs no entry. In hand-shake
+ * coupling (partial->gives_all) a point transmits all its stress itself: M and L are 0, and the entry only marks a
+ * point with bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -222,8 +225,9 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the values stored for point i under bond-based models, the matrix M, into entry[]. T: stiffness that bonds
- * add to its cell, times its volume [J]; limited here. Returns false if no bond crosses the cell of the point. */
+/* Computes the values stored for point i of a bond-based model, the matrix M (share of its stress that bonds carry),
+ * into entry[]. T: stiffness that bonds add to its cell times its volume [J]; reduced here if necessary. Returns false
+ * if no bond crosses the cell of the point. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_bond_based(T, p, s, i);
@@ -281,9 +285,9 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the points and rows whose entries must be recomputed after the n particles changed[k] have changed; changed
- * NULL: after all peridynamic particles have. table: table of bond responses on a lattice, which makes the list of rows
- * unnecessary. Release r with renewal_free. */
+/* Finds the points whose stored values must be recomputed after the n particles changed[k] have changed (changed =
+ * NULL: all peridynamic particles have), and the rows whose bonds may cross the cells of these points. table: table of
+ * bond responses on a lattice; if it serves all particles, no rows are listed. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
@@ -322,8 +326,8 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores the matrix M (`size` values) and the tensor L that follows it (`local` values) for point i, in a new entry if
- * the point has none. */
+/* Stores `size` values of the matrix M and `local` values of the tensor L, which follow them at M + size, for point i.
+ * The point gets a new entry if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -335,8 +339,8 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries once they are the majority. Conversion creates entries and reversion abandons them. size,
- * local: numbers of values of M and L in an entry. */
+/* Removes the unused entries of the arrays once they are the majority: conversion creates entries, and reversion leaves
+ * them unused. size, local: numbers of values of the matrix M and the tensor L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -374,8 +378,8 @@ static void touch(struct partial_stress *partial, int64_t i)
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Computes the entries of all material points in the list r->list, in parallel. entry: [r->n][values of an entry];
- * crossed[k]: set to true if the point r->list[k] needs an entry. */
+/* Computes the values stored for all material points in the list r->list, in parallel. entry: receives r->n times the
+ * values of an entry; crossed[k]: set to true if the point r->list[k] needs an entry. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {

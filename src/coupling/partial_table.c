@@ -53,7 +53,7 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of sites of table t: (2 reach + 1)^dim. */
+/* Returns the number of lattice sites of table t: (2 reach + 1)^dim, those of a cube with the point in the middle. */
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
     int64_t n = 1;
@@ -61,7 +61,8 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Computes at[dim], the offset of site number `place` from the middle of the table [spacings]. */
+/* Computes at[dim], the offset of site number `place` from the middle of the table [spacings]. The sites of the table
+ * are those of a cube, (2 reach + 1)^dim. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -77,8 +78,8 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Returns the number of the site at position to[dim] [m] relative to the site at `from`, or -1 if it is out of
- * reach. */
+/* Returns the number in the table of the site at which the position to[dim] is seen from the position from[dim] [m],
+ * the middle of the table; -1 if it is outside the table. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
@@ -93,8 +94,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers the vectors of all bonds not longer than `cutoff` [m] in t->vector, and lists the sites at these vectors from
- * the middle in t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
+/* Numbers the vectors of all bonds not longer than `cutoff` [m], in the order of the sites to which they lead from the
+ * middle of the table, in t->vector. Lists these sites and the middle in t->near. If there are more than VECTORS_MOST
+ * vectors, t->vectors becomes VECTORS_MOST + 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -125,7 +127,8 @@ static int direction_of(const struct partial_table *t, int vector)
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
-/* Computes t->mirror: the number of each bond vector after reflection along any set of axes. */
+/* Computes t->mirror: for each set of axes and each bond vector the number of the vector after reflection along these
+ * axes. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -138,9 +141,9 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Processes the bond from the middle of the table to site k. For each cell that it crosses, a crossing is counted if
- * `count` is true, else stored, by the site where the bond starts relative to the cell. next: by site, the counts, or
- * the position of the next crossing in the list. */
+/* Examines the bond from the middle of the table to site k. For each cell that it crosses, counts a crossing if `count`
+ * is true, else stores it in t->crossing. Crossings are sorted by the site at which the bond starts as seen from the
+ * cell. next[site + 1] receives the counts; when crossings are stored, next[site] is the position of the next one. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -164,8 +167,8 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Makes the list of crossings of bonds with the cell of a point, t->crossing, sorted by the site where the bond
- * starts. */
+/* Makes t->crossing, the list of all ways in which a bond can cross the cell of a point, sorted by the site where the
+ * bond starts relative to the point, and t->start, the range of each site. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -181,7 +184,8 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: the tensor T of a whole bond of each direction, for a unit value of each part of its response. */
+/* Computes t->tensor: for each direction of bonds the tensor T of a bond of which the whole length is inside the cell,
+ * for a unit value of each part of its response (struct response). */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -201,7 +205,8 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Returns true if the particles of each body, with their mirror images, are on one lattice of the given spacing [m]. */
+/* Returns true if the particles of each body, with their mirror images, are on one lattice with the spacing `spacing`
+ * [m]. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
     int64_t first[BODIES_MOST];
@@ -274,7 +279,8 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Extends the array of bond responses so that `open` rows can have entries in it at the same time. */
+/* Extends the array of bond responses so that `open` rows of bonds can have an entry in it. A row holds the bonds of
+ * one particle. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -288,8 +294,8 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Assigns an entry of the array of bond responses to particle i, a released one if possible. Does nothing if it has
- * one. */
+/* Assigns an entry of the array of bond responses (struct responses) to particle i, a released one if possible. Does
+ * nothing if the particle has one. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -305,8 +311,8 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes response[vectors][parts], the responses to strain of the bonds of row `row`, by the number of the bond's
- * vector. It is 0 for broken bonds and for vectors without a bond. */
+/* Computes response[vectors][parts]: the responses to strain (struct response) of the bonds in row `row`, at the number
+ * of each bond's vector. They are 0 for broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -382,8 +388,8 @@ struct crossing_row {
 };
 
 /* Adds to sum[directions][parts] the responses of the bonds of a row, each times the fraction of the bond inside the
- * cell of a point. place: number of the site of the row relative to the point; response: responses of the row; signs:
- * bit d is set if the reflections of an image reverse axis d; parts: t->parts, a compile-time constant. */
+ * cell of a point. place: number in the table of the site of the row as seen from the point; response: responses of the
+ * row; signs: axes that the reflections of an image reverse, as bits; parts: t->parts, a compile-time constant. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -395,7 +401,7 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches the bond responses that sum_row reads for this row. */
+/* Prefetches the bond responses that sum_row reads for the row of bonds *row. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -403,7 +409,8 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds to T, for each direction of bonds and part of a response, its tabulated tensor times sum[directions][parts]. */
+/* Adds sum_k sum[k] tensor_k to T. k: direction of bonds and part of their response; tensor_k: the tensor of a unit
+ * response in that direction, from the table; sum[directions][parts]: summed responses. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -418,9 +425,9 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts particle or image j into the list to[n], which is ascending by j, if it is (the image of) a material point
- * with bond responses. place: number of its site relative to the point whose cell is examined. Returns the new length
- * of the list. */
+/* Inserts particle or image j into the list to[n], which is ascending by j, if the particle, or the one that j mirrors,
+ * is a material point with bond responses. place: number in the table of the site of j as seen from the point whose
+ * cell is examined. Returns the new length of the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -432,9 +439,9 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists in `to` the rows whose bonds may cross the cell of point i, found by the map l of lattice sites, in ascending
- * order of particles and images. Sites are visited in ascending order of particles, so that insertion costs time for
- * images alone. Returns the number of rows. */
+/* Lists in `to` the rows whose bonds may cross the cell of point i, in ascending order of particles and images, and
+ * returns their number. l: map from lattice sites to particles, by which they are found. Sites are visited in ascending
+ * order of particles, so that only images must be inserted between others. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -448,8 +455,8 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists in `to` the rows whose bonds may cross the cell of point i, found by a neighbour search, in ascending order of
- * particles and images. near: working memory. Returns the number of rows. */
+/* Lists in `to` the rows whose bonds may cross the cell of point i, in ascending order of particles and images, and
+ * returns their number. They are found by a neighbour search. near: working memory. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

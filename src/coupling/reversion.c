@@ -20,8 +20,8 @@ struct search {
     struct neighbour_list near;
 };
 
-/* Finds particle i and the particles of its body within `radius` [m], and stores them in s->near. Mirror images are
- * replaced by their sources. */
+/* Finds the particles of the body of particle i within `radius` [m] of it, including i, and stores them in s->near. A
+ * mirror image is replaced by the particle that it mirrors. */
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
@@ -33,7 +33,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Returns true if mark[] is not 0 for particle i or for a particle of its body within `radius` [m]. */
+/* Returns true if mark[i] is not 0, or mark[j] of a particle j of the same body within `radius` [m] of particle i. */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -44,7 +44,8 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 }
 
 /* Returns true if the largest principal stress of particle i is less than rule->low_stress times the stress at which it
- * would convert. The virial stress of a family that a surface truncates is scaled to that of a full family. */
+ * would be converted. The stress of a particle whose neighbours are incomplete, at a surface, is divided by the volume
+ * share of those that exist. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -82,9 +83,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
 }
 
 /* Sets bound[i] to 1 for peridynamic particles that must stay so: those with a particle marked in `held` within the
- * cutoff, or with one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles that have a
- * peridynamic particle j with bound[j] = 0 within the cutoff; they are candidates for the centre of a ball without
- * bound particles. All arrays: [p->n]. */
+ * cutoff, or with one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i that have a
+ * peridynamic particle j with bound[j] = 0 within the cutoff. Only such particles can be the centre of a ball, as large
+ * as the cutoff, without bound particles. All arrays: [p->n]. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -109,8 +110,9 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] to 1 for the particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
- * if `meeting` is true, or that have none if it is false. Sets mark[i] to 0 for all others. */
+/* Sets mark[i] to 1 for those particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
+ * (`meeting` true), or that have no such particle (`meeting` false). Sets mark[i] to 0 for all others. Arrays:
+ * [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -157,7 +159,8 @@ static void rows_swap(real *a, real *b, int n)
 }
 
 /* Solves A x = b for n unknowns and `columns` right sides by elimination with pivots. A[n][n] is overwritten; x
- * replaces b[n][columns]. Returns false if A is singular, i.e. if a family has too few directions. */
+ * replaces b[n][columns]. Returns false if A is singular, as it is if the bonds of a particle have too few
+ * directions. */
 static bool reversion_solve(real *A, real *b, int n, int columns)
 {
     real largest = 0;
@@ -208,8 +211,9 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the contribution of a bond of particle or image j to stress and derivative in the cell `to`. The row at
- * the other end of the bond adds the other half. r: reflection that maps the source of the image j to j. */
+/* Adds half of what a bond contributes to stress and derivative in the cell *to. The bond is in the row of r->root,
+ * seen from particle or image j; the row of its other particle adds the other half. r: reflection that maps the
+ * particle r->root of the body to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -241,9 +245,10 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes stress and derivative of the cell of particle i from all bonds that cross it: sigma = (1/V) sum l F (x) y
- * and T = (1/V) sum k r l e e e e, with the fraction l of the reference segment inside the cell (partial_stress.c).
- * sigma is the flux of momentum through the cell. The virial of the particle's family is equal under uniform strain,
+/* Computes the stress sigma = (1/V) sum l F (x) y and its derivative T = (1/V) sum k r l e e e e of the cell of
+ * particle i from all bonds that cross it. l: share of the bond's reference length inside the cell (partial_stress.c);
+ * F, y: its force and present vector; k, r, e: its stiffness, reference length and direction; V: volume of the cell.
+ * sigma is the flux of momentum through the cell. The virial of the bonds of particle i is equal under uniform strain,
  * but smooths a wave over twice the distance. near: working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
@@ -270,9 +275,9 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Replaces the stress of bonds across the cell of particle i, `stress` [Pa], by that of full families under the same
- * strain T^-1 stress. T: derivative of this stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged
- * if T is singular. */
+/* Replaces the stress of the bonds across the cell of particle i, `stress` [Pa], by that of a body with all bonds under
+ * the same strain, T^-1 stress. T: derivative of the given stress by a uniform strain [Pa], overwritten. Leaves the
+ * stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -284,9 +289,9 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Computes the stress of particle i as a material point, in symmetric components [Pa]: the stress of the bonds across
- * its cell. For state-based models it is the virial stress of the family, since a single bond has no force of its own
- * there. near: working memory. */
+/* Computes the stress that particle i gets as a material point, in symmetric components [Pa]. In bond-based models it
+ * is the stress of the bonds that cross its cell. In state-based models it is the virial stress of its own bonds, since
+ * a single bond has no force of its own there. near: working memory. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {

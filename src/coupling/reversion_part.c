@@ -9,8 +9,8 @@
 #include "contact/contact.h"
 #include "run/energies.h"
 
-/* Returns the number of steps between two checks for reversion, at least 1. In these steps a wave travels one horizon,
- * which is half of a family, so that no wave crosses a family between two checks. */
+/* Returns the number of steps between two checks which particles revert to material points, at least 1. A wave travels
+ * one horizon in these steps, half of the diameter of a family, so that none crosses a family between two checks. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {
@@ -42,8 +42,8 @@ static real energy_now(struct run *e)
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Reverts the n peridynamic particles list[k] to material points, and adds the change of elastic and kinetic energy by
- * this to conversion.reversion_energy of the coupling. */
+/* Reverts the n peridynamic particles list[k] to material points. Adds the change of elastic and kinetic energy by this
+ * to conversion.reversion_energy of e->coupling. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);

@@ -26,15 +26,16 @@ struct closed {
     int64_t n, first;
 };
 
-/* Counts particle i as one beside a void whose sides the grid joins, and stores it if it is the first one. */
+/* Counts particle i in *to, as one beside a void across which the grid joins the sides, and stores it as to->first if
+ * it is the first one. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;
 }
 
-/* Finds material points beside narrow voids in bodies whose surface is known, where the grid joins the sides of the
- * voids. uncut: true if voids do not divide the mesh of the reference frame either; else points of this mesh are left
- * out. */
+/* Counts the material points beside narrow voids across which the grid joins the sides, in bodies whose surface is
+ * known, and returns their number with the first one. uncut: true if voids do not divide the mesh of the reference
+ * frame; if false, points of this mesh are left out. */
 static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
     struct closed found = {0};
@@ -44,8 +45,8 @@ static struct closed closed_on_grid(const struct particles *p, const struct void
     return found;
 }
 
-/* Computes the distances from particle i to its nearest neighbours along the axes, next[2 dim] [m]: for each axis in
- * negative, then in positive direction; INFINITY if there is none. near: neighbours of i. */
+/* Computes next[2 dim] [m], the distances from particle i to its nearest neighbours along each axis, first in negative,
+ * then in positive direction; INFINITY if there is none. near: neighbours of particle i. */
 static void next_along(const struct particles *p, int64_t i, const struct neighbour_list *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
@@ -60,8 +61,9 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
     }
 }
 
-/* Finds particles of body b, whose surface is not known, beside empty lattice sites in a gap narrower than `reach` [m].
- * Returns n = 0 if the particles are not on a lattice. */
+/* Counts the particles of body b beside gaps of its lattice (empty sites) that are narrower than `reach` [m], and
+ * returns their number with the first one. For bodies whose surface is not known. Returns n = 0 if the particles are
+ * not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {
