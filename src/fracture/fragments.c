@@ -14,8 +14,8 @@ static int32_t fragment_leader(int32_t *leader, int32_t i)
     return i;
 }
 
-/* Joins the trees of both particles of every intact bond in the union-find structure leader[p->n], initially
- * leader[i] = i. Of both roots, that with the lower index becomes the leader. Bonds to mirror images are left out. */
+/* Joins both particles of every intact bond in the union-find structure leader[p->n], in which initially leader[i] = i.
+ * Of both roots, that with the lower index becomes the leader of both trees. Bonds to mirror images are left out. */
 static void join_ends(int32_t *leader, const struct bonds *b, const struct particles *p)
 {
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
@@ -48,8 +48,8 @@ static void add_particle(struct fragment *f, const struct particles *p, int32_t 
     for (int d = 0; d < p->dim; d++) f->x[d] += p->mass[i] * p->x[d][i], f->v[d] += p->mass[i] * p->v[d][i];
 }
 
-/* Divides the sums of each fragment by its mass, which gives mean position and velocity. Removes fragments of a
- * single particle from the list, and counts them in f->singles and f->mass_singles. */
+/* Divides the sums of position and velocity of each fragment by its mass. Removes fragments of a single particle from
+ * the list; their number and mass are added to f->singles and f->mass_singles. */
 static void leave_singles(struct fragments *f)
 {
     int64_t kept = 0;
@@ -65,8 +65,8 @@ static void leave_singles(struct fragments *f)
     f->n = kept;
 }
 
-/* Allocates f->of[n] and stores for each particle the number of its fragment in the list, or -1 if it is in none.
- * leader[n]: union-find structure of the particles. */
+/* Stores in f->of[n], which is allocated here, the number of the fragment of each particle, or -1 if it is in none of
+ * the list. leader[n]: union-find structure of the particles. */
 static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
 {
     int32_t *number = BARE("fragments.number", n, int32_t);

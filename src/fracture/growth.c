@@ -27,8 +27,9 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates the target speed of the tip from new stress-intensity factors `control`, by one secant step of the
- * crack-tip equation of motion K = k(v) K_c, smoothed in time. settling: time constant T of the smoothing [s]. */
+/* Updates g->target_speed, the target speed of the tip, by one secant step of the crack-tip equation of motion K = k(v)
+ * K_c, smoothed in time. K: stress-intensity factor g->intensity; k(v): factor of a crack at speed v; K_c: toughness.
+ * control: elastic constants and time of the new factors; settling: time constant T of the smoothing [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -43,9 +44,9 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the filtered speed of the tip by its speed in the last step of length dt [s], and its target speed from
- * new stress-intensity factors at time t [s]. control: these factors; if NULL, the target speed becomes 0. horizon:
- * of the bonds [m]. Must be called before g->speed is overwritten. */
+/* Updates g->filtered_speed by the speed of the tip in the last step of length dt [s], and g->target_speed from
+ * stress-intensity factors at time t [s]. control: these factors; if it is NULL, the target speed becomes 0. horizon:
+ * horizon of the bonds [m]. Must be called before g->speed is overwritten. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -63,7 +64,8 @@ static void target_speed_update(struct growing_crack *g, const struct growth_con
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
 /* Returns true if the crack grows at time t [s]: it has started and is shorter than its final length. If
- * stress-intensity factors control it, its target speed must also be positive, or its factor reach the toughness. */
+ * stress-intensity factors control it, then also its target speed must be positive or, at a prescribed speed, its
+ * factor must reach the toughness. */
 static bool grows(const struct growing_crack *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -73,8 +75,8 @@ static bool grows(const struct growing_crack *g, real t)
     return g->intensity >= r->toughness;
 }
 
-/* Sets the heading of the tip to the direction of the largest hoop stress. control: stress-intensity factors K_I,
- * K_II and the present direction of the crack. */
+/* Sets g->heading, the direction in which the tip moves, to that of the largest hoop stress. control: stress-intensity
+ * factors K_I, K_II and the direction of the crack to which they refer. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
     const real angle = crack_kink_angle_of_sif(control->factors.K), c = cos(angle), s = sin(angle);
@@ -82,8 +84,8 @@ static void growth_turn(struct growing_crack *g, const struct growth_control *co
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-/* Moves the tip by `increment` [m] along its heading. The crack direction g->along turns to the heading over the
- * smoothing length, by default horizon/4 [m]. */
+/* Moves the tip by `increment` [m] along g->heading. The direction g->along, to which stress-intensity factors refer,
+ * turns to the heading over the smoothing length g->rule->smoothing, by default a quarter of `horizon` [m]. */
 static void growth_advance(struct growing_crack *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
@@ -100,7 +102,7 @@ static void growth_advance(struct growing_crack *g, real increment, real horizon
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
-/* Returns true if the bond from particle i to particle j is in the list of fading bonds: bonds behind the tip whose
+/* Returns true if the bond from particle i to particle j is in g->fading, the list of bonds behind the tip whose
  * weights decrease as the crack grows. The bond from j to i is a separate entry. */
 static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
 {
@@ -109,16 +111,16 @@ static bool fades(const struct growing_crack *g, int32_t i, int32_t j)
     return false;
 }
 
-/* Appends the bond from particle i to particle j, of weight w, to the list of fading bonds, whose weights decrease
- * as the crack grows. length: growth of the crack when its tip crosses the bond [m]. */
+/* Appends the bond from particle i to particle j to g->fading, the bonds whose weights decrease as the crack grows. w:
+ * present weight of the bond [1]; length: growth of the crack when its tip crosses the bond [m]. */
 static void fading_add(struct growing_crack *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Appends the intact bonds of particle i that cross `path`, the last increment of the tip, to the list of fading
- * bonds. Bonds that are already in the list are skipped. */
+/* Appends the intact bonds of particle i that cross `path` to g->fading, the bonds whose weights decrease as the crack
+ * grows. path: last increment of the tip. Bonds that are already in the list are skipped. */
 static void cross_row(struct growing_crack *g, const struct bonds *b, const struct particles *p,
                       const struct crack *path, int32_t i)
 {
@@ -132,8 +134,9 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles around `from` within the cutoff of bonds plus the distance from `from` to `to` [m]. *found:
- * receives an allocated list of their indices, which the caller frees. Returns their number. */
+/* Finds the particles that may have bonds across the segment from .. to [m]: those within its length plus the cutoff of
+ * bonds around `from`. *found: receives an allocated list of their indices, which the caller frees. Returns their
+ * number. */
 static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                      int32_t **found)
 {
@@ -160,8 +163,9 @@ static int claim(const struct growing_crack *g, struct particles *p, const struc
     return claimed;
 }
 
-/* Appends the bonds that the tip crosses on its path from `from` [m] to its present position to the list of fading
- * bonds, with both entries of each bond and with bonds across mirrors. */
+/* Appends the bonds that the tip has crossed between `from` [m] and its present position to g->fading, the bonds whose
+ * weights decrease as the crack grows. Both directed bonds of a pair are appended, and also bonds across planes of
+ * symmetry. */
 static void cross(struct growing_crack *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -183,8 +187,8 @@ static void cross(struct growing_crack *g, const struct bonds *b, struct particl
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the bond from i to j in the arrays of b, prepared for writing, or -1 if the bond is no longer
- * stored. *row: receives the row of particle i. */
+/* Returns the index of the directed bond from particle i to j in the arrays of b, where it may be written, or -1 if the
+ * bond is no longer stored. *row: receives the row of particle i. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -193,8 +197,8 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Sets the weights of the fading bonds back to those of the previous step. Bonds that load has broken since then are
- * removed from the list. */
+/* Sets the weights of the fading bonds (g->fading) back to those of the previous step, so that fade can book losses
+ * from there. Bonds that load has broken since then are removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -209,11 +213,11 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading bonds to w0 (1 - grown/damping)^exponent, with `grown` the growth of the crack
- * since its tip crossed the bond. The energy lost is booked at the present positions: half of the loss of the
- * previous step and half of that of this step. Rows change one after the other, each from its weights of the
- * previous step, so that the losses sum to the whole energy. Returns the number of directed bonds whose weight
- * becomes 0. */
+/* Reduces the weights of the fading bonds (g->fading) to w0 (1 - grown/damping)^exponent, with `grown` the growth of
+ * the crack since its tip crossed the bond and w0 the weight then. The energy lost is booked at the present positions:
+ * half of the loss of the previous step and half of that of this step. Bonds change one after the other, each from its
+ * weight of the previous step, so that the losses sum to the whole energy. f: family, with the default of `damping`,
+ * half the horizon. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;

@@ -8,8 +8,8 @@
 #define EQUAL_POSITION 1e-6      /* tolerance of equal coordinates [reach] */
 enum { POSITIONS_MOST = 16384 }; /* limit of the number of positions: all pairs are compared */
 
-/* Returns true if positions a and b are at most `reach` apart [m]. Only the distance perpendicular to the vector
- * along[dim] counts; if that is 0, the whole distance does. */
+/* Returns true if the positions a and b are at most `reach` apart [m]. Only their distance perpendicular to the vector
+ * along[dim] counts, or the whole distance if that vector is 0. */
 static bool places_near(const struct place *a, const struct place *b, int dim, real reach, const real *along)
 {
     real apart[DIM_MAX];
@@ -52,8 +52,8 @@ static int64_t groups_number(const struct place *place, int64_t n, int dim, real
     return groups;
 }
 
-/* Computes middle[dim], the mean of the positions in group number `which` that are not marked `beside` [m]. If all
- * of them are farther than `reach` [m] from the mean, as in a ring, the position nearest to it is stored instead.
+/* Computes middle[dim], the mean [m] of those positions in group number `which` whose member `beside` is not set. If
+ * all of them are farther than `reach` [m] from the mean, as in a ring, the position nearest to it is stored instead.
  * group[n]: group of each position. */
 static void group_middle(const struct place *place, const int32_t *group, int64_t n, int32_t which, int dim, real reach,
                          real *middle)

@@ -29,9 +29,9 @@ void sif_contour_weight(enum sif_weight form, const struct contour *c, real dist
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the integrand of the interaction integral that the gradient of the weight function q multiplies, per area,
- * for a unit gradient along n [Pa]: the mutual energy flux of the actual motion a and the auxiliary motion b.
- * density: of the material [kg/m^3]. */
+/* Returns the first integrand of the interaction integral, which the gradient of the weight function q multiplies, per
+ * area and for a unit gradient along n [Pa]. It is the mutual energy flux of the actual motion a and the auxiliary
+ * motion b. density: density of the material [kg/m^3]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -45,8 +45,8 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Returns the inertial integrand of the interaction integral, per area and for the weight q = 1 [Pa/m]. a: actual
- * motion; b: auxiliary motion; density: of the material [kg/m^3]. */
+/* Returns the second, inertial integrand of the interaction integral, which the weight function q multiplies, per area
+ * and for q = 1 [Pa/m]. a: actual motion; b: auxiliary motion; density: density of the material [kg/m^3]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -113,9 +113,9 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of n contours, and
- * allocates s->point for them. In equilibrium, particles within the smallest inner radius contribute nothing and are
- * left out. */
+/* Lists in s->particle the particles of the tip's body within the outer radius of the largest of the n contours
+ * contour[n], and allocates s->point for them. Without inertia and loads inside the contours, particles within the
+ * smallest inner radius contribute nothing and are left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -130,8 +130,8 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
-/* Computes state->stress of particle i in the axes of the crack [Pa]: by Hooke's law from state->gradient if
- * tip->stress is SIF_HOOKE, else from the stress in m. */
+/* Computes state->stress of particle i in the axes of the crack [Pa]: from state->gradient by Hooke's law if
+ * tip->stress is SIF_HOOKE, else by rotating the stress in m. m: motion of the particles. */
 static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
                              struct crack_state *state)
 {
@@ -174,7 +174,8 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
-/* Computes gradients and fields of all listed particles around the tip, s->point. rule: how gradients are computed. */
+/* Computes s->point, the fields of all listed particles around the tip, with their gradients. m: motion of the
+ * particles; rule: how gradients are computed; c: search cells of the particles. */
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
                         const struct particles *p, const struct cells *c)
 {
@@ -202,8 +203,9 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Adds the interaction integrals over the listed particles first .. end - 1 to sum[3]: with the auxiliary fields of
- * modes I and II, then of the actual motion with itself. context: a struct sif_points. */
+/* Adds the interaction integrals over the entries first .. end - 1 of s->particle to sum[3]: of the actual motion with
+ * the auxiliary fields of modes I and II, then with itself. context: the points (struct sif_points). reproducible_sums
+ * calls it for each block of particles. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;

@@ -36,9 +36,9 @@ void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2
 
 /* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
-/* Computes the angular functions g of the displacements u = K sqrt(r/(2 pi))/(2 G) g(theta) around a crack tip at
- * rest, and slope = dg/dtheta (Williams 1957). kappa: Kolosov's constant [1]; theta: angle from the crack direction
- * [rad]. */
+/* Computes g[2] and slope[2] = dg/dtheta of the displacements u = K sqrt(r/(2 pi))/(2 G) g(theta) around the tip of a
+ * crack at rest (Williams 1957). K, G: stress-intensity factor and shear modulus; r, theta: distance from the tip and
+ * angle from the crack direction [rad]; kappa: Kolosov's constant [1]; mode: I or II. */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
 {
     const real c = cos(0.5 * theta), s = sin(0.5 * theta);
@@ -68,16 +68,16 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
-/* Computes a[0] = sqrt(1 - v^2/c_d^2) and a[1] = sqrt(1 - v^2/c_s^2) for tip speed v, with the speeds c_d of
- * dilatational and c_s of shear waves [1]. */
+/* Computes a[0] = sqrt(1 - v^2/c_d^2) and a[1] = sqrt(1 - v^2/c_s^2) [1] for the tip speed v [m/s], where c_d and c_s
+ * are the speeds of dilatational and shear waves in the material m. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
 {
     a[0] = sqrt(1 - square(v / m->longitudinal));
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 for tip speed v [m/s], with a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 -
- * v^2/c_s^2) [1]. Its root is the Rayleigh speed. */
+/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2 [1] for the tip speed v [m/s], with a_d = sqrt(1 - v^2/c_d^2) and a_s =
+ * sqrt(1 - v^2/c_s^2) and the speeds c_d and c_s of dilatational and shear waves. D is 0 at the Rayleigh speed. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
@@ -85,9 +85,10 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* Computes weight[i][w], the coefficients of dilatational (w = 0) and shear (w = 1) waves in the displacements
- * around a tip of speed v [m/s]: u_i = Re or Im of sum_w weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. a[2]: the
- * factors a_w = sqrt(1 - v^2/c_w^2) with the wave speeds c_w. */
+/* Computes weight[i][w], the coefficients in the displacements around a tip of speed v [m/s]: u_i is the real part (i =
+ * 0 in mode I, i = 1 in mode II) or the imaginary part (else) of sum_w weight[i][w] sqrt(z_w), with the complex number
+ * z_w = x_1 + a_w x_2 sqrt(-1). w: 0 dilatational, 1 shear waves; a[2]: the factors a_w = sqrt(1 - v^2/c_w^2) with the
+ * wave speeds c_w. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
@@ -151,9 +152,9 @@ static real factor_angle(const struct crack_medium *m, real z)
     return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
 }
 
-/* Returns the factor k(v) of the stress-intensity factor of a crack that grows at constant speed v [1], by numerical
- * integration. The integrand has square roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in
- * phi, where the midpoint rule converges faster than any power. */
+/* Returns the factor k(v) by which the speed v changes the stress-intensity factor of a crack that grows at constant
+ * speed [1], by numerical integration. The integrand has square roots at both ends. The substitution z = middle - half
+ * cos(phi) makes it smooth and periodic in phi, where the midpoint rule converges faster than any power. */
 static real factor_exact(const struct crack_medium *m, real v)
 {
     enum { POINTS = 256 };

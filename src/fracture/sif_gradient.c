@@ -19,8 +19,8 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
     return false;
 }
 
-/* Returns true if a crack or a broken bond is between particles i and j, so that neither contributes to the gradient
- * at the other. s: the cracks and bonds. */
+/* Returns true if a crack or a broken bond is between particles i and j: then neither contributes to the gradient at
+ * the other. s: cracks and bonds that are considered. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
     return cracks_separate_particles(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
@@ -28,9 +28,9 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Returns the distance r of particles i and j [m]. If a crack or a broken bond is between them, returns r
- * (r_tip/r)^diffraction instead, with the length r_tip of the path through the tip, or INFINITY if rule->diffraction
- * is 0. */
+/* Returns the distance r of particles i and j, by which their weights in gradients decrease [m]. If a crack or a broken
+ * bond is between them, returns r (r_tip/r)^diffraction instead, where r_tip is the length of the path through the tip,
+ * or INFINITY if rule->diffraction is 0. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -61,7 +61,7 @@ static bool factor(real A[QUADRATIC][QUADRATIC], int n)
     return true;
 }
 
-/* Solves L D L^T x = y for n unknowns in place: x replaces y. A: its lower triangle contains the factors L and D. */
+/* Solves L D L^T x = y for n unknowns; x replaces y. The lower triangle of A contains the factors L and D (factor). */
 static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
 {
     for (int k = 0; k < n; k++)
@@ -80,17 +80,19 @@ static real spline(real s)
     return s < 2 ? 0.25 * (2 - s) * (2 - s) * (2 - s) : 0;
 }
 
-/* Computes the polynomials b = (1, x, y, x^2, xy, y^2). (x, y): offset from particle i to j, divided by `scale` [m]. */
+/* Computes the terms b = (1, x, y, x^2, xy, y^2) of a quadratic polynomial, where (x, y) is the vector from particle i
+ * to particle j over `scale` [m]. */
 static void basis(const struct particles *p, int64_t i, int32_t j, real scale, real b[QUADRATIC])
 {
     const real x = (p->X[0][j] - p->X[0][i]) / scale, y = (p->X[1][j] - p->X[1][i]) / scale;
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* Computes the moment matrix A = P^T W P of moving least squares around particle i (Belytschko et al. 1994; their
- * order of the factors does not conform). Replaces the weights W, in weight[k][0], by gradient weights, in
- * weight[k][0 .. 1]: the rows of A^-1 P^T W for the linear terms. k: neighbour in s. scale: length of the
- * polynomials [m]; terms: LINEAR or QUADRATIC. Returns false, with W unchanged, if A is singular. */
+/* Computes gradient weights of particle i by moving least squares (Belytschko et al. 1994; their order of the factors
+ * does not conform). On entry weight[k][0] of the stencil s is the weight W_k of neighbour k. It is replaced by
+ * weight[k][0 .. 1], the rows of A^-1 P^T W for the linear terms, with the moment matrix A = P^T W P of the polynomials
+ * P. scale: unit of length of the polynomials [m]; terms: LINEAR or QUADRATIC, their number. Returns false, with W
+ * unchanged, if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
@@ -110,9 +112,9 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
     return true;
 }
 
-/* Computes the gradient weights of particle i by moving least squares over its neighbours in s. s->order: receives 2
- * for quadratic polynomials, 1 for linear ones if those are not possible, 0 for none. Neighbours behind cracks are
- * removed from s. */
+/* Computes the gradient weights of particle i by moving least squares over its neighbours in s. Neighbours behind
+ * cracks are removed from s. s->order: receives 2 if the polynomials are quadratic, 1 if only linear ones are possible,
+ * 0 if none are. */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -162,7 +164,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
 
 /* ---- public functions -------------------------------------------------------------------------------------------- */
 
-/* Ensures room for `capacity` neighbours in the stencil s; its contents are lost if it must grow. */
+/* Makes room for `capacity` neighbours in the stencil s. Its contents are lost if it must grow. */
 static void stencil_room(struct gradient_stencil *s, int capacity)
 {
     if (capacity <= s->room) return;

@@ -45,8 +45,8 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of the particles at[n] is damaged. Combines the bits of their damages instead of comparing
- * numbers, which is faster. */
+/* Returns true if one of the particles at[0 .. n - 1] is damaged. The bits of their damages are combined instead of
+ * comparing numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
@@ -57,9 +57,9 @@ static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
     return any != 0;
 }
 
-/* Returns the start of the first piece of the list of peridynamic particles that contains a particle with damage above
- * TIP_DAMAGE, or the length of the list if there is none. A piece has up to TIP_PIECE entries; the search starts at
- * entry `first`, the start of a piece. */
+/* Searches the list of peridynamic particles for damage above TIP_DAMAGE, in pieces of TIP_PIECE entries. Returns the
+ * index of the first entry of the first piece that contains such a particle, or the length of the list if there is
+ * none. first: entry at which the search starts, the first of a piece. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -81,15 +81,16 @@ static void flood_label(struct flood *f, int32_t i, int tip)
     f->queue[f->queued++] = i;
 }
 
-/* Returns the number of the crack of which crack `tip` has become a part, or `tip` itself if it has not been joined. */
+/* Returns the number of the crack into which crack number `tip` has been merged in this sample, or `tip` itself if it
+ * has not been merged. */
 static int tips_root_of(const struct flood *f, int tip)
 {
     while (f->into[tip] != tip) tip = f->into[tip];
     return tip;
 }
 
-/* Joins cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate. Else one
- * becomes part of the other: a crack without a pre-crack of one with, the later one of the earlier one. */
+/* Merges cracks number a and b, which touch. Two cracks that both start at ends of pre-cracks stay separate. Otherwise
+ * a crack that starts at no pre-crack is merged into one that does, or the later crack into the earlier one. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -100,8 +101,8 @@ static void flood_join(struct flood *f, int a, int b)
     f->grown_by[keep] = true;
 }
 
-/* Assigns all damaged particles that are connected with a particle in the queue to the crack of that particle, in
- * the order of the queue, and empties the queue. Cracks that touch are joined. */
+/* Takes the particles of the queue one after the other, and assigns all damaged particles that are connected with them
+ * to the same crack. Cracks that touch are merged. The queue is empty afterwards. */
 static void flood_run(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -122,8 +123,8 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* Returns the number of the crack whose start, the end of a pre-crack, is nearest to particle i within TIP_START_REACH
- * spacings, or -1 if there is none. */
+/* Returns the number of the crack whose start is nearest to particle i, among cracks that start at the end of a
+ * pre-crack in the body of i. Returns -1 if none starts within TIP_START_REACH spacings. */
 static int start_near(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -139,8 +140,8 @@ static int start_near(const struct crack_tips *t, const struct particles *p, int
     return nearest;
 }
 
-/* Returns the lowest number of a crack that particle i touches, i.e. with a particle within TIP_TOUCH spacings, or -1
- * if there is none. */
+/* Returns the lowest number of a crack that has a particle within TIP_TOUCH spacings of particle i, in the same body;
+ * -1 if there is none. */
 static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
@@ -156,7 +157,7 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* Returns the number of the crack whose tip is nearest to particle i; used if there is no room for more tips. */
+/* Returns the number of the crack whose tip is nearest to particle i. It is used if there is no room for more tips. */
 static int tip_nearest(const struct crack_tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -171,7 +172,7 @@ static int tip_nearest(const struct crack_tips *t, const struct particles *p, in
 
 /* Starts a new crack at the most damaged of the newly damaged particles that belong to no crack, and assigns the
  * damaged particles connected with it. If there is no room for more tips, they are assigned to the crack with the
- * nearest tip. Returns false if all newly damaged particles belong to a crack already. */
+ * nearest tip instead. Returns false, without a change, if all newly damaged particles belong to a crack. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -196,8 +197,8 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that became part of others from the list of tips and from the record of growth, and renumbers the
- * remaining ones and the labels of particles. */
+/* Removes the cracks that have been merged into others from the list of tips and from the record of their growth.
+ * Renumbers the remaining cracks and the labels of particles. */
 static void flood_close_ranks(struct flood *f)
 {
     struct crack_tips *t = f->t;
@@ -219,8 +220,9 @@ static void flood_close_ranks(struct flood *f)
     t->n = kept;
 }
 
-/* Initialises the assignment of a sample: lists in f->fresh, in the order of the list of peridynamic particles, the
- * damaged particles that belong to no crack yet. Release with flood_free. */
+/* Prepares the assignment of damaged particles to cracks in one sample: lists in f->fresh the damaged particles that
+ * belong to no crack yet, in the order of the list of peridynamic particles. t: cracks; c: search cells of the
+ * particles. Release with flood_free. */
 static void flood_make(struct flood *f, struct crack_tips *t, const struct particles *p, const struct cells *c)
 {
     const int32_t *list = p->list[KIND_PD];
@@ -244,9 +246,9 @@ static void flood_free(struct flood *f)
     memory_free(f->search.found);
 }
 
-/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: (1) the start of a
- * crack, or a particle of a crack, is near; (2) a damaged particle that is connected with it belongs to a crack; (3)
- * a new crack begins. */
+/* Assigns every newly damaged particle to a crack, by the first of these rules that applies: (1) the start of the
+ * crack, or a particle of the crack, is near the particle; (2) a damaged particle connected with the particle belongs
+ * to the crack; (3) a new crack begins at the particle. */
 static void flood_all(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -265,7 +267,8 @@ static void flood_all(struct flood *f)
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
 /* Updates position, growth and times of a tip from the extent r of its crack at time `time` [s]. took_in: true if
- * another crack has become part of this one; the jump in growth then counts as joined, not as grown. */
+ * another crack has been merged into this one. A jump in growth is then added to tip->joined, so that it does not count
+ * for the speed. */
 static void tip_move(struct crack_tip *tip, const struct tip_reach *r, const struct crack_tips *t, real time,
                      bool took_in)
 {
@@ -298,7 +301,7 @@ static real regression(const struct crack_tips *t, int k, int64_t first, int64_t
     return spread > 0 ? both / spread : NAN;
 }
 
-/* Returns the index of the first sample at or after `time` [s], or of the last sample. */
+/* Returns the index of the first sample of t at or after `time` [s], or of the last sample if all are earlier. */
 static int64_t sample_at(const struct crack_tips *t, real time)
 {
     int64_t s = 0;
@@ -362,7 +365,8 @@ void tips_update(struct crack_tips *t, const struct particles *p, const struct c
 /* ---- queries ----------------------------------------------------------------------------------------------------- */
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
- * tip, 0 to 180 [degree], or NAN if the crack has not grown. */
+ * tip, 0 to 180 [degree]; NAN if the crack has not grown. dim: number of dimensions; in 3D only the part perpendicular
+ * to the crack front counts. */
 real tip_angle(const struct crack_tip *tip, int dim)
 {
     if (!(tip->growth > 0)) return NAN;
@@ -376,8 +380,8 @@ real tip_angle(const struct crack_tip *tip, int dim)
     return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
 }
 
-/* Returns the tip with the largest growth, or NULL if no crack has grown. Of equally long ones the first is returned,
- * so that round-off does not choose between the halves of a symmetric crack. */
+/* Returns the tip with the largest growth, or NULL if no crack has grown. Of several with equal growth, up to
+ * round-off, the first is returned: round-off then does not choose between the halves of a symmetric crack. */
 const struct crack_tip *tips_longest(const struct crack_tips *t)
 {
     const struct crack_tip *longest = NULL;

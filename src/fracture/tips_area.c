@@ -17,8 +17,8 @@ static int64_t strips_of(const struct crack_tips *t, const struct crack_tip *tip
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
-/* Returns the number of the strip that contains position X [m]. The front of a pre-crack is divided into strips
- * about one spacing wide. Positions beyond the ends of the front are in the nearest strip. */
+/* Returns the number of the strip of a crack that contains the position X [m]. The front of the pre-crack at `tip` is
+ * divided into strips about one spacing wide. Positions beyond the ends of the front count to the nearest strip. */
 static int64_t strip_at(const struct crack_tips *t, const struct crack_tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -36,7 +36,8 @@ struct ahead {
     int64_t cell;
 };
 
-/* Finds the nearest front of a pre-crack in body number `body`, and how far position X [m] is ahead of it. */
+/* Finds the front of a pre-crack in body number `body` that is nearest to the position X [m]. Returns its tip, -1 if X
+ * is not ahead of it, and the distance of X from it [cells of one spacing]. */
 static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
@@ -54,10 +55,10 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
     return found;
 }
 
-/* Sets cell[] = 1 for the cells that contain a particle with more damage than `least`. The front of a pre-crack is
- * divided into strips about one spacing wide, and a strip into `deepest` cells of one spacing ahead of the front.
- * first[k]: first strip of tip k. cell: NULL to set no marks. Returns the largest distance of such a particle ahead
- * of its front [cells]. */
+/* Sets cell[] = 1 for the cells that contain a particle with more damage than `least`. The fronts of pre-cracks are
+ * divided into strips about one spacing wide, and a strip ahead of the front into `deepest` cells of one spacing.
+ * first[k]: number of the first strip of tip k; strip s has the cells from cell[s * deepest] on. cell = NULL: no cell
+ * is marked. Returns the largest distance of such a particle from its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {

@@ -14,8 +14,8 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
  * neither damaged nor part of a crack, so that whole pieces of the list can be skipped. */
 enum { TIP_PIECE = 64 };
 
-/* Returns the end of a piece of the list of peridynamic particles of p: first + TIP_PIECE, or the length of the list if
- * that is smaller. first: index of the first element of the piece. */
+/* Returns the index after the last entry of a piece of the list of peridynamic particles of p, which is tested at once:
+ * first + TIP_PIECE, or the length of the list if that is smaller. first: index of the first entry of the piece. */
 static inline int64_t tip_list_piece_end(const struct particles *p, int64_t first)
 {
     return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];

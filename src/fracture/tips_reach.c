@@ -9,9 +9,9 @@
  * (pre-crack). */
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
-/* Returns the start of the first piece of the list of peridynamic particles that contains a particle of a crack, or the
- * length of the list if there is none. A piece has up to TIP_PIECE entries; the search starts at entry `first`, the
- * start of a piece. */
+/* Searches the list of peridynamic particles for particles of cracks, in pieces of TIP_PIECE entries. Returns the index
+ * of the first entry of the first piece that contains one, or the length of the list if there is none. first: entry at
+ * which the search starts, the first of a piece. */
 static int64_t next_of_crack(const struct crack_tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -51,8 +51,8 @@ struct ahead {
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
 
-/* Calls visit(a, i, tip) for every particle i that belongs to crack number `tip`, in the order of the list of
- * peridynamic particles. */
+/* Calls visit(a, i, tip) for every particle i that belongs to a crack, where `tip` is the number of the crack, in the
+ * order of the list of peridynamic particles. */
 static void each_of_crack(struct ahead *a, of_crack_fn *visit)
 {
     const int32_t *list = a->p->list[KIND_PD];
@@ -62,7 +62,8 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
-/* Adds particle i to crack number `tip`: to its number of particles, and to the largest distance from its start. */
+/* Adds particle i to the extent of crack number `tip` in a->reach: to its number of particles, and to the largest
+ * distance from its start. */
 static void extent_find(struct ahead *a, int32_t i, int tip)
 {
     struct tip_reach *r = &a->reach[tip];
@@ -70,8 +71,8 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-/* If particle i is at most one spacing less far from the start of its crack than the farthest particle, counts it in
- * a->n[tip] and stores its position in a->place[tip], unless that is NULL. tip: number of the crack. */
+/* If particle i is farthest from the start of crack number `tip`, or at most one spacing less far than the farthest
+ * particle, counts it in a->n[tip]. Its position is stored in a->place[tip], unless that is NULL. */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;

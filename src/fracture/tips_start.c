@@ -9,8 +9,8 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the particles, mirror images included, within `radius` of the position X [m]; the radius is limited to the
- * edge length of the search cells. Writes their indices to s->found, which grows as needed and is freed by the
+/* Finds the particles, mirror images included, within `radius` of the position X [m]; the radius is reduced to the edge
+ * of the search cells if it is larger. Writes their indices to s->found, which grows as needed and is freed by the
  * caller. Returns their number. */
 int tip_search_find_near(struct tip_search *s, const real *X, real radius)
 {
@@ -38,8 +38,8 @@ real segment_offset_of_point(const real *centre, const real *half, const real *X
 
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
-/* Returns true if position X [m] is within half a spacing of a pre-crack other than number `self`. It is then a
- * corner or a branch of a longer cut, and no tip. crack[cracks]: pre-cracks of the scene. */
+/* Returns true if the position X [m] is within half a spacing of a pre-crack other than number `self`. It is then a
+ * corner or a branch of a longer cut, from which no crack grows. crack[cracks]: pre-cracks of the scene. */
 static bool on_another(const struct crack_tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -54,8 +54,8 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
     return false;
 }
 
-/* Returns the number of the body in which a crack that ends at X [m] could grow in direction `along`, or -1 if fewer
- * than two free particles are ahead of X. */
+/* Returns the number of the body in which a crack that ends at X[] [m] could grow in the direction `along` (unit
+ * vector), or -1 if fewer than two particles of free motion are ahead of X. */
 static int body_ahead(const struct crack_tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];
