@@ -70,9 +70,10 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Returns the largest squared frequency [1/s^2] of a free rigid body with particles in contact on both sides: one
- * particle per spacing of each face, with a stiffness of 2 k each. m: material of the particles; stiffness: k over
- * the squared particle volume [N/m^7]; volume: of a particle [m^3]. Returns 0 if no rigid body is free. */
+/* Returns the largest squared frequency of a free rigid body with particles in contact on both sides [1/s^2]; 0 if no
+ * rigid body is free. It assumes one particle for each spacing of both faces, with a contact stiffness of 2 k each. m:
+ * material of the particles; stiffness: k over the squared particle volume [N/m^7]; volume: volume of a particle
+ * [m^3]. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -123,9 +124,10 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Evaluates contact for all rows of the contact list (particles that may come into contact) in parallel. With the
- * form `surface` only the gaps are computed, and faces_force adds the forces afterwards; with the form `pair` the
- * forces are added to p->f. all: receives number of contacts, largest overlap and its particle. dt: time step [s]. */
+/* Computes contact for all rows of the contact list (particles that may come into contact) in parallel. If the law has
+ * the form `surface`, only the gaps are computed, and faces_force adds the forces afterwards; if it has the form
+ * `pair`, the forces are added to p->f. all: receives number of contacts, largest overlap and its particle. dt: time
+ * step [s]. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
@@ -146,8 +148,9 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
     }
 }
 
-/* Adds the contact forces of form `surface`, friction included, to p->f, in two passes over the rows of the contact
- * list. Gaps must have been computed by rows_sweep. dt: time step [s]. */
+/* Adds the contact forces of a law of the form `surface`, friction included, to p->f, in two passes over the rows of
+ * the contact list (particles that may come into contact). rows_sweep must have computed the gaps. dt: time step
+ * [s]. */
 static void faces_force(struct contact *c, struct particles *p, real dt)
 {
 #pragma omp parallel
@@ -203,8 +206,8 @@ struct contact_sum {
     const struct particles *p;
 };
 
-/* Returns the contact energy of row `row` of the contact list [J], as a term of a sum over rows. context: a struct
- * contact_sum. */
+/* Returns the contact energy of row `row` of the contact list (particles that may come into contact) [J], as a term of
+ * a sum over rows. context: contact and particles (struct contact_sum). */
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
@@ -222,9 +225,9 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the array *array to the archive a if a->saving, else frees it, allocates it anew and restores it from a.
- * name: name of the entry in the archive; count: number of elements of `size` bytes. Returns the status of the
- * archive. */
+/* Saves the array *array to the archive a if a->saving, else frees it, allocates it anew and restores it from a. name:
+ * name of the entry in the archive; count: number of elements; size: bytes of an element. Returns FAILED if the archive
+ * cannot be read or written or the stored size differs. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
@@ -234,7 +237,7 @@ status contact_array_save_or_load(struct archive *a, const char *name, void **ar
     return count > 0 ? a->exchange(a, name, *array, (size_t)count * size) : OK;
 }
 
-/* Returns FAILED, with a message, if an index of the restored contact list is out of range. */
+/* Returns OK if all indices of the restored contact list c are in their ranges, else FAILED, with a message. */
 static status contact_check(const struct contact *c, const struct particles *p)
 {
     bool good = c->rows <= c->n && c->first[0] == 0 && c->first[c->rows] == c->pairs;

@@ -23,8 +23,9 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Computes the density of a face at height s [spacings] above one of its particles, and its derivative by s. The
- * density is a weighted number of particles nearby; the face is a layer of a square or cubic lattice. */
+/* Computes the density of a face at height s [spacings] above one of its particles, and its derivative by s. The face
+ * is one layer of a square or cubic lattice, in 1D a single particle. Its density at a position is the number of its
+ * particles nearby, weighted by a kernel that decreases with their distance. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -49,9 +50,10 @@ void contact_density_profile_make(struct contact_profile *profile, int dim)
     }
 }
 
-/* Returns the depth [spacings] of a point below the surface of a face from the density there (weighted number of
- * particles of the face), by the table `profile`. *slope: receives the derivative by the density. The depth is cubic
- * between the nodes of the table, linear for higher densities and constant for lower ones. */
+/* Returns the height of a position above the particles of a face [spacings], which the law of contact calls its depth,
+ * from the density of the face there (weighted number of its particles nearby), by the table `profile`. *slope:
+ * receives the derivative by the density. The height is cubic between the nodes of the table, linear for higher
+ * densities and constant for lower ones. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -75,9 +77,9 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the weight of list entry l (a particle that may come into contact) in the density of a face at list entry
- * k: the spacing of l over the mean of both spacings, to the power dim - 1 [1]. *reach: receives the distance from
- * which on the contribution is 0 [m]. */
+/* Returns the weight with which the particle of list entry l counts in the density of a face at the particle of list
+ * entry k: the spacing of l over the mean of both spacings, to the power dim - 1 [1]. The list contains the particles
+ * that may come into contact. *reach: receives the distance beyond which l does not count [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -91,8 +93,9 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes density and mean rise (height of the surface above its particles) of the faces around the particle of row
- * `row` of the contact list. place[dim][particles]: positions, present or reference [m]. */
+/* Computes the density of the faces around the particle of row `row` of the contact list (particles that may come into
+ * contact), and their mean rise: height of the surface above its particles, minus 1/2 spacing. place[dim][particles]:
+ * positions, present or reference [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -119,8 +122,9 @@ struct face_gap {
     bool leans;
 };
 
-/* Computes height and gap [spacings] of a particle above a face from density and mean rise of the face at the
- * particle (*field), and their derivative by the density. zero: height at which contact begins [spacings]. */
+/* Computes height and gap [spacings] of a particle above a face, and their derivative by the density of the face.
+ * field: density and mean rise of the face at the particle (rise: height of the surface above its particles); zero:
+ * height at which contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -162,8 +166,8 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
                                                                        : 0;
 }
 
-/* Returns the derivative of the contact energy of list entry k by the weight that list entry l has in the density of
- * the face at k [J]. */
+/* Returns the derivative of the contact energy of list entry k by the weight with which list entry l counts in the
+ * density of the face at k [J]. The list contains the particles that may come into contact. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -188,8 +192,9 @@ struct contact_weight contact_face_weight(const struct contact *c, const struct 
     return w;
 }
 
-/* Adds the contact force on the particle of row `row` of the contact list to p->f: the derivatives of the contact
- * energy of this row, and of those of all rows for whose density of the face this particle counts. */
+/* Adds the contact force on the particle of row `row` of the contact list (particles that may come into contact) to
+ * p->f. It consists of the derivatives of the contact energy of this row, and of the energies of all rows in whose
+ * density of the face this particle counts. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -232,8 +237,9 @@ void contact_face_spring(const struct contact *c, const struct particles *p, int
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the stiffness k of row `row` of the contact list for gaps in spacings [J]: that of the softest pair of its
- * particle with another one. Without pairs it is that of two particles like its own. */
+/* Returns the stiffness k of row `row` of the contact list (particles that may come into contact), for gaps in spacings
+ * [J]. It is that of the softest of its pairs with other particles, or, without pairs, that of two particles like its
+ * own. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -244,8 +250,8 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_pair_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
-/* Returns the largest width [spacings] of a notch (a pre-crack with a width) between the particle of row `row` of the
- * contact list and its neighbours in the reference configuration; 0 if there is none. */
+/* Returns the width [spacings] of the widest notch (a pre-crack with a width) between the particle of row `row` of the
+ * contact list and the particles near it in the reference configuration; 0 if there is none. */
 static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
 {
     real widest = 0;
@@ -259,9 +265,9 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns a lower bound of the gap of row `row` of the contact list [spacings]: the gap for the density in *field,
- * with the largest rise (height of the surface above a particle) of its pairs in place of the mean rise. The mean
- * rise changes abruptly when a particle comes into the range of others. */
+/* Returns a lower bound of the gap of row `row` of the contact list [spacings]. The gap contains the mean rise of a
+ * face (height of its surface above its particles), which changes abruptly when a particle comes into range; the bound
+ * contains the largest rise of the row's pairs instead. field: density of the face at the particle. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
     struct face_field highest = *field;
@@ -270,8 +276,8 @@ static real least_gap(const struct contact *c, const struct face_field *field, i
     return face_gap(c, &highest, c->face[row].zero).gap;
 }
 
-/* Returns true if row `row` of the contact list c has pairs with the same particles as row `was` of the previous
- * list `before`. */
+/* Returns true if row `row` of the contact list c and row `was` of the previous list `before` have pairs with the same
+ * particles in the same order. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];
@@ -281,10 +287,11 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Sets the height above the face at which contact of row `row` of the contact list begins, after a search.
- * previous_entry: row of the particle in the previous list `previous`, -1: none. A row that is in contact already
- * gets the overlap at which its energy does not change. For any other row, contact begins where the surfaces of the
- * bodies meet, or at a smaller height if the particle is closer in the reference or the present configuration. */
+/* Determines, after a search, the height above the face at which contact of row `row` of the contact list begins
+ * (c->face[row].zero). previous_entry: row of the particle in the previous list `previous`, -1 if it was not in it. A
+ * row that is in contact already gets the overlap at which its energy does not change. For any other row, contact
+ * begins where the surfaces of the bodies meet, or at a smaller height if the particle is closer in the reference or
+ * the present configuration. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row)
 {

@@ -4,15 +4,16 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns false if the faces near the particle of row `row` of the contact list are too far away to come into
- * contact before the next search. Until then both sides approach by at most half of CONTACT_SKIN spacings. */
+/* Returns false if the faces near the particle of row `row` of the contact list are so far away that they cannot come
+ * into contact with it before the next search. Until then both sides approach by at most half of CONTACT_SKIN
+ * spacings. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Returns true if row `row` of the contact list, or a row with which its particle forms a pair, may come into
- * contact before the next search. Returns false if the row has no pairs. */
+/* Returns true if row `row` of the contact list (particles that may come into contact), or a row with which its
+ * particle forms a pair, may come into contact before the next search. Returns false if the row has no pairs. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -30,8 +31,8 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
     return false;
 }
 
-/* Returns true if the particle of row `row` or a neighbour in its pairs has left its reference position; otherwise
- * contact exerts no force on it. */
+/* Returns true if the particle of row `row` of the contact list, or the other particle of one of its pairs, has left
+ * its reference position. If none has, contact exerts no force on the particle. */
 static bool row_has_moved(const struct contact *c, const struct particles *p, int64_t row)
 {
     bool moved = entry_has_moved(c, p, row);
@@ -39,9 +40,9 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if a neighbour in the pairs of row `row` is marked ROW_ACTIVE. Meanwhile other threads may change
- * marks from ROW_NEAR to ROW_SOURCE, which does not change the result; therefore reads and writes of marks are
- * atomic. */
+/* Returns true if the other row of one of the pairs of row `row` is marked ROW_ACTIVE, i.e. its contact is evaluated.
+ * Reads and writes of marks are atomic: meanwhile other threads may change marks from ROW_NEAR to ROW_SOURCE, which
+ * does not change the answer. */
 static bool beside_active(const struct contact *c, int64_t row)
 {
     bool beside = false;
@@ -54,9 +55,9 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks rows of the contact list that may come into contact and have a moving particle in their pairs as ROW_ACTIVE,
- * so that their contact is evaluated. Marks their neighbours, on which contact forces act too, as ROW_SOURCE.
- * Returns true if a row was newly marked ROW_ACTIVE. */
+/* Marks as ROW_ACTIVE, so that their contact is evaluated, the rows of the contact list that may come into contact and
+ * have a moving particle in their pairs. Marks the other rows of these pairs, on which contact forces act too, as
+ * ROW_SOURCE. Returns true if a row was newly marked ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -77,8 +78,8 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
-/* Marks the particles on which contact may act as loaded in l, and the row blocks of their bonds in b as active, so
- * that they are moved after the contact forces are known. */
+/* Marks the particles on which contact forces may act as loaded in l, and the row blocks of their bonds (bonds of eight
+ * particles each) in b as active. They are then moved after the contact forces are known. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

@@ -67,8 +67,8 @@ struct contact_partner {
 };
 
 /* Computes the normal force on the particle of row `row` of the contact list, and density, mean position and mean
- * velocity of the face near it, at the positions x - lag v. lag: time before now [s]. Other members of the returned
- * structure are 0. */
+ * velocity of the face near it, at the positions x - lag v of a time `lag` before now [s]. Other members of the result
+ * are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -87,8 +87,8 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
     return sum;
 }
 
-/* Adds share (r^2 1 - r r^T) to the symmetric tensor[6], with components in the order xx, yy, zz, xy, yz, zx. r[3]:
- * a position [m]. */
+/* Adds share (r^2 1 - r r^T), the inertia of a mass `share` at the position r[3] [m], to the symmetric tensor[6] with
+ * components in the order xx, yy, zz, xy, yz, zx. */
 static void inertia_add(real *tensor, const real *r, real share)
 {
     for (int a = 0; a < 3; a++) {
@@ -106,9 +106,9 @@ static real quadratic_form(const real *tensor, const real *e)
     return sum;
 }
 
-/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of a face. inertia[6]: I, in the order xx, yy,
- * zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, which bounds the forces of a couple. Axes
- * with too small inertia, or too large forces, are left out. */
+/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the particles of a face near a particle.
+ * inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, which bounds
+ * the forces that a moment causes on the particles. Axes with too small inertia, or too large forces, are left out. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -122,9 +122,9 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes to->inverse, the pseudo-inverse of the inertia tensor of the face near row `row` of the contact list
- * about its mean position, and the angular velocity omega[3] of the face [1/s], at the positions x - lag v. *to must
- * contain density, arm and velocity of the face. lag: time before now [s]. */
+/* Computes the rotation of the face near row `row` of the contact list about its mean position: to->inverse, the
+ * pseudo-inverse of its inertia tensor, and omega[3], its angular velocity [1/s], at the positions x - lag v of a time
+ * `lag` before now [s]. *to must contain density, arm and velocity of the face. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -145,8 +145,8 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Returns the rigid motion of the face near row `row` of the contact list and the slip of the row's particle
- * relative to it, at the positions x - lag v. lag: time before now [s]. */
+/* Returns the rigid motion of the face near the particle of row `row` of the contact list, and the slip, the velocity
+ * of the particle relative to it, at the positions x - lag v of a time `lag` before now [s]. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -157,9 +157,9 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Advances the friction spring of row `row` of the contact list by a step dt [s], and stores its reaction on the face.
- * The slip is the mean of those at start and end of the step, because leap-frog applies the forces of both times to
- * it. */
+/* Advances the friction spring of row `row` of the contact list (particles that may come into contact) by a step dt
+ * [s], and stores its reaction on the face. The slip is the mean of those at start and end of the step, because
+ * leap-frog applies the forces of both times to it. */
 void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
@@ -183,8 +183,8 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
     }
 }
 
-/* Adds to f[dim] the part of the reaction to friction that acts on the particle of row `row` [N]. The friction is
- * that on the particle of row l, which touches the face that contains the particle of `row`. */
+/* Adds to f[dim] the reaction on the particle of row `row` of the contact list to the friction on the particle of row l
+ * [N]. The particle of row l touches the face that contains the particle of row `row`. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -196,8 +196,8 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* Adds the friction forces on the particle of row `row` of the contact list to p->f: of its own spring, and the
- * reactions of the springs of other rows. Particles have no mirror images here, since scenes with mirrors have no
+/* Adds the friction forces on the particle of row `row` of the contact list to p->f: the force of its own spring, and
+ * the reactions to the springs of other rows. Mirror images need no reactions, since scenes with mirrors have no
  * friction. */
 void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row)
 {
@@ -211,10 +211,11 @@ void contact_face_add_friction(const struct contact *c, struct particles *p, int
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the elastic energy of friction spring k [J], as a term of a sum. context: the array of springs. */
+/* Returns the elastic energy of friction spring k [J], as a term of a sum. context: the array of springs (struct
+ * contact_spring). */
 static real stored_in(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].stored; }
-/* Returns the energy that sliding of friction spring k has dissipated [J], as a term of a sum. context: the array of
- * springs. */
+/* Returns the energy that friction spring k has dissipated by sliding [J], as a term of a sum. context: the array of
+ * springs (struct contact_spring). */
 static real lost_by(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].lost; }
 
 /* Returns the sum of `term` (stored_in or lost_by) over the friction springs of all rows and of all contacts with rigid

@@ -32,8 +32,8 @@ struct contact_found {
     int32_t deepest;
 };
 
-/* Adds one contact of particle `particle` to the sums of a step: counts it, and stores overlap and particle if the
- * overlap [m] is the largest so far; of equal overlaps the particle with the lowest index is stored. */
+/* Adds one contact of particle `particle` to *found, the contacts of a step: counts it, and stores overlap and particle
+ * if the overlap [m] is the largest so far. Of equal overlaps the particle with the lowest index is stored. */
 static inline void contact_found_add_overlap(struct contact_found *found, real overlap, int32_t particle)
 {
     const bool first = overlap == found->overlap && particle < found->deepest;
@@ -41,8 +41,8 @@ static inline void contact_found_add_overlap(struct contact_found *found, real o
     found->touching++;
 }
 
-/* Computes the vector between the present positions of two particles, from entry `other` to entry `entry` of the
- * contact list c->particle, dim components [m]. Returns its square [m^2]. */
+/* Computes vector[dim], the vector between the present positions of two particles of the contact list, from that of
+ * entry `other` to that of entry `entry` [m]. Returns its square [m^2]. */
 static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                        real *vector)
 {
@@ -70,8 +70,9 @@ static inline bool contact_is_possible(const struct contact *c)
     return c->law.between != CONTACT_NONE || c->rigids > 0;
 }
 
-/* Returns true if contact forces may act on the particle number `row` of the contact list in this step, as
- * contact_activate_newly_moving and contact_activate_particles have determined. */
+/* Returns true if contact forces may act on the particle of row `row` of the contact list in this step.
+ * contact_activate_newly_moving and contact_activate_particles determine on which they may: particles at rest, or far
+ * from all faces, are left out. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
@@ -96,19 +97,20 @@ static inline const uint8_t *contact_rigid_selection_marks(const struct contact 
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact number `number` acts: if marks[`number`] is not 0, or, if marks is NULL, if the contact
- * `overlaps`. */
+/* Returns true if contact number `number` acts. marks: an array with a byte for each contact that is not 0 if it acts;
+ * NULL if those contacts act that overlap. overlaps: true if the contact overlaps. */
 static inline bool contact_is_active(const uint8_t *marks, int64_t number, bool overlaps)
 {
     return marks ? marks[number] != 0 : overlaps;
 }
 
-/* Returns the gap between particle number `row` of the contact list and the faces beside it, negative if they overlap
- * [spacings], by the contact law of form `surface`. */
+/* Returns the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
+ * faces beside it [spacings], negative if they overlap. Only for laws of the form `surface`. */
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance of the particles of the pair minus their contact distance [m], negative if they overlap. row:
- * entry of the contact list (particles that may come into contact) to which the pair belongs. */
+/* Returns the distance of the two particles of pair number `pair`, minus the distance at which their contact begins
+ * [m]; negative if they overlap. row: row of the contact list (particles that may come into contact) to which the pair
+ * belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
 /* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m].
@@ -116,9 +118,9 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
  * surface. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t entry, real *normal);
 
-/* Describes the contact of particle number `row` of the contact list with the faces beside it as a linear spring, by
- * the contact law of form `surface`: stiffness, and derivatives of the gap by the positions of the particles. term: its
- * arrays must have a capacity of one element more than the pairs of the particle. */
+/* Describes the contact of the particle of row `row` of the contact list with the faces beside it as a linear spring:
+ * stiffness, and derivatives of the gap by the positions of the particles, in *term. Its arrays must have a capacity of
+ * one element more than the row has pairs. Only for laws of the form `surface`. */
 void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
 
 /* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
@@ -143,8 +145,9 @@ int64_t contact_list_find_particle(const struct contact *c, int64_t i);
  * the contact list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
 real contact_notch_width(const struct contact *c, const struct particles *p, int64_t entry, int64_t other);
 
-/* Computes three arrays for all particles of the contact list: c->root, the entry of which a mirror image is made;
- * c->size, the spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
+/* Computes three arrays for all entries of the contact list: c->root, the entry of the particle that a mirror image
+ * mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise, the height of the surface of the
+ * body above the particle, minus 1/2 [spacings]. */
 void contact_list_compute_arrays(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
@@ -161,14 +164,14 @@ real contact_pair_energy(const struct contact *c, const struct particles *p, int
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                            real previous_distance);
 
-/* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
- * particle, for particles on a square or cubic lattice. dim: space dimension. */
+/* Computes the table of the height of a position above the particles of a face as a function of the density of the face
+ * there, for a face that is a layer of a square or cubic lattice. dim: dimensions of space. */
 void contact_density_profile_make(struct contact_profile *profile, int dim);
 
-/* Computes gap and energy derivatives of the contact between particle number `row` of the contact list and the faces
- * beside it, by the contact law of form `surface`, into c->face[row]. First of two passes over the particles;
- * contact_face_add_force adds the forces. dt: time since the last call [s]; found: receives largest overlap and number
- * of contacts. */
+/* Computes the gap between the particle of row `row` of the contact list and the faces beside it, and the derivatives
+ * of its contact energy, into c->face[row]. It is the first of two passes over the rows; contact_face_add_force adds
+ * the forces. Only for laws of the form `surface`. dt: time since the last call [s]; found: receives largest overlap
+ * and number of contacts. */
 void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
                            struct contact_found *found);
 
@@ -187,14 +190,14 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
-/* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when contact
- * begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4
- * stiffness gap^2. balance: state of this contact, updated if `advance`, i.e. if a time step was done since the last
- * call; otherwise the last force is returned again. */
+/* Returns a force on the gap of a contact that removes the energy which leap-frog integration adds when contact begins
+ * or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4 stiffness
+ * gap^2. balance: account of this contact, updated if `advance` is true, i.e. if a time step was made since the last
+ * call; if it is false, the last force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance);
 
-/* Returns the initial state of the energy correction (contact_energy_correction_force) of a contact on a new list of
- * pairs. gap: present gap; previous: state of the contact on the previous list, whose account of energy errors is
+/* Returns the initial account of the energy errors of a contact on a new list of pairs
+ * (contact_energy_correction_force). gap: present gap; previous: account of the contact on the previous list, which is
  * continued; NULL if the contact was not listed. */
 struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap);
 
@@ -209,9 +212,9 @@ struct contact_weight {
 struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t entry,
                                           int64_t other, real lag);
 
-/* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slip:
- * displacement of the particle relative to the face in the step, dim components [m]; stiffness: stiffness of the spring
- * [N/m]; slip_force: force at which the spring slides [N], 0 after separation. */
+/* Advances the friction spring *s by a step. dim: dimensions; normal[dim]: outward unit normal of the face, 0 if
+ * contact has ended; slip[dim]: displacement of the particle relative to the face in the step [m]; stiffness: stiffness
+ * of the spring [N/m]; slip_force: force at which the spring slides [N], 0 after separation. */
 void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real stiffness,
                             real slip_force);
 
@@ -255,17 +258,18 @@ void contact_rigid_free(struct contact *c);
  * pairs. */
 bool contact_rigid_has_moved(const struct contact *c, real distance);
 
-/* Adds the contact forces of all rigid bodies on particles to p->f, and the opposite forces and moments to the rigid
- * bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest overlap and
- * number of contacts. */
+/* Adds the contact forces of all rigid bodies on particles to p->f, and stores the opposite forces and moments in the
+ * rigid bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest
+ * overlap and number of contacts. */
 void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *all);
 
 /* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
  * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */
 status contact_rigid_save_or_load(struct contact *c, struct archive *a);
 
-/* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
- * of elements of `size` bytes. Returns FAILED if the archive cannot be read or written or the stored size differs. */
+/* Saves the array *array to the archive if a->saving, else allocates it and restores it from there. name: name of the
+ * entry; count: number of elements; size: bytes of an element. Returns FAILED if the archive cannot be read or written
+ * or the stored size differs. */
 status contact_array_save_or_load(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
 /* Returns the elastic energy of the contacts with all rigid bodies at the present positions [J]. */

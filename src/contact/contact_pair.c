@@ -9,8 +9,9 @@ struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
-/* Returns pair q of row `row` of the contact list: overlap, distance, stiffness and vector between both particles.
- * Overlap and stiffness are 0 if the pair is not in contact. */
+/* Returns overlap, distance, stiffness and vector of pair q, which belongs to row `row` of the contact list (particles
+ * that may come into contact). The vector is that between both particles. Overlap and stiffness are 0 if the pair is
+ * not in contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
@@ -51,10 +52,10 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_pair_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of their distance in
- * the reference configuration and their mean spacing, minus the width of a notch between them. If a new pair is
- * closer than that, it is its present distance until the pair opens. previous_distance: contact distance in the
- * previous list [m], NAN if the pair is new. Bitwise equal for (k, l) and (l, k). */
+/* Returns the distance at which contact between the particles of list entries k and l begins [m]: the smaller of their
+ * distance in the reference configuration and their mean spacing, minus the width of a notch between them. If a new
+ * pair is closer than that, it is its present distance until the pair opens. previous_distance: that distance in the
+ * list before the present search [m], NAN if the pair was not in it. Bitwise equal for (k, l) and (l, k). */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                            real previous_distance)
 {

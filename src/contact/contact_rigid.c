@@ -23,8 +23,9 @@ void contact_rigid_free(struct contact *c)
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the gap [m] between rigid body r and the surface of the body above the particle of row `row` of the contact
- * list; negative if they overlap. normal: receives the outward unit normal of r. */
+/* Returns the gap between rigid body r and the surface of the body at the particle of row `row` of the contact list
+ * (particles that may come into contact) [m]; negative if they overlap. normal: receives the outward unit normal of
+ * r. */
 static real gap_of(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                    real *normal)
 {
@@ -44,8 +45,8 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Returns the entry of particle `particle` in the previous list of particles near rigid body `body`, or -1 if it was
- * not in that list. before: previous contact list. */
+/* Returns the entry that particle `particle` had in the list of particles near rigid body `body` before the present
+ * search, or -1 if it was not in that list. before: contact before the search. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_list_find_particle(before, particle) : -1;
@@ -60,9 +61,10 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists in c->near[body] the rows whose particles may come into contact with rigid body `body` before the next
- * search, i.e. with a gap below `skin` [m]. before: previous lists, from which friction springs and gaps are copied.
- * If a particle overlaps the body when it is found, its contact begins at that gap until the gap opens. */
+/* Lists in c->near[body] the rows of the contact list whose particles may come into contact with rigid body `body`
+ * before the next search, those with a gap below `skin` [m]. before: contact before this search, from which friction
+ * springs and gaps are copied. If a new particle overlaps the body already, its contact begins at that gap until the
+ * gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -121,17 +123,17 @@ bool contact_rigid_has_moved(const struct contact *c, real distance)
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Returns the gap [m] between the particle of entry q in the list near rigid body `body` and this body, minus the gap
- * at which contact begins; negative if they overlap. normal: receives the outward unit normal of the body. */
+/* Returns the gap between rigid body `body` and the particle of entry q in the list of particles near it, minus the gap
+ * at which contact begins [m]; negative if they overlap. normal: receives the outward unit normal of the body. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const struct contact_near *near = &c->near[body];
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of entry q in the list near rigid body `body` with this body [m]; 0 if contact does not act.
- * In equilibria, marks determine which contacts act, and the overlap can be negative. normal: receives the outward
- * unit normal of the body. */
+/* Returns the overlap of rigid body `body` with the particle of entry q in the list of particles near it [m]; 0 if
+ * contact does not act. In equilibria, marks determine which contacts act, and the overlap can be negative. normal:
+ * receives the outward unit normal of the body. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -153,8 +155,8 @@ real contact_patch_diagonal(const struct contact *c, const struct particles *p, 
     return sqrt(width2);
 }
 
-/* Updates the account of energy that contact gains or loses by time integration, for entry q in the list near rigid
- * body `body`. Must be called once per time step. */
+/* Updates the account of the energy that contact gains or loses by time integration, for the contact of rigid body
+ * `body` with the particle of entry q in the list of particles near it. Must be called once per time step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -163,8 +165,8 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
-/* Computes the contact force of rigid body `body` on the particle of entry q in its list, force[DIM_MAX] [N]: normal
- * force, energy correction and friction. Returns the overlap [m]. */
+/* Computes the force of rigid body `body` on the particle of entry q in the list of particles near it, force[DIM_MAX]
+ * [N]: normal force, energy correction and friction. Returns the overlap [m]. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];
@@ -176,7 +178,8 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     return overlap;
 }
 
-/* Advances the friction spring of entry q in the list near rigid body `body` by a step dt [s]. */
+/* Advances the friction spring between rigid body `body` and the particle of entry q in the list of particles near it,
+ * by a step dt [s]. */
 static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
 {
     const struct contact_near *near = &c->near[body];
@@ -197,9 +200,9 @@ struct rigid_sum {
     int body;
 };
 
-/* Adds force (3 components) [N] and moment about the body's position (3) [N m] that the particles of list entries
- * first .. end - 1 exert on a rigid body to sum[6]. context: a struct rigid_sum. A block function of
- * reproducible_sums. */
+/* Adds the force [N] and the moment about the body's position [N m] that particles exert on a rigid body to sum[0 .. 2]
+ * and sum[3 .. 5]. The particles are the entries first .. end - 1 in the list of particles near the body. context: the
+ * body and contact (struct rigid_sum). reproducible_sums calls it for each block of entries. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -218,8 +221,8 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 enum { RIGID_TERMS = 2 * DIM_MAX };
 
 /* Adds the contact forces of rigid body `body` to p->f, and stores the opposite force and moment in the body. Bodies
- * are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction springs
- * are not advanced. all: receives largest overlap and number of contacts. */
+ * are treated one after the other, since a particle may touch several. dt: time step [s]; with 0, friction springs are
+ * not advanced. all: receives largest overlap and number of contacts. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
     const struct contact_near *near = &c->near[body];
@@ -254,8 +257,9 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
     return sqrt(sum);
 }
 
-/* Returns the contact energy of entry q in the list near a rigid body, k overlap^2 [J], as a term of a sum. context: a
- * struct rigid_sum. */
+/* Returns the contact energy k overlap^2 of a rigid body with the particle of entry q in the list of particles near it
+ * [J], as a term of a sum. k: stiffness of two particles like this one; context: the body and contact (struct
+ * rigid_sum). */
 static real near_energy(const void *context, int64_t q)
 {
     const struct rigid_sum *s = context;

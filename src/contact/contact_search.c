@@ -11,17 +11,17 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the volume of bonded neighbours, relative to a full family, below which a particle counts as part of the
- * first layer of a body [1]. Particles of the first layer have 0.50 (1D) to 0.67 (2D, horizon of two spacings),
- * those of the second layer 0.79 or more at horizons of 3 spacings. With bonds to nearest neighbours alone the first
- * layer has up to 5/6 and the second a full family. */
+/* Returns the volume of bonded neighbours, relative to that of a full family, below which a particle counts as part of
+ * the first layer of a body, next to a face [1]. Particles of the first layer have 0.50 (1D) to 0.67 (2D, horizon of
+ * two spacings), those of the second layer 0.79 or more at horizons of 3 spacings. With bonds to nearest neighbours
+ * alone the first layer has up to 5/6 and the second a full family. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if the volume of the neighbours of row `row` of the bonds, minus `lost`, is below `least`, or if
- * there is no row (-1). lost, least: volumes [m^3]. */
+/* Returns true if the volume of the neighbours in row `row` of the bonds, minus the volume `lost`, is below `least`
+ * [m^3], or if there is no row (row = -1). */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
@@ -63,8 +63,8 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
     return widest;
 }
 
-/* Returns the spacing of particle i from its volume [m]: exactly law->spacing if its volume is that of the lattice up
- * to round-off. */
+/* Returns the spacing of particle i, the edge of a square or cube with its volume [m]. It is law->spacing exactly if
+ * the volume is that of a lattice particle up to round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
     const real full = lattice_particle_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
@@ -72,8 +72,8 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the height of the body's surface above particle i, by the shape of the body in the scene, minus 1/2
- * [spacings]; 0 at faces that were inside the body. size: spacing of the particle [m]. */
+/* Returns the rise at particle i: the height of the body's surface above it, by the shape of the body in the scene,
+ * minus 1/2 [spacings]; 0 at faces that cracks have made inside the body. size: spacing of the particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -103,8 +103,9 @@ void contact_list_compute_arrays(struct contact *c, const struct particles *p)
     }
 }
 
-/* Lists the exposed peridynamic particles (those near a face) in c->particle, ascending, followed by their mirror
- * images, and stores their present positions. f: family of the bonds, whose full volume decides what is near a face. */
+/* Lists in c->particle the peridynamic particles near a face, in ascending order, then their mirror images, and stores
+ * the present positions of all of them. f: family of the bonds: a particle with less neighbour volume than a share of
+ * its full volume is near a face. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -155,9 +156,9 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Appends the pairs of list entry k to *to: entries within the range of the search. Depending on the law, these are
- * the particles without a bond to the first one, or only particles of other bodies. near: working memory; marks: one
- * bit per particle, all 0 before and after. */
+/* Appends the pairs of list entry k to *to: list entries whose particles are within the range of the search. Depending
+ * on the law, these are the particles without a bond to that of entry k, or only particles of other bodies. near:
+ * working memory; marks: one bit per particle, all 0 before and after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -176,8 +177,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Converts c->first[k + 1] from the number of pairs of row k of the contact list to the end of its pairs, and
- * allocates c->other for all pairs. */
+/* Allocates c->other for all pairs, and makes c->first[row + 1] the end of the pairs of row `row` in it; before, the
+ * entry is the number of these pairs. Rows are those of the contact list. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -216,8 +217,8 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Returns the contact distance of particle j and the particle of row `row` in the previous list `before` [m]; NAN if
- * that list does not contain the pair or row is -1. */
+/* Returns the distance at which contact of particle j with the particle of row `row` began in the list before the
+ * present search, `before` [m]; NAN if that list does not contain the pair, or if row = -1. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;
@@ -226,8 +227,8 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
     return NAN;
 }
 
-/* Determines the gap at which contact of each row (form `surface`) or the distance at which contact of each pair
- * (form `pair`) begins. before: previous contact list, whose contacts continue. */
+/* Determines where contact begins: for each row of the contact list a height above the face (form `surface`), or for
+ * each pair a distance (form `pair`). before: contact before the present search, whose contacts continue. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
     if (c->law.form == CONTACT_SURFACE) {
@@ -299,17 +300,17 @@ static real largest_displacement(const struct contact *c, const struct particles
     return sqrt(far2);
 }
 
-/* Returns true if a listed particle or a rigid body has moved by half the margin of the contact list since the last
- * search, so that the list may be incomplete. */
+/* Returns true if a particle of the contact list or a rigid body has moved by half the margin of the list or more since
+ * the last search. The list may then lack pairs that come into contact. */
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_list_margin(c);
     return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
-/* Requests a search for contact if one of the particles list[n], which have just become peridynamic, is in the first
- * layer of a face. A particle that is near no face but has few broken bonds requires no search; the next search
- * lists it. */
+/* Requests a search for contact if one of the particles list[0 .. n - 1], which have just become peridynamic, is in the
+ * first layer of a face. A particle that is near no face but has a few broken bonds requires no search at once; the
+ * next search lists it. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *list, int64_t n)
 {

@@ -10,8 +10,8 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-/* Allocates the marks of active contacts of a new list, all 0: one for each row or pair, and one for each entry near a
- * rigid body. */
+/* Allocates the marks of a new contact list, all 0; 1 will mark contacts that act in the equilibrium. There is one for
+ * each row or pair, by the form of the law, and one for each particle listed near a rigid body. */
 static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
@@ -30,8 +30,8 @@ void contact_selection_activate_all(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets *touch, the mark of an active contact (1) or inactive one (0), from its gap [spacings]. A contact becomes
- * active at gaps below `close`, and stays active up to gaps of KEPT [spacings]. Returns true if the mark has
+/* Sets *touch, 1 for a contact that acts in the equilibrium, else 0, from the gap of the contact [spacings]. A contact
+ * becomes active at gaps below `close`, and stays active up to gaps of KEPT [spacings]. Returns true if the mark has
  * changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
@@ -40,15 +40,17 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns the gap below which contact of row `row` with list entry l becomes active [spacings]: `close` if they are
- * in different bodies, 0 if they are in one body, since the faces of a crack coincide without force. */
+/* Returns the gap below which contact of row `row` of the contact list with list entry l becomes active [spacings]:
+ * `close` if their particles are in different bodies, 0 if they are in one body, since the faces of a crack coincide
+ * without force. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
-/* Sets the marks of active contacts of row `row` of the contact list from their gaps. close: gap below which
- * contacts of different bodies become active [spacings]. Returns the number of marks that have changed. */
+/* Sets the marks of row `row` of the contact list, 1 for contacts that act in the equilibrium, from their gaps. close:
+ * gap below which contacts of different bodies become active [spacings]. Returns the number of marks that have
+ * changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -123,8 +125,8 @@ struct visit {
     struct contact_term term;
 };
 
-/* Calls v->visit for each active contact of the particle of row `row` with another particle, described as a linear
- * spring (form `pair`). */
+/* Calls v->visit for each active contact of the particle of row `row` of the contact list with another particle,
+ * described as a linear spring. Only for laws of the form `pair`. */
 static void pair_terms(struct visit *v, int64_t row)
 {
     const struct contact *c = v->c;
@@ -178,8 +180,8 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of active contacts of an equilibrium (contact_select_active) to the archive if a->saving, else
- * restores them. Returns the status of the archive. */
+/* Saves the marks of the contacts that act in the equilibrium (contact_select_active) to the archive if a->saving, else
+ * restores them. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;
