@@ -95,8 +95,9 @@ struct product {
     const struct field *a, *b;
 };
 
-/* Adds the products a b of nodes first .. end - 1 to sum[0] for free components, and to sum[1] for held components
- * (those with prescribed displacement). A block function of reproducible_sums; context: a struct product. */
+/* Adds the products a b of two vectors over nodes first .. end - 1 to sum[0] for free components, and to sum[1] for
+ * held components (those with prescribed displacement). context: the vectors (struct product). reproducible_sums calls
+ * it for each block of nodes. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -120,15 +121,15 @@ static real dot_free(const struct newton_solver *q, const struct field *a, const
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the forces f [N] at the displacements u [m] and counts the evaluation. */
+/* Computes the forces f [N] at the displacements u [m] by the callback q->force, and counts the call. */
 static void forces_at(struct newton_solver *q, const struct field *u, struct field *f)
 {
     q->force(q->context, u, f);
     q->forces++;
 }
 
-/* Adds the products a b over all components, free and held, to *sum, for nodes first .. end - 1; a block function of
- * reproducible_sums. context: a struct product. */
+/* Adds the products a b of two vectors over all components, free and held, of nodes first .. end - 1 to *sum. context:
+ * the vectors (struct product). reproducible_sums calls it for each block of nodes. */
 static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -149,23 +150,24 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the length over which a displacement increment rotates bonds [m]: the size of the region in which nodes move
- * by about the largest component of the increment. most: this component [m]. */
+/* Returns the size of the region in which the nodes move by about as much as the largest component of a displacement
+ * increment [m]. Bonds rotate by about this component over this length. most: the largest component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor by which a displacement increment is multiplied for a difference of forces [1]. It is so small
- * that strains and rotations of bonds stay within DIFFERENCE_STRAIN and DIFFERENCE_TURN. most: largest component of the
- * increment [m]. */
+/* Returns the factor by which a displacement increment is multiplied to compute a difference of forces [1]. It is so
+ * small that strains of bonds stay within DIFFERENCE_STRAIN and their rotations within DIFFERENCE_TURN. most: largest
+ * component of the increment [m]. */
 static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
-/* Computes the product of the tangent stiffness at u with the vector `in`, by a one-sided difference of forces: out =
- * (f(u) - f(u + step in))/step. q->f must contain f(u). Overwrites the vector q->at. */
+/* Computes out = K in, the product of the tangent stiffness K at the displacements u = q->u with the vector `in`, by a
+ * one-sided difference of forces: (f(u) - f(u + step in))/step. q->f must contain the forces f(u). Overwrites the
+ * vector q->at. */
 static void stiffness(struct newton_solver *q, const struct field *in, struct field *out)
 {
     const real most = field_largest_component(in, q->dim, q->n);
@@ -178,16 +180,16 @@ static void stiffness(struct newton_solver *q, const struct field *in, struct fi
         combine(q, out, 0, out, 0, out);
 }
 
-/* Stores in q->strain_ratio the ratio of strain to largest component of the vector d [1/m], from which the size of the
- * next difference of forces follows. curvature: d . K d with the tangent stiffness K [J]. */
+/* Stores in q->strain_ratio the ratio of the strain that the displacements d cause to their largest component [1/m],
+ * which determines the size of the next difference of forces. curvature: d . K d with the tangent stiffness K [J]. */
 static void strain_note(struct newton_solver *q, const struct field *d, real curvature)
 {
     const real most = field_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Computes q->scale, the largest of the norms of applied forces, reactions and noise [N], the residual of the present
- * forces q->f relative to it, and q->worst, the node with the largest residual. */
+/* Computes q->scale, the largest of the norms of applied forces, reactions and noise [N]; q->residual, the norm of the
+ * unbalanced forces q->f over q->scale; and q->worst, the node with the largest unbalanced force. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -204,8 +206,8 @@ static void equilibrium_measure(struct newton_solver *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual q->r = f - K x of the initial increment x = q->x, which contains the motion of supports. The
- * residual is set to 0 on held components (those with prescribed displacement). */
+/* Computes the residual q->r = f - K x of the initial increment x = q->x, which contains the motion of supports; f:
+ * present forces, K: tangent stiffness. It is set to 0 on held components (those with prescribed displacement). */
 static void residual_of_guess(struct newton_solver *q)
 {
     if (field_largest_component(&q->x, q->dim, q->n) == 0) {
@@ -219,8 +221,8 @@ static void residual_of_guess(struct newton_solver *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them: a fragment that
- * broke off and rotated does not move in proportion to the loads. */
+/* Sets the free components of the initial increment q->x, which is predicted in proportion to the loads, to 0 if the
+ * residual is smaller without them: a fragment that broke off and rotated does not move in proportion to the loads. */
 static void guess_check(struct newton_solver *q)
 {
     residual_of_guess(q);
@@ -239,9 +241,9 @@ struct step {
     real scale;
 };
 
-/* Computes x += scale d for nodes first .. end - 1, and r -= scale K d on free components (r = 0 on held ones, whose
- * displacement is prescribed). K d is in q->q. Adds r . r to *sum. A block function of reproducible_sums; context: a
- * struct step. */
+/* Advances nodes first .. end - 1 by a step of conjugate gradients: x += scale d, and r -= scale K d on free
+ * components, r = 0 on held ones (those with prescribed displacement). K d is in q->q. Adds r . r to *sum. context:
+ * solver and scale (struct step). reproducible_sums calls it for each block of nodes. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
@@ -259,18 +261,18 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Extends the correction q->x along q->d, a direction of negative stiffness, such that bonds rotate by at most
- * TURN_MOST [rad]. */
+/* Adds q->d, a direction of negative stiffness, to the correction q->x, times the factor at which bonds rotate by
+ * TURN_MOST at most [rad]. */
 static void follow_negative(struct newton_solver *q)
 {
     const real most = field_largest_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
-/* Solves K x = f on free components by preconditioned conjugate gradients from the initial q->x; held components of x
- * do not change. Stops at a residual of `wanted` [N], or of FORCING_LEAST times that of the initial x, or without
- * progress. At a direction of negative stiffness x is extended along it (Steihaug 1983), unless supports move
- * (`prescribed` true). */
+/* Solves K x = f for free components by preconditioned conjugate gradients, starting from x = q->x; held components of
+ * x (those with prescribed displacement) do not change. Stops at a residual of `wanted` [N], at FORCING_LEAST times
+ * that of the initial x, or if there is no progress. At a direction of negative stiffness x is extended along it
+ * (Steihaug 1983), unless supports move. prescribed: true if they do. */
 static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
@@ -299,17 +301,17 @@ static void correction(struct newton_solver *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the displacement q->z = u + share x, and the forces there in q->q. */
+/* Computes the displacements q->z = q->u + share q->x, and the forces there in q->q. */
 static void forces_along(struct newton_solver *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
     forces_at(q, &q->z, &q->q);
 }
 
-/* Returns the factor of the correction x at which the force along x nearly vanishes; it is 1 for linear bodies. The
- * energy decreases up to that point: the factor is reduced if the force points against x and increased if it still
- * points along x. left: norm of the residual before the correction [N]; prescribed: true if supports move, so that the
- * increment is made in full. Stores the displacement in q->z and the forces there in q->q. */
+/* Returns the factor of the correction x = q->x at which the force along x nearly vanishes; it is 1 for linear bodies.
+ * The energy decreases up to that point: the factor is reduced if the force there points against x, and increased if it
+ * still points along x. left: norm of the residual before the correction [N]; prescribed: true if supports move, so
+ * that the increment is made in full. Stores the displacements at the factor in q->z and the forces there in q->q. */
 static real line_search(struct newton_solver *q, real left, bool prescribed)
 {
     const real push = dot_free(q, &q->f, &q->x), most = field_largest_component(&q->x, q->dim, q->n);
@@ -332,10 +334,10 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
     return share;
 }
 
-/* Returns the work of all forces over the increment share x [J]: by the trapezoidal rule, or by Simpson's rule if the
- * forces are not linear along it. Loads grow in proportion over the increment, from those of q->before. share: factor
- * of the line search [1]; left: norm of the residual before the increment [N]. Overwrites the vectors q->at and
- * q->r. */
+/* Returns the work of all forces over the increment share q->x [J], by the trapezoidal rule, or by Simpson's rule if
+ * the forces are not linear along the increment. Loads grow in proportion over the increment, from those of q->before.
+ * share: factor of the line search [1]; left: norm of the residual before the increment [N]. Overwrites the vectors
+ * q->at and q->r. */
 static real work_along(struct newton_solver *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
@@ -355,9 +357,9 @@ static real work_along(struct newton_solver *q, real share, real left)
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Adds the correction q->x, times the factor of the line search, to q->u and updates the forces. left: norm of the
- * residual before the correction [N]; prescribed: true if supports move. Returns the work of all forces along the
- * increment [J]. */
+/* Adds the correction q->x, times the factor of the line search, to the displacements q->u, and updates the forces
+ * q->f. left: norm of the residual before the correction [N]; prescribed: true if supports move. Returns the work of
+ * all forces along the increment [J]. */
 static real advance(struct newton_solver *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
@@ -369,7 +371,8 @@ static real advance(struct newton_solver *q, real left, bool prescribed)
     return work;
 }
 
-/* Returns the work of the present forces q->f on held components, i.e. on supports, along the increment [J]. */
+/* Returns the work of the present forces q->f on held components (those with prescribed displacement, at supports),
+ * along `increment` [J]. */
 static real dot_held(const struct newton_solver *q, const struct field *increment)
 {
     real sum[2];
@@ -392,8 +395,9 @@ static bool is_balanced(const struct newton_solver *q)
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
-/* Updates the branches of material laws and the active contacts for the present state, by q->settle. Returns true if
- * nothing has changed; else recomputes the forces and returns false. */
+/* Updates what the forces depend on besides displacements, branches of material laws and active contacts, for the
+ * present state, by the callback q->settle. Returns true if nothing has changed, so that the solution is valid; else
+ * recomputes the forces and returns false. */
 static bool laws_settle(struct newton_solver *q)
 {
     if (!q->settle || q->settle(q->context)) return true;

@@ -20,9 +20,9 @@ enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 /* Least diagonal entry of a node over the largest one [1]; a node below it has no stiffness. */
 #define STIFFNESS_LEAST 1e-12
 
-/* Computes diagonal block, scale and constraint flag of row i of the finest level l. The diagonal is replaced by minus
- * the sum of the other entries of the row if both differ by round-off only, so that a rigid translation has exactly no
- * energy. Larger differences (supports, foundations) are stored in l->rest. */
+/* Computes the diagonal block of row i of the finest level l, its scale and its flag of constraint. The diagonal block
+ * is replaced by minus the sum of the other entries of the row if both differ by round-off only, so that a rigid
+ * translation has exactly no energy. Larger differences, of supports and foundations, are stored in l->rest. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;
@@ -43,8 +43,9 @@ static void diagonal_exact(const struct multigrid_level *l, int64_t i)
     l->scale[i] = trace / l->width;
 }
 
-/* Sets up the finest level l from the matrix a, which is kept by reference. held[i]: constrained components of node i,
- * bit d for component d. Returns FAILED, with a message, if a diagonal stiffness is negative or not finite. */
+/* Initialises the finest level l from the matrix a, which is kept by reference and must outlive it. held[i]: bit d is
+ * set if component d of node i is constrained. Returns FAILED, with a message, if a diagonal stiffness is negative or
+ * not finite. */
 static status finest_make(struct multigrid_level *l, const struct block_matrix *a, const uint8_t *held)
 {
     const unsigned all = (1u << a->dim) - 1;
@@ -71,9 +72,9 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     return OK;
 }
 
-/* Computes l->mode, the rigid motions at each node: translations, then rotations about the centre of the nodes
- * (displacement per angle). They are 0 on held components, those with prescribed displacement. position: of the nodes,
- * [width][n] [m]. */
+/* Computes l->mode, the displacements of each node in the rigid motions: translations, then rotations about the centre
+ * of the nodes (displacement per angle). They are 0 on held components, those with prescribed displacement.
+ * position[width][n]: positions of the nodes [m]. */
 static void finest_modes(struct multigrid_level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;
@@ -118,7 +119,8 @@ static void coarse_diagonal(struct multigrid_level *l)
     multigrid_invert_blocks(l);
 }
 
-/* Builds the next coarser level of m. Returns false if it would not have clearly fewer nodes than the last one. */
+/* Builds the next coarser level of m. Returns false, and builds none, if it would not have clearly fewer nodes than the
+ * last one. */
 static bool coarsen(struct multigrid *m)
 {
     struct multigrid_level *l = &m->level[m->levels - 1], *next = l + 1;
@@ -182,9 +184,9 @@ void multigrid_free(struct multigrid *m)
 
 /* ---- the cycle --------------------------------------------------------------------------------------------------- */
 
-/* Relaxes level l by the Chebyshev polynomial that is small between largest/RANGE and largest eigenvalue (Saad,
- * Iterative Methods for Sparse Linear Systems, algorithm 12.1). degree: number of steps; zero: true if x is 0 on
- * entry. */
+/* Relaxes K x = b on level l by `degree` steps with the Chebyshev polynomial that is small between largest/RANGE and
+ * l->largest, the largest eigenvalue (Saad, Iterative Methods for Sparse Linear Systems, algorithm 12.1). b and x are
+ * vectors of the level. zero: true if x is 0 on entry. */
 static void level_smooth(struct multigrid_level *l, int degree, bool zero)
 {
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
@@ -198,8 +200,8 @@ static void level_smooth(struct multigrid_level *l, int degree, bool zero)
     }
 }
 
-/* Solves K x = b of level k approximately by a V-cycle over this and the coarser levels. b and x are vectors of the
- * level. */
+/* Solves K x = b on level k of m approximately by a V-cycle over this and the coarser levels. b and x are the vectors
+ * of the level; x is overwritten. */
 static void cycle(struct multigrid *m, int k)
 {
     struct multigrid_level *l = &m->level[k];

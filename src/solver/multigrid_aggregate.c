@@ -8,7 +8,7 @@
  * entry counts as a connection. */
 #define WEAK 0.1
 
-/* Returns the Frobenius norm of matrix entry q, a block of width x width values. */
+/* Returns the Frobenius norm of matrix entry q of level l, a block of l->width rows and columns. */
 static float entry_norm(const struct multigrid_level *l, int64_t q)
 {
     const int size = l->width * l->width;
@@ -20,8 +20,8 @@ static float entry_norm(const struct multigrid_level *l, int64_t q)
     return (float)sqrt(sum);
 }
 
-/* Returns the strength of each matrix entry, an array [first[n]]: the norm of the entry if it connects two free nodes
- * strongly enough (WEAK), else 0. The caller frees it. */
+/* Returns the strength of each matrix entry of level l, an array [l->first[l->n]]: the norm of the entry if it connects
+ * two free nodes strongly enough (WEAK), else 0. The caller frees the array. */
 static float *strengths_make(const struct multigrid_level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
@@ -40,8 +40,9 @@ static float *strengths_make(const struct multigrid_level *l)
     return strength;
 }
 
-/* Makes a new aggregate (set of nodes that form one node of the coarser level) of node i and those of its strongly
- * connected neighbours that belong to no aggregate. strength: array of strengths_make. */
+/* Makes a new aggregate of node i and those of its strongly connected neighbours that belong to no aggregate. An
+ * aggregate is a set of nodes that form one node of the coarser level. strength: strengths of the matrix entries, 0 for
+ * weak connections. */
 static void aggregate_found(struct multigrid_level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -50,8 +51,8 @@ static void aggregate_found(struct multigrid_level *l, const float *strength, in
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate (a node of the
- * coarser level). strength: array of strengths_make. */
+/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate, a set of nodes
+ * that form one node of the coarser level. strength: strengths of the matrix entries, 0 for weak connections. */
 static bool neighbours_free(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -63,9 +64,9 @@ static bool neighbours_free(const struct multigrid_level *l, const float *streng
     return any;
 }
 
-/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i; -1 if none
- * is connected with it. An aggregate is a set of nodes that form one node of the coarser level. strength: array of
- * strengths_make. */
+/* Returns the number of the aggregate whose nodes have the largest sum of connection strengths with node i; -1 if no
+ * aggregate is connected with it. An aggregate is a set of nodes that form one node of the coarser level. strength:
+ * strengths of the matrix entries, 0 for weak connections. */
 static int32_t aggregate_nearest(const struct multigrid_level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
@@ -112,8 +113,8 @@ void multigrid_aggregate_nodes(struct multigrid_level *l)
  * leaves 1e-16 times the size of the body over that of the aggregate. */
 #define DROPPED 1e-9
 
-/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v has m columns and, for
- * each node of the level, w rows. */
+/* Returns the scalar product of columns a and c of the matrix v over the n nodes in `member`. v has m columns, and w
+ * rows for each node of the level. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;

@@ -11,8 +11,8 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* Computes sum[0] -= (K x)_i for row i of the finest level in 1D. Bonds act on differences of displacements, so that a
- * body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
+/* Subtracts row i of K x from sum[0], for the matrix K of the finest level in 1D. Bonds act on differences of
+ * displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
 static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -20,17 +20,18 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
     sum[0] -= force + l->rest[i] * x[i];
 }
 
-/* Returns the products of the four entries of the 2 x 2 block q with the displacement of its column's node minus `own`,
- * the displacement of the row's node. Lanes 0 and 1 belong to the first component of the force, 2 and 3 to the second
- * one. x: displacements of all nodes. */
+/* Returns the products of the four entries of matrix block q (2 x 2) with a difference of displacements: that of the
+ * node of its column minus `own`, that of the node of its row. Lanes 0 and 1 belong to the first component of the
+ * force, 2 and 3 to the second one. x: displacements of all nodes. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
-/* Computes sum[0 .. 1] -= (K x)_i for row i of the finest level in 2D, with blocks of 2 x 2. Bonds act on differences
- * of displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
+/* Subtracts row i of K x, a node with two components, from sum[0 .. 1], for the matrix K of the finest level in 2D.
+ * Bonds act on differences of displacements, so that a body in rigid motion has exactly no forces; l->rest is the
+ * stiffness of supports. */
 static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
@@ -46,8 +47,9 @@ static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t 
     }
 }
 
-/* Computes sum[0 .. 2] -= (K x)_i for row i of the finest level in 3D, with blocks of 3 x 3. Bonds act on differences
- * of displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
+/* Subtracts row i of K x, a node with three components, from sum[0 .. 2], for the matrix K of the finest level in 3D.
+ * Bonds act on differences of displacements, so that a body in rigid motion has exactly no forces; l->rest is the
+ * stiffness of supports. */
 static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = lane_pair_load(x + i * 3);
@@ -70,8 +72,8 @@ static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t 
         for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
 }
 
-/* Computes sum[0 .. w - 1] -= (K x)_i for row i of level l. w: components per node; single: true for the finest level,
- * whose matrix is in single precision. w and single must be compile-time constants. */
+/* Subtracts row i of K x, for the matrix K of level l, from sum[0 .. w - 1]. w: components per node; single: true for
+ * the finest level, whose matrix is in single precision. w and single must be compile-time constants. */
 static ALWAYS_INLINE void row_times(const struct multigrid_level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {

@@ -23,7 +23,7 @@ struct tables {
     int32_t *where;
 };
 
-/* Returns the table [t->n] of the calling thread. */
+/* Returns the calling thread's own table in t, an array of t->n entries. */
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
 /* The product of matrix and prolongation (matrix l->down). Its pattern is stored for all rows, its values only for one
@@ -47,9 +47,10 @@ static int compare_columns(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds the columns of row i of the product of two sparse matrices a and b, given by their patterns (first, column).
- * where: table of the calling thread, whose entries differ from i for columns not yet found; list: receives the columns
- * in ascending order; NULL: they are only counted. Returns their number. */
+/* Finds the columns of row i of the product of two sparse matrices a and b, given by their patterns: row k of a has the
+ * columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise for b. where: table of the calling thread,
+ * with entry i for a column that has been found; list: receives the columns in ascending order, NULL: they are only
+ * counted. Returns their number. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
                            const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
 {
@@ -66,9 +67,9 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
     return n;
 }
 
-/* Computes the pattern of the product of two sparse matrices a (n rows) and b, given by their patterns (first, column).
- * The columns of a row are ascending. Allocates the arrays of *out. t: a table for each thread, with one entry for each
- * column of b. */
+/* Computes *out, the pattern of the product of two sparse matrices a (n rows) and b, given by their patterns: row k of
+ * a has the columns a_column[a_first[k]] to a_column[a_first[k + 1] - 1], likewise for b. The columns of a row are
+ * ascending. Allocates the arrays of *out. t: a table for each thread, with one entry for each column of b. */
 static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
                          const int64_t *b_first, const int32_t *b_column, const struct tables *t)
 {
@@ -106,8 +107,8 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of the product of matrix and prolongation into p->block, which holds the present slab (set of
- * successive rows) of the product. w, m: components per node of this and of the coarser level, compile-time
+/* Computes row i of the product of the matrix and the prolongation of the level p->l into p->block. This array holds a
+ * slab of the product, some successive rows. w, m: components per node of this and of the coarser level, compile-time
  * constants. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
@@ -130,8 +131,9 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds the contributions of the rows in the present slab (set of successive rows of the product) to row c of the
- * coarser matrix. w, m: components per node of this and of the coarser level, compile-time constants. */
+/* Adds to row c of the coarser matrix what the present slab contributes (a slab is some successive rows of the product
+ * of matrix and prolongation, in p->block). w, m: components per node of this and of the coarser level, compile-time
+ * constants. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
@@ -162,9 +164,9 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
-/* Computes the product of matrix and prolongation for the rows p->first .. p->end - 1, a slab, and adds its
- * contributions to the coarser matrix. The components per node of both levels are compile-time constants in each case,
- * for speed. */
+/* Computes rows p->first .. p->end - 1 of the product of matrix and prolongation, and adds their contributions to the
+ * coarser matrix. The numbers of components per node of both levels are compile-time constants in each case, for
+ * speed. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;
@@ -180,7 +182,8 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Returns the number of blocks in the largest slab, i.e. of SLAB successive rows of the product. */
+/* Returns the largest number of blocks in SLAB successive rows of the product of matrix and prolongation, for which
+ * memory is needed at a time. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

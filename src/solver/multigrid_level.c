@@ -7,9 +7,9 @@
 #include "base/team.h"
 #include "multigrid_parts.h"
 
-/* Computes the inverse of the symmetric block a[w][w] by a U'DU factorisation, row major in `inverse`. held: bit set of
- * the components that are left out; their rows and columns are 0 in the inverse. A pivot below least * scale is
- * replaced by `scale`. */
+/* Computes the inverse of the symmetric block a[w][w] by a U^T D U factorisation, and stores it in `inverse` row by
+ * row. held: components that are left out, as bits; their rows and columns are 0 in the inverse. A pivot below least *
+ * scale is replaced by `scale`. */
 static void block_invert(const real *a, real *inverse, int w, unsigned held, real least, real scale)
 {
     real u[WIDTH_MOST][WIDTH_MOST], pivot[WIDTH_MOST];
@@ -58,8 +58,8 @@ static bool entry_is_zero(const struct multigrid_level *l, int64_t q)
     return true;
 }
 
-/* Lists all nodes that are connected with node i, directly or through other nodes, in list[], i included, and sets
- * seen[] to 1 for them. seen, list: [n]. Returns their number. */
+/* Lists all nodes of level l that are connected with node i, directly or through other nodes, in list[], i included,
+ * and sets seen[] to 1 for them. seen, list: [n]. Returns their number. */
 static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -106,8 +106,8 @@ struct three_vectors {
     const real *a, *b, *c;
 };
 
-/* Adds the products a b to sum[0] and b c to sum[1] for entries first .. end - 1; a block function of
- * reproducible_sums. context: a struct three_vectors. */
+/* Adds the products a b and b c of three vectors over entries first .. end - 1 to sum[0] and sum[1]. context: the
+ * vectors (struct three_vectors). reproducible_sums calls it for each block of entries. */
 static void three_vectors_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct three_vectors *v = context;
@@ -117,8 +117,8 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
     }
 }
 
-/* Computes l->d = D^-1 t with the diagonal blocks D and t = l->t, and the scalar products sum[0] = x . t and sum[1] = t
- * . d. */
+/* Computes l->d = D^-1 t for t = l->t, with the diagonal blocks D of the matrix of level l, and the scalar products
+ * sum[0] = x . t with x = l->x, and sum[1] = t . d. */
 static void lanczos_scale(struct multigrid_level *l, real *sum)
 {
     const int w = l->width;
@@ -132,8 +132,8 @@ static void lanczos_scale(struct multigrid_level *l, real *sum)
     reproducible_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
 }
 
-/* Makes the next Lanczos vector -(d + a x + b y)/length in l->y, and exchanges l->x and l->y, so that x is the newest
- * one. a, b: coefficients of the recurrence; length: its norm. */
+/* Computes the next Lanczos vector -(d + a x + b y)/length from the vectors d, x and y of level l. It becomes l->x, and
+ * the former l->x becomes l->y. a, b: coefficients of the recurrence; length: norm by which the vector is divided. */
 static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
 {
 #pragma omp parallel for schedule(static)

@@ -60,8 +60,8 @@ static ALWAYS_INLINE pair lane_pair_load(const real *from)
     return a;
 }
 
-/* Copies the matrix block of entry q in row of blocks i to `entry`, w x w values row by row [N/m]. Entry q is an index
- * in l->column; w: components of a node of this level. */
+/* Copies the matrix block in row i, at entry q of l->column, to `entry`: w x w values row by row [N/m]. w: components
+ * of a node of level l. The diagonal block is read from l->diagonal, others from l->single or l->block. */
 static ALWAYS_INLINE void multigrid_matrix_entry(const struct multigrid_level *l, int64_t i, int64_t q, const int w,
                                                  real *entry)
 {
@@ -100,9 +100,9 @@ enum { ROWS_MANY = 200 };
             ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
     } while (0)
 
-/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as 0,
- * i.e. as a motion without stiffness [1]. The share is larger for the finest level and for unconstrained fragments, as
- * stiffnesses rounded to floats resist rotations by 6e-8 of their value. */
+/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as a
+ * motion without stiffness [1]. It is larger for the finest level, whose stiffnesses are rounded to floats, and for
+ * unconstrained fragments: such stiffnesses resist rotations by 6e-8 of their value. */
 static inline real multigrid_smallest_pivot(const struct multigrid_level *l, int64_t i)
 {
     return l->unconstrained[i] || l->single ? 1e-6 : 1e-13;
@@ -116,8 +116,8 @@ void multigrid_invert_blocks(struct multigrid_level *l);
  * and stores them in next->unconstrained. */
 void multigrid_find_unconstrained(const struct multigrid_level *l, struct multigrid_level *next);
 
-/* Estimates l->largest, the largest eigenvalue of D^-1 K with the matrix K of level l and its diagonal blocks D, from
- * below by Lanczos iterations. */
+/* Estimates l->largest, the largest eigenvalue of D^-1 K, from below by Lanczos iterations. K: matrix of level l; D:
+ * its diagonal blocks. */
 void multigrid_estimate_eigenvalue(struct multigrid_level *l);
 
 /* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the
@@ -128,16 +128,17 @@ void multigrid_aggregate_nodes(struct multigrid_level *l);
  * width, scale and rigid motions of the nodes of the next coarser level. */
 void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_level *next);
 
-/* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction:
- * the orthonormal rigid motions of aggregates, smoothed by one step with the matrix scaled by its diagonal. */
+/* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
+ * The prolongation is P - step D^-1 K P: the orthonormal rigid motions P of the aggregates of nodes, smoothed by one
+ * step with the matrix K of the level and its diagonal blocks D. */
 void multigrid_make_transfer(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
  * l->down. */
 void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *next);
 
-/* Factorises the matrix K of level l as U'DU into d. Pivots without stiffness are replaced by the mean stiffness
- * l->scale. Release with dense_free. */
+/* Factorises the matrix K of level l as K = U^T D U, with the upper triangular matrix U and the diagonal matrix D, into
+ * *d. Pivots without stiffness are replaced by the mean stiffness l->scale. Release with dense_free. */
 void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
 /* Solves K x = b with the factorisation d of dense_factorise. b: d->n loads; x: receives d->n values. */

@@ -4,7 +4,8 @@
 
 /* ---- pattern ----------------------------------------------------------------------------------------------------- */
 
-/* Inserts `value` into the ascending list of *n values, unless the list contains it. The list must have room for it. */
+/* Inserts `value` into the list of *n ascending values, unless the list contains it, and counts it in *n. The list must
+ * have room for one more value. */
 static void sorted_add(int32_t *list, int *n, int32_t value)
 {
     int k = *n;
@@ -14,9 +15,9 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Stores the aggregates of the neighbours of node i in list[], in ascending order; none if the node has no stiffness.
- * An aggregate is a set of nodes that form one node of the coarser level. Returns their number, at most that of the
- * neighbours. */
+/* Stores in list[], ascending, the numbers of the aggregates to which node i and its neighbours belong, and returns how
+ * many there are. An aggregate is a set of nodes that form one node of the coarser level. There are none if the node
+ * has no stiffness. list must have room for the number of neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -26,7 +27,8 @@ static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *l
     return n;
 }
 
-/* Computes the pattern (first, column) of the prolongation l->down. Its blocks are not allocated. */
+/* Computes the pattern of the prolongation l->down, its arrays `first` and `column`: which aggregates (nodes of the
+ * coarser level) each node depends on. The blocks of the prolongation are not allocated. */
 static void down_pattern(struct multigrid_level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
@@ -46,9 +48,9 @@ static void down_pattern(struct multigrid_level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* Computes force[k][w][m] for k < n: the product of matrix row i with the rigid motions of aggregate name[k] (the
- * tentative prolongation). An aggregate is a set of nodes that form one node of the coarser level. w, m: components per
- * node of this and of the coarser level, compile-time constants. */
+/* Computes force[k][w][m] for k < n: the product of matrix row i with the rigid motions of aggregate name[k]. An
+ * aggregate is a set of nodes that form one node of the coarser level, and its rigid motions are the prolongation
+ * before it is smoothed. w, m: components per node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
                                       real *force, const int w, const int m)
 {
@@ -67,9 +69,9 @@ static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i
     }
 }
 
-/* Computes row i of the smoothed prolongation l->down: the rigid motions R of the aggregates (nodes of the coarser
- * level) minus step D^-1 K R, with the diagonal blocks D of the matrix K. w, m: components per node of this and of the
- * coarser level, compile-time constants. */
+/* Computes row i of the smoothed prolongation l->down, R - step D^-1 K R. R: rigid motions of the aggregates (sets of
+ * nodes that form one node of the coarser level); K, D: matrix of the level and its diagonal blocks. w, m: components
+ * per node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;
@@ -88,7 +90,7 @@ static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, r
     }
 }
 
-/* Computes the transpose `up` of the prolongation p, and allocates its arrays. */
+/* Computes *up, the transpose of the prolongation p of level l, and allocates its arrays. */
 static void transfer_transpose(const struct multigrid_level *l, const struct transfer *p, struct transfer *up)
 {
     const int w = l->width, m = l->modes;

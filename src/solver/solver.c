@@ -50,8 +50,9 @@ struct constrained_forces {
     const uint8_t *held;
 };
 
-/* Adds the squares of forces on free components to sum[0], and on constrained components to sum[1], for particles first
- * .. end - 1 [N^2]; a block function of reproducible_sums. context: a struct constrained_forces. */
+/* Adds the squares of the forces on particles first .. end - 1 [N^2]: over free components to sum[0], over constrained
+ * components to sum[1]. context: solver and particles (struct constrained_forces). reproducible_sums calls it for each
+ * block of particles. */
 static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct constrained_forces *f = context;

@@ -15,8 +15,8 @@
 /* Returns true if a support or a plane of symmetry constrains component d of particle i. */
 static bool is_constrained(const struct static_solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
-/* Adds the weighted product d . K d over free components to sum[0], for particles first .. end - 1; K d is in s->q. A
- * block function of reproducible_sums. context: the solver. */
+/* Adds the weighted product d . K d over free components of particles first .. end - 1 to sum[0]; K d is in s->q.
+ * context: the solver (struct static_solver). reproducible_sums calls it for each block of particles. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -25,8 +25,8 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product u . K u over all components to sum[0], for particles first .. end - 1; K u is in s->q. A
- * block function of reproducible_sums. context: the solver. */
+/* Adds the weighted product u . K u over all components of particles first .. end - 1 to sum[0]; K u is in s->q.
+ * context: the solver (struct static_solver). reproducible_sums calls it for each block of particles. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -34,8 +34,9 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1], for particles first .. end -
- * 1. A block function of reproducible_sums. context: the solver. */
+/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1], over particles first .. end -
+ * 1, with the residual r and the diagonal matrix Lambda. context: the solver (struct static_solver). reproducible_sums
+ * calls it for each block of particles. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -58,8 +59,9 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u in p->f [N] from the displacements u, not by recurrence. The norm of the reactions on
- * constrained components is stored, then these components are set to 0. */
+/* Computes the residual b - K u from the displacements u into p->f [N], where b are the applied forces; it is not
+ * updated by recurrence. Stores the norm of the reactions on constrained components, then sets these components to
+ * 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -88,7 +90,7 @@ static void restart(struct static_solver *s, const struct particles *p)
     s->rz = sum[0];
 }
 
-/* Computes initial displacement, residual and search direction of the iteration. */
+/* Computes the initial displacements of conjugate gradients, their residual and the first search direction. */
 static void solver_cg_start(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -100,8 +102,8 @@ static void solver_cg_start(struct static_solver *s, const struct static_body *b
     restart(s, p);
 }
 
-/* Computes u += alpha d and r -= alpha K d, with K d in s->q, then the next search direction d. alpha: length of the
- * step. Returns r . r [N^2]. */
+/* Advances conjugate gradients by a step: u += alpha d and r -= alpha K d, with K d in s->q; then computes the next
+ * search direction d. alpha: length of the step [1]. Returns r . r [N^2]. */
 static real solver_cg_advance(struct static_solver *s, real alpha)
 {
     real sum[2];
@@ -122,8 +124,8 @@ static real solver_cg_advance(struct static_solver *s, real alpha)
     return sum[1];
 }
 
-/* Sets the positions of the particles to x = X + u and computes the bond forces there, from which energies and stresses
- * of state-based models follow. */
+/* Sets the positions of the particles to x = X + u, with the reference positions X and the displacements u, and
+ * computes the bond forces there. Energies and stresses of state-based models follow from these. */
 static void solver_cg_displace(const struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -132,9 +134,9 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
     static_body_compute_bond_forces(body);
 }
 
-/* Computes the true residual and sets *done to true if it is at most the tolerance, else to false. If the recursive
- * residual (by_recurrence [N]) differs from it by round-off, the iteration is restarted. step: number of the iteration.
- * Returns FAILED, with a message, after STALLS_MOST restarts without progress. */
+/* Computes the residual from the displacements, and sets *done to true if it is at most the tolerance, else to false.
+ * If by_recurrence, the residual of the recurrence [N], differs from it by round-off, the iteration is restarted. step:
+ * number of the iteration. Returns FAILED, with a message, after STALLS_MOST restarts without progress. */
 static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,
                     bool *done)
 {

@@ -29,9 +29,9 @@ struct scaled {
     const struct static_body *body;
 };
 
-/* Computes y = Lambda^-1/2 K Lambda^-1/2 x with the diagonal Lambda = s->diagonal and the stiffness K, for
- * largest_eigenvalue. x, y: [dim n]. context: a struct scaled. Overwrites s->before and the velocities of the
- * particles. */
+/* Computes y = Lambda^-1/2 K Lambda^-1/2 x, with the diagonal matrix Lambda = s->diagonal and the stiffness K of the
+ * bonds. x, y: dim n values. context: solver and body (struct scaled). Called by largest_eigenvalue. Overwrites
+ * s->before and the velocities of the particles. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
@@ -48,9 +48,9 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes s->diagonal, the diagonal matrix Lambda that scales the unknowns: Lambda_i >= 1/4 sum_j |K_ij| for a unit
- * step (Kilic & Madenci 2010), with the stiffness K of the bonds as springs. It is multiplied by the largest eigenvalue
- * of Lambda^-1 K/4 if the model is stiffer than these springs. */
+/* Computes s->diagonal, the diagonal matrix Lambda of masses for relaxation: Lambda_i >= 1/4 sum_j |K_ij| for a unit
+ * step (Kilic & Madenci 2010), with the stiffness K of the bonds as springs. If the model is stiffer than these
+ * springs, it is multiplied by the largest eigenvalue of Lambda^-1 K/4. */
 static void make_diagonal(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -77,8 +77,8 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     field_free(&kept);
 }
 
-/* Sets weights and constraints of particles on planes of symmetry: they stay on the plane, and only half of each
- * belongs to the body. The weights of all other particles are 1. */
+/* Sets weights and constraints of particles on planes of symmetry: such a particle stays on the plane, and only half of
+ * it belongs to the body (weight 1/2 for each plane). All other particles have the weight 1. */
 static void make_weights(struct static_solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -94,16 +94,16 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps in which supports move to their final positions; 0 if none moves. In a step of relaxation
- * motion spreads by at most one spacing. With as many steps as the body has spacings, supports strain bonds about as
- * much as they strain the body. */
+/* Returns the number of steps in which supports move to their final positions; 0 if none moves. In a step of
+ * relaxation, motion spreads by one spacing at most. If the number equals that of the spacings along the body, supports
+ * strain bonds about as much as they strain the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);
     return most > 0 ? 1 + (int64_t)(particles_bounding_box_longest_edge(body->part) / body->spacing) : 0;
 }
 
-/* Computes the norm of the applied forces on free components, s->applied [N]. */
+/* Computes s->applied, the norm of the applied forces on free components, i.e. those that no support prescribes [N]. */
 static void make_applied(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -115,7 +115,8 @@ static void make_applied(struct static_solver *s, const struct static_body *body
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
 
-/* Computes s->noise: ten times the norm of the forces caused by round-off of positions in a body at rest [N]. */
+/* Computes s->noise: ten times the norm of the forces that round-off of positions causes in a body at rest [N].
+ * Residuals below it have no meaning. */
 static void make_noise(struct static_solver *s, const struct particles *p)
 {
     real sum = 0;
@@ -135,7 +136,8 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* Returns REFUSED, with a message, if the applied forces along axis d are neither balanced nor carried by supports. */
+/* Returns OK if the applied forces along axis d are balanced, or if supports or planes of symmetry carry them. Returns
+ * REFUSED, with a message, if not. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;
@@ -155,8 +157,8 @@ static status force_balanced(const struct loads *loads, int d)
         "xyz"[d], sum);
 }
 
-/* Returns REFUSED, with a message, if the loads have no equilibrium. Forces are tested along each axis; moments only
- * for a single plane body without supports. */
+/* Returns OK if the loads can have an equilibrium, else REFUSED, with a message. Forces are tested along each axis;
+ * moments only for a single plane body without supports. */
 static status loads_balanced(const struct static_body *body)
 {
     struct loads *l = body->loads;

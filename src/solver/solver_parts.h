@@ -8,19 +8,20 @@
  * mirror images. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
-/* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with a
- * displacement [N]: the decrease of the bond forces along `in`, by central differences. in: a vector for each particle
- * [m]; strain_ratio: largest strain of `in` over its largest component [1/m]. Overwrites positions and forces of the
- * particles. */
+/* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with the
+ * displacements `in` [N]. It is the decrease of the bond forces along `in`, by central differences. in: a vector for
+ * each particle [m]; strain_ratio: largest strain that `in` causes over its largest component [1/m]. Overwrites
+ * positions and forces of the particles. */
 void static_body_tangent_product(const struct static_body *body, const struct field *in, struct field *out,
                                  real strain_ratio);
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
- * components. */
+ * components, those with prescribed displacement. */
 void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
-/* Computes residual and scale of a static solution (static_solver_set_residual) from the forces p->f: the norm over
- * free components is the residual force, over constrained components the reaction. */
+/* Computes the residual of a static solution and the force scale to which it refers, from the forces p->f
+ * (static_solver_set_residual). The norm over free components is the residual force, that over constrained components
+ * the reaction. */
 void static_solver_compute_residual(struct static_solver *s, const struct particles *p);
 
 #endif

@@ -5,8 +5,8 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Moves the supports by step number `step` of their ramp, by 1/s->ramp of their final displacements. Does nothing after
- * the ramp. */
+/* Moves the supports by 1/s->ramp of their final displacements in step number `step`. Does nothing from step s->ramp
+ * on. */
 static void supports_move(const struct static_solver *s, struct particles *p, int64_t step)
 {
     if (step >= s->ramp) return;
@@ -22,9 +22,9 @@ struct relaxing {
     const struct particles *part;
 };
 
-/* Adds for particles first .. end - 1, over free components: u^T k u to sum[0], u^T u to sum[1], and v^T v to sum[2],
- * with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}). A block function of reproducible_sums; context: a struct
- * relaxing. */
+/* Adds over free components of particles first .. end - 1: u^T k u to sum[0], u^T u to sum[1], and v^T v to sum[2],
+ * with displacements u, velocities v and the estimated stiffness k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}).
+ * context: solver and particles (struct relaxing). reproducible_sums calls it for each block of particles. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct relaxing *relaxing = context;
@@ -43,16 +43,17 @@ static void damping_block(const void *context, int64_t first, int64_t end, real 
 
 #define DAMPING_MOST 1.9 /* 2 would stop the motion */
 
-/* Returns the damping coefficient c = 2 sqrt(u^T k u/u^T u) from the sums of damping_block. */
+/* Returns the damping coefficient c = 2 sqrt(u^T k u/u^T u), at most DAMPING_MOST [1], with u^T k u in sum[0] and u^T u
+ * in sum[1] (damping_block). */
 static real damping(const real *sum)
 {
     const real ratio = sum[1] > 0 ? sum[0] / sum[1] : 0;
     return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
 }
 
-/* Moves the particles by a unit step of pseudo-time with v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the
- * first half step from rest is f/(2 Lambda). step: number of the step; c: damping coefficient [1]. Stores the forces in
- * s->before. */
+/* Moves the particles by a step of pseudo-time 1: v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c), x += v, or f/(2
+ * Lambda) in the first half step from rest. Lambda: s->diagonal; step: number of the step; c: damping coefficient [1].
+ * Stores the forces in s->before. */
 static void particles_move(struct static_solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
