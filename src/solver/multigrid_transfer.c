@@ -15,9 +15,9 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Stores in list[], ascending, the numbers of the aggregates to which node i and its neighbours belong, and returns how
- * many there are. An aggregate is a set of nodes that form one node of the coarser level. There are none if the node
- * has no stiffness. list must have room for the number of neighbours. */
+/* Stores in list[], ascending, the numbers of the aggregates to which node i and its neighbours belong. An aggregate is
+ * a set of nodes that form one node of the coarser level. Returns the number of entries, 0 if the node has no
+ * stiffness. list must have room for the node and its neighbours. */
 static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *list)
 {
     int n = 0;
