@@ -58,8 +58,9 @@ enum softening_due {
     DUE_AGAIN,     /* the stress forbade a bond to soften; examined again if limit.retries */
     DUE_DENIED = 4 /* bit that is set while row blocks are examined: becomes AGAIN */
 };
-/* Softening of bonds (data/softening.h). A row block stores the arrays [columns 8] once one of its bonds has begun to
- * soften. */
+/* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
+ * which it begins to soften and breaks, d is its softening, 0 to 1. A row block, the bonds of eight particles, stores
+ * the arrays [columns 8] once one of its bonds has begun to soften. */
 struct softened {
     const struct softening_curve *curve; /* NULL: no bond softens */
     float *most, *onset, *end;           /* [columns 8] largest stretch k, s_0, s_f of each bond [1] */
@@ -117,9 +118,10 @@ struct clamped {
     struct clamp_end *end;
 };
 
-/* State of each particle's family (all its neighbours) in state-based models, from which bond forces follow: weighted
- * volume Q, pressure P, spring g and, in models with particle rotations, rotation R. Not used in bond-based models.
- * Material points with bonds have the fields end_* of struct particles instead. */
+/* State of the family of each particle (all its neighbours) in state-based models, from which bond forces follow:
+ * weighted volume Q, pressure P, spring g and, in models with particle rotations, rotation R. V is the volume of the
+ * particle. Material points with bonds have the members end_* of struct particles instead of P, g and R. Row blocks
+ * hold the bonds of eight particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based model */
@@ -251,20 +253,22 @@ struct bond_softness {
     float most, onset, end, whole;
 };
 
-/* Returns the state of a bond of the given range that may not soften yet, or is brittle. */
+/* Returns the softening state of a bond that is brittle or may not soften yet. range: stretches at which softening
+ * begins and the bond breaks. `end` of the result is just below range.onset: beyond it the bond is examined. */
 static inline struct bond_softness bond_softness_initial(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
 }
 
-/* Returns the state of the bond with index `bond`. */
+/* Returns the softening state (struct bond_softness) that `softened` stores for the bond with index `bond`. */
 static inline struct bond_softness bond_softness_load(const struct softened *softened, int64_t bond)
 {
     return (struct bond_softness){softened->most[bond], softened->onset[bond], softened->end[bond],
                                   softened->whole ? softened->whole[bond] : 0};
 }
 
-/* Stores the state of the bond with index `bond`. */
+/* Stores `state` as the softening state of the bond with index `bond`, and whether it has begun to soften in the column
+ * (the bonds with equal number of eight particles) of the bond. */
 static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bond_softness state)
 {
     struct bond_column *column = &b->common[bond / LANES];
@@ -283,30 +287,31 @@ static inline bool row_block_has_softening(const struct bonds *b, int64_t row_bl
     return b->soft.curve && b->soft.begun[row_block];
 }
 
-/* Returns true if the bond with index `bond`, in row block `row_block`, has begun to soften, or was allowed to do so at
- * a known stretch. */
+/* Returns true if the bond with index `bond` has begun to soften, or has been allowed to do so from a stored stretch
+ * on. row_block: row block (the bonds of eight particles) that contains it. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     return row_block_has_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
-/* Returns the weight that the bond with index `bond`, in row block `row_block`, has had before it softened [1]. w: its
- * present weight. Only for state-based models. */
+/* Returns the weight that the bond with index `bond` had before it softened [1]. row_block: row block (the bonds of
+ * eight particles) that contains it; w: its present weight [1]. Only for state-based models. */
 static inline real bond_whole_weight(const struct bonds *b, int64_t row_block, int64_t bond, real w)
 {
     return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : w;
 }
 
-/* Marks row block `row_block` as due: one of its bonds may begin to soften before the next sweep (bond_begin.c). */
+/* Requests an examination of row block `row_block` (the bonds of eight particles) before forces are computed next,
+ * because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several threads at once. */
 static inline void row_block_mark_due(struct bonds *b, int64_t row_block)
 {
     if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
 }
 
-/* Returns the share 1 - d of its stiffness that the bond with index `bond`, in row block `row_block` (the bonds of
- * eight particles), keeps at the stretch `stretch` [1], with its softening d. Returns 1 in state-based models, whose
- * bond weights already contain this factor. */
+/* Returns the share 1 - d of its stiffness that the bond with index `bond` keeps at the stretch `stretch` [1], where d
+ * is its softening, 0 to 1. row_block: row block (the bonds of eight particles) that contains the bond. Returns 1 in
+ * state-based models, whose bond weights already contain this factor. */
 static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int64_t row_block, int64_t bond,
                                                      real stretch)
 {
@@ -315,9 +320,9 @@ static inline real bond_remaining_stiffness_fraction(const struct bonds *b, int6
     return softening_remaining_stiffness_fraction(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], most);
 }
 
-/* Returns half the energy that the softening of the bond with index `bond`, in row block `row_block`, has dissipated so
- * far [J], the share of one of its two rows; 0 if the bond is broken, and in state-based models, which add it to the
- * fracture energy of rows at once. */
+/* Returns half the energy that the softening of the bond with index `bond` has dissipated so far [J]; the other
+ * particle of the bond has the other half. row_block: row block (the bonds of eight particles) that contains the bond.
+ * Returns 0 if the bond is broken, and in state-based models, which add this energy to the fracture energy at once. */
 static inline real bond_half_softening_energy(const struct bonds *b, int64_t row_block, int64_t bond)
 {
     if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
@@ -335,14 +340,14 @@ static inline void softness_mark_point(struct bonds *b, struct particles *p, int
     __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
-/* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
- * from the stored weights and lengths of its bonds. Required after a change of w or of the sign of inverse_length;
- * usually called through bond_changed_update_column. */
+/* Recomputes b->common[column], the properties that the eight bonds of a column (one bond of each particle of a row
+ * block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
+ * inverse_length of a bond; usually called through bond_changed_update_column. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column);
 
-/* Recomputes the common properties of the column that contains the bond after its weight or the sign of its inverse
- * length has changed. row: the row (all bonds of one particle) of the bond, whose row block no longer follows a
- * stencil. */
+/* Recomputes the common properties of the column that contains bond `bond` after its weight or the sign of its inverse
+ * length has changed. A column has one bond of each of eight particles, which form a row block. row: row of the bond,
+ * i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row blocks share. */
 void bond_changed_update_column(struct bonds *b, int64_t row, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of a row block (the bonds of eight particles), none of which has

@@ -15,8 +15,8 @@ struct spring_bound {
     real block[DIM_MAX][DIM_MAX], total; /* sum K n n and sum K over springs of stiffness K, direction n [N/m] */
 };
 
-/* Adds a spring of stiffness `stiffness` [N/m] and direction `direction` (unit vector, dim components) to the sums of
- * `bound`. */
+/* Adds a spring to the sums of `bound`: K n n (a dyad) to bound->block and K to bound->total. stiffness: stiffness K of
+ * the spring [N/m]; direction: its unit vector n, dim components. */
 static inline void spring_bound_add_spring(struct spring_bound *bound, real stiffness, const real *direction, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -24,8 +24,9 @@ static inline void spring_bound_add_spring(struct spring_bound *bound, real stif
     bound->total += stiffness;
 }
 
-/* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to `bound`: the maximum row
- * sum of the matrix sum K n n, plus the sum of all K [N/m]. */
+/* Returns an upper bound of the largest eigenvalue of the stiffness matrix of the springs added to `bound` [N/m], by
+ * block-Gershgorin: the maximum row sum of the magnitudes in bound->block, which is the sum of K n n over springs of
+ * stiffness K and direction n, plus bound->total, the sum of all K. */
 static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bound, int dim)
 {
     real norm = 0;
@@ -41,8 +42,8 @@ static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bo
  * of particles i and j of p. */
 bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
-/* Returns an upper bound of the number of neighbours of any particle within the cutoff, from counts of particles in
- * search cells. Computed once at set-up, because reference positions do not change. source: inputs of the bonds. */
+/* Returns an upper bound of the number of neighbours of any particle within the cutoff: source->room if it is set (>
+ * 0), else computed from the counts of particles in search cells. source: inputs of the bonds. */
 int bonds_neighbour_count_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
@@ -64,8 +65,8 @@ void mirror_images_copy_kinds(struct particles *p, const struct bond_source *sou
  * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
 void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Returns an upper bound (spring_bound_largest_eigenvalue) of the largest eigenvalue of the stiffness matrix of the
- * bonds of one row, i.e. of one particle [N/m]. */
+/* Returns an upper bound of the largest eigenvalue of the stiffness matrix of the bonds of one row, i.e. of all bonds
+ * of one particle [N/m], by block-Gershgorin. */
 real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of b. */
@@ -80,16 +81,17 @@ real bonds_critical_time_step(const struct particles *p, const struct bond_sourc
  * peridynamic and no bond is broken. */
 real bonds_critical_time_step_of_rows(const struct bonds *b, const struct particles *p);
 
-/* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set
- * `old_particles` to the bonds b of the particles p. new_index: index in p of each particle of `old_particles`, images
- * included; -1: the particle is not in p. limit: of the bonds. In both sets peridynamic particles must have all their
- * neighbours. */
+/* Copies what load has done to bonds from the bonds `old` of the particles `old_particles` to the bonds b of p, another
+ * set of particles: which bonds are broken or have softened, counts and energies of rows, and damage. new_index: index
+ * in p of each particle of `old_particles`, images included; -1: the particle is not in p. limit: critical stretches
+ * and softening by pair of materials. In both sets peridynamic particles must have all their neighbours. */
 void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                            const struct bonds *old, const struct particles *old_particles, const int32_t *new_index);
 
-/* Saves which bonds are broken, and their plastic state, to the archive `a` if a->saving, else restores them from it.
- * Neighbours and weights are not stored, since bonds_make rebuilds them. An archive for trial steps (a->scope) has the
- * plastic state only, without the work of broken bonds. Returns FAILED if an entry is missing or its size differs. */
+/* Saves which bonds are broken or have softened, their plastic state and the damage p->damage to the archive `a` if
+ * a->saving, else restores them from it. Neighbours and weights are not stored, since bonds_make rebuilds them. If
+ * a->scope is not ARCHIVE_ALL, only the plastic stretches of bonds are saved or restored. Returns FAILED if an entry is
+ * missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
@@ -111,16 +113,16 @@ real bonds_dissipated_softening_energy(const struct bonds *b);
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun(const struct bonds *b, int64_t row);
 
-/* Evaluates the strength surfaces of materials (bonds_strength.c) at the present positions, for particles whose bonds
- * have stretches near them. Where the share U of the strength surface reaches 1 (or the strength factor of the
- * particle, if strength scatters), those bonds of the particle that have not begun to soften do so from their present
- * stretch on. Material points at such bonds are marked for conversion. Does nothing if no material has a surface.
- * source: inputs of the bonds. */
+/* Evaluates the strength surfaces of materials at the present positions, for particles whose bonds have stretches near
+ * them (bonds_strength.c). U is the stress of a particle over that on the strength surface. Where U reaches 1 (or the
+ * strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to soften do
+ * so from their present stretch on. Material points at such bonds are marked for conversion. Does nothing if no
+ * material has a surface. source: inputs of the bonds. */
 void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Computes the share U of the strength surface of every particle into share[p->n] [1]: U = 1 on the surface, 0 if the
- * material has no surface. Stress follows from the strain averaged over the family of a peridynamic particle, and is
- * that of the point for material points. */
+/* Computes the share U of the strength surface for every particle into share[p->n] [1]: its stress over that on the
+ * surface, 0 if the material has no surface. The stress of a material point is its own, that of a peridynamic particle
+ * follows from the strain averaged over its family. source: inputs of the bonds. */
 void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *source,
                           real *share);
 
@@ -182,8 +184,9 @@ struct column_copy {
     real inverse_length[LANES], w[LANES];
 };
 
-/* Reads neighbours, inverse lengths and weights of one column of a row block (one bond of each of its eight
- * particles) into *to, from the stencil if the row block stores no columns. Does not change b. */
+/* Reads neighbours, inverse lengths and weights of one column of a row block (bond number `column` of each of its eight
+ * particles) into *to. They come from the stencil, the pattern of bonds that row blocks share, if the row block stores
+ * no columns of its own. Does not change b. */
 void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t column);
 
 /* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
@@ -194,8 +197,8 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns the `number`-th bond of the particle in lane `lane` (0 to 7) of a row block. Lanes without a `number`-th bond
- * return inverse_length 0. Does not change b. */
+/* Returns bond number `number` of the particle in lane `lane` (0 to 7) of row block `row_block`, the bonds of eight
+ * particles. If the lane has no such bond, the inverse_length returned is 0. Does not change b. */
 static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t number, int lane)
 {
     const int64_t q = (b->column[row_block] + number) * LANES + lane;

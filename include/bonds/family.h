@@ -43,8 +43,8 @@ enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FOR
  * soften; empirical. */
 enum { SOFTENING_RETRY_STEPS = 8 };
 
-/* When bonds break or soften. critical_stretch: by pair of materials [materials^2], INFINITY for bonds that never
- * break. */
+/* Limits at which bonds break or begin to soften. critical_stretch: stretch at which a brittle bond breaks, for each
+ * pair of materials: entry m materials + q for the materials m and q; INFINITY for bonds that never break. */
 struct bond_limit {
     const real *critical_stretch; /* [1] */
     int materials;
@@ -152,18 +152,19 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
  * rule of f [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
 
-/* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain, C_abcd
- * = 1/(2V) sum c V V w r e_a e_b e_c e_d, with the weights by direction and partial volumes of f. The result is cubic,
- * and its shear modulus equals c12. */
+/* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain: C_abcd
+ * = c V/2 sum w r e_a e_b e_c e_d over the bonds of a particle. c: micro-modulus; V: volume of a particle; r, e: length
+ * and direction of a bond; w: its weight, with partial volume and weight by direction (family_bond_weight). The result
+ * is cubic, and its shear modulus equals c12. */
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
-/* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
- * square of the stretch at which its bonds break [N/m] (separation.c). modulus: moduli of the material; present_family:
- * true if sums are normalised by the present family. */
+/* Returns G/s_c^2 [N/m] in the model with particle rotations, with the work G per area that separates the two halves of
+ * a lattice along a plane and the stretch s_c at which bonds break (separation.c). modulus: moduli of the material;
+ * present_family: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
 real family_separation_work_per_area(const struct family *f, const struct state_modulus *modulus, bool present_family);
 
-/* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
- * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
+/* Returns the energy that the bonds across a lattice plane normal to an axis store, per area of the plane, if each has
+ * the critical stretch of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
 real family_crack_energy_per_area(const struct family *f, const struct material *m);
 
 /* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in

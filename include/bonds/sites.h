@@ -33,8 +33,8 @@ bool site_map_make(struct site_map *map, const struct bond_source *source, const
 /* Releases the arrays of `map`. */
 void site_map_free(struct site_map *map);
 
-/* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `existing` with one more user if it is
- * not NULL, else a new map of p. Release with site_map_release. */
+/* Returns a map from lattice sites to particles for bonds that are rebuilt: `existing` with one more user or, if
+ * `existing` is NULL, a new map of p. source: inputs of the bonds. Release with site_map_release. */
 struct site_map *site_map_share_or_make(struct site_map *existing, const struct bond_source *source,
                                         const struct particles *p);
 
@@ -42,9 +42,9 @@ struct site_map *site_map_share_or_make(struct site_map *existing, const struct 
  * NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists the particles and images within the cutoff that belong to the body of particle i, ascending, by means of the
- * site map `map`, in `found` (at least map->most entries). Returns their number, or -1 if images are among them, so
- * that the list cannot be made in ascending order and a search is required. */
+/* Lists in found[], ascending, the particles and images within the cutoff of particle i that belong to its body, by
+ * means of the map `map` from lattice sites to particles. found must have room for map->most entries. Returns their
+ * number, or -1 if images are among them: these cannot be listed in ascending order, and the caller must search. */
 int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found);
 
 /* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */

@@ -5,10 +5,10 @@
 #include "bonds/family.h"
 #include "data/softening_states.h"
 
-/* Returns the work per area that separates two halves of an infinite lattice [J/m^2], by quadrature over their distance
- * (separation.c). Bonds soften by `curve` from the stretch range.onset on and break at range.end. f: family of the
- * lattice; modulus: moduli of the material; rotates: true for the model with particle rotations. Weighted volumes stay
- * those of the intact families. */
+/* Returns the work per area that separates two halves of an infinite lattice [J/m^2], by quadrature over the distance
+ * between the halves (separation.c). Bonds soften by `curve` from the stretch range.onset on and break at range.end;
+ * the weighted volumes of families stay those without softening. f: family of the lattice; modulus: moduli of the
+ * material; rotates: true for the model with particle rotations. */
 real family_softening_work_per_area(const struct family *f, const struct state_modulus *modulus, bool rotates,
                                     const struct softening_curve *curve, struct softening_range range);
 

@@ -47,9 +47,9 @@ void surface_weights_free(struct surface_weights *w);
 /* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
 static inline int nearest_integer(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
 
-/* Returns the factor on the weight of the bond of particle i < n with reference vector `bond_vector` (dim components
- * [m]) [1]; 1 if the particle is far from faces or `bond_vector` is longer than any bond. Both particles of a bond
- * obtain bitwise equal factors. */
+/* Returns the factor by which the weight of a bond of particle i is multiplied near faces [1]; 1 if the particle is far
+ * from faces or `bond_vector` is longer than any bond. bond_vector: reference vector from particle i to its neighbour,
+ * dim components [m]; i must be no image. Both particles of a bond obtain bitwise equal factors. */
 static inline real surface_weight_factor(const struct surface_weights *weights, int64_t i, const real *bond_vector)
 {
     int at = 0;
