@@ -107,14 +107,14 @@ status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, 
 void levels_free(struct mesh_levels *l);
 
 /* Sets two distances between a coarse cell and a material point that shall become peridynamic, both in cells of level 0
- * (the finest). postpone_distance: below it the conversion of the point is postponed, since its forces would reach the
- * coarse cell; refine_distance: below it the coarse cell shall be split, since points near breaking bonds convert
- * next. */
+ * (the finest). postpone_distance: if the point is closer, its conversion is postponed, since its bonds would reach the
+ * coarse cell. refine_distance: if it is closer, the coarse cell shall be split, since points near breaking bonds
+ * convert next. */
 void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distance, int refine_distance);
 
 /* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
- * in them have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would have
- * this dispersion [m]; wave_speed: longitudinal [m/s]; dt: time step [s]. */
+ * in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would
+ * have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
 void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
@@ -127,10 +127,10 @@ void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struc
                                         uint8_t *admissible);
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
- * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
- * difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` is set to one level less there.
- * level, highest_level: a byte for each cell of level 0, the finest. The motion of the nodes of level 0 must be up to
- * date (levels_prolong_motion_to_fine_nodes). Returns true if a limit was lowered. */
+ * present, the motion of the nodes inside is compared with the interpolation from its corners. If the energy of the
+ * difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less than `level` in
+ * this cell. level, highest_level: a byte for each cell of level 0, the finest. The motion of the nodes of level 0 must
+ * be up to date (levels_prolong_motion_to_fine_nodes). Returns true if an entry of `highest_level` was lowered. */
 bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
                                     uint8_t *highest_level);
 
@@ -151,15 +151,15 @@ void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach);
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                               const uint8_t *level);
 
-/* Changes the velocities of all nodes by the nodal forces of half a time step. Velocities of level L are half of its
- * step 2^L dt behind its displacements: dt > 0 brings them to the same time, dt < 0 reverts this. elastic: array of the
- * elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of level 0
- * [s]. */
+/* Changes the velocities of all nodes by the nodal forces of half a time step. Between steps, velocities of level L are
+ * half of its step 2^L dt behind its displacements: dt > 0 brings both to the same time, dt < 0 reverts this. elastic:
+ * array of the elastic constants of all materials; finite: true if strains are finite, false if small; |dt|: time step
+ * of level 0 [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite, real dt);
 
-/* Copies displacement and velocity to all ghosts (nodes of a coarser mesh at the position of a node of the next finer
- * mesh) from these finer nodes. levels_move_nodes does so only for the levels that it moves. */
+/* Copies displacement and velocity to all ghosts. A ghost is a node of a coarser mesh at the position of a node of the
+ * next finer mesh, which determines its motion. */
 void levels_copy_motion_to_ghosts(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
@@ -169,7 +169,8 @@ void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
  * particles in an adjacent cell. */
 void levels_prolong_motion_near_points(struct mesh_levels *l);
 
-/* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
+/* Returns the highest refinement level whose forces act in step number `step`: the largest L <= l->n for which `step`
+ * is a multiple of 2^L. */
 int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
@@ -192,9 +193,9 @@ real levels_kinetic_energy(const struct mesh_levels *l);
  * elastic constants of all materials; finite: true if strains are finite, false if small. */
 real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite);
 
-/* Returns by how much the mean kinetic energy of the nodes of all coarse levels exceeds the one that leap-frog
- * conserves [J]: sum of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2, with the velocities before and after the last
- * update. dt: time step of level 0 [s]. */
+/* Returns the mean kinetic energy of the nodes of all coarse levels less the one that leap-frog conserves [J]: the sum
+ * of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2 over the nodes, of mass m, with their velocities v_old and v_new
+ * before and after the last update. dt: time step of level 0, the finest [s]. */
 real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels [W]: the sum of 2^L v . f, with the level L of the

@@ -46,17 +46,17 @@ void mesh_free(struct mesh *mesh);
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
                                    const struct cells_without_particles *hollow);
 
-/* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
- * partial stress: removes peridynamic particles from their cells and recomputes the cells. Each peridynamic particle
- * takes its share of mass and momentum from the nodes of its cell, so that nodal velocities are kept. Returns the
- * kinetic energy that is lost by this [J]. */
+/* Updates the mesh after n particles have become peridynamic or have changed their partial stress: removes the
+ * peridynamic ones from their cells and recomputes these cells. changed: indices of the n particles, NULL if they are
+ * unknown. Each particle that leaves takes its share of mass and momentum from the nodes of its cell, so that nodal
+ * velocities are kept. Returns the kinetic energy that is lost by this [J]. */
 real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                            const int32_t *changed, int64_t n);
 
-/* Recomputes the stiffness of the cells of n points `changed` after only their partial stresses have changed; all
- * points remain in the mesh. Possible only for partial cells, which store a stiffness matrix because points are missing
- * or leave a part of their stress to bonds. Returns false, without any change, if one of the cells was not partial
- * before or would not be afterwards; call mesh_remove_converted then. */
+/* Recomputes the stiffness of the cells of n points after only their partial stresses have changed; all points remain
+ * in the mesh. changed: indices of the n points. Possible only for partial cells. These store a stiffness matrix
+ * because points are missing, or leave a part of their stress to bonds. Returns false, without any change, if one of
+ * the cells was not partial before or would not be afterwards; call mesh_remove_converted then. */
 bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                    const int32_t *changed, int64_t n);
 
@@ -75,10 +75,10 @@ bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
 void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
                               const struct loads *loads);
 
-/* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega over all cells, with the
- * largest angular frequency omega of a cell on its own. The critical step of the whole mesh is not smaller.
- * after_any_conversion: true to include cells that have lost any subset of their points by conversion, false for the
- * present cells. density: mass density of each material [kg/m^3]. */
+/* Returns a lower bound of the critical time step of the mesh [s]: the smallest 2/omega over all cells, with the
+ * largest angular frequency omega of a cell that moves on its own. after_any_conversion: true to include the cells that
+ * would remain if any subset of the points of a cell converted, false for the present cells. density: mass density of
+ * each material [kg/m^3]. */
 real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *source, const real *density,
                              bool after_any_conversion);
 

@@ -53,9 +53,9 @@ struct reference_frame {
 };
 
 /* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
- * the background grid (current frame), with a reason in r->choice; sets FLAG_MESHED of the particles in the reference
- * frame, and makes the background grids mpm for this choice. Returns REFUSED, with a message, if the scene requires
- * the reference frame for a body that cannot use it. */
+ * the background grid (current frame), and stores the choice with its reason in r->choice. Sets FLAG_MESHED of the
+ * particles in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a
+ * message, if the scene requires the reference frame for a body that cannot use it. */
 status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
                           const struct scene *s);
 
@@ -72,9 +72,9 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
  * displacement and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
 status reference_frame_make(struct run *e, const struct mesh_source *source, bool motion_set_later);
 
-/* Returns the critical time step of the cells of the reference frame [s], INFINITY if there are none. With the
- * adaptive method and without partial stress (coupling), cells that have lost any of their points by conversion are
- * included. */
+/* Returns the critical time step of the cells of the mesh in the reference frame [s], INFINITY if there is none. If
+ * points may convert (adaptive method) and `coupling` is not partial stress, cells that have lost any of their points
+ * by conversion count, too. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
@@ -82,19 +82,19 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                struct loads *loads);
 
-/* Updates positions and velocities of the exposed points of the mesh (points with bonds, loads or mirror images) from
- * the nodes, and the strain at points with state-based bonds to peridynamic particles. */
+/* Updates the exposed points of the mesh, i.e. the material points with bonds, loads or mirror images: their positions
+ * and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their strains. */
 void frame_update_exposed_points(struct reference_frame *r, struct particles *p);
 
-/* Computes the nodal forces of the reference frame in step number `step`: the forces of bonds on points of the mesh,
- * taken from p->f and distributed to the nodes, plus the forces of all cells whose refinement level acts in this
- * step. */
+/* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
+ * distributed to the nodes, plus the forces of all cells whose refinement level acts in this step. Level L, 0 for the
+ * finest cells, acts every 2^L steps. */
 void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
 /* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the points of the mesh that
- * have bonds, loads or mirror images. loads: prescribed velocities; their work and reactions are added to its sums;
- * clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity: interval over which
- * velocities are advanced [s]. */
+ * have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions those of this
+ * step are added; clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity: interval
+ * over which velocities are advanced [s]. */
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                       const struct run_clock *clock, real t_middle, real dt_velocity);
 
@@ -111,14 +111,15 @@ void frame_update_point_motion(struct reference_frame *r, struct particles *p, c
 void frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                 const int32_t *list, int64_t n);
 
-/* Updates the mesh after `converted` particles have become peridynamic and the partial stresses of the points
- * partial->touched have changed. Adds the energy lost to *energy_lost [J]. Returns true if points have left the mesh,
- * and the caller must call frame_find_exposed_points; false if only the stiffness of cells has changed. */
+/* Updates the mesh after `converted` particles (0: none) have become peridynamic and the partial stresses of the points
+ * listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to *energy_lost [J].
+ * Returns true if points may have left the mesh; the caller must then call frame_find_exposed_points. Returns false if
+ * only the stiffness of cells has changed. */
 bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
                                    const struct partial_stress *partial, real *energy_lost);
 
-/* Adds n listed particles, which have become material points again, to the mesh (mesh_insert_points). Adds the energy
- * lost to *energy_lost [J]. */
+/* Adds n listed particles, which have become material points again, to the mesh. list: n particle indices. Momentum is
+ * conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
 void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
                          real *energy_lost);
 
@@ -167,17 +168,18 @@ struct levels_choice {
  * made. */
 void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles);
 
-/* Returns the number of coarse refinement levels for scene s, given by the scene or chosen from loads and thickness of
- * the body, with the reason. dt_critical: critical time step [s]. */
+/* Returns the number of coarse refinement levels for scene s, and the reason. The number is given by the scene or
+ * chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
 struct levels_choice frame_levels_choose_count(const struct reference_frame *r, const struct particles *p,
                                                const struct scene *s, real dt_critical);
 
-/* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: result of
- * frame_levels_choose_count. */
+/* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
+ * from frame_levels_choose_count. */
 void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
- * why to `reason` (`capacity` bytes). c: result of frame_levels_choose_count. */
+ * why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
+ * frame_levels_choose_count. */
 bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                const struct scene *s, char *reason, size_t capacity);
 
@@ -185,8 +187,8 @@ bool frame_levels_exceed_limit(const struct levels_choice *c, const struct refer
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
 status frame_levels_make(struct run *e, bool restored);
 
-/* Returns true if refinement levels may change before step number `step`: from the second step on, when all levels
- * have reached the same time. */
+/* Returns true if refinement levels may change before step number `step`: if there are coarse levels, step > 0, and all
+ * levels have reached the same time. */
 bool frame_levels_may_change(const struct mesh_levels *l, int64_t step);
 
 /* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
@@ -195,13 +197,13 @@ bool frame_levels_may_change(const struct mesh_levels *l, int64_t step);
 uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
                                   int64_t step, real mass);
 
-/* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_choose_next. Cells that become
- * level 0 (the finest) must have particles (levels_need_more_particles). The change of energy is added to e->damped.
- */
+/* Changes the refinement levels of run e. level: for each cell of level 0 (the finest) the level of the cell to which
+ * it shall belong, as frame_levels_choose_next returns it. Cells that become level 0 must have particles
+ * (levels_need_more_particles). The energy that the change removes is added to e->damped. */
 void frame_levels_apply(struct run *e, const uint8_t *level);
 
-/* Postpones the conversion of material points that are too close to coarse cells, by clearing their flags, and
- * requests finer cells there. To be called before conversion. */
+/* Postpones the conversion of material points that are too close to coarse cells: clears the flags by which they would
+ * convert, and requests finer cells there. To be called before points convert. */
 void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
@@ -213,23 +215,26 @@ void frame_levels_update_node_lists(struct reference_frame *r, const struct part
  * be left out. */
 const char *scene_why_all_particles_needed(const struct scene *s);
 
-/* Decides which cells need no particles because they will be inside coarse cells, before particles are made: away from
- * pre-cracks, loads and probes. h: receives these cells; no change if all particles must be made or too few can be
- * left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many cells. */
+/* Decides, before particles are made, which cells need none because they will be inside coarse cells away from
+ * pre-cracks, loads and probes. h: receives these cells in h->absent; it stays NULL if all particles must be made or
+ * too few can be left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many
+ * cells. */
 status cells_without_particles_choose(struct cells_without_particles *h, const struct scene *s,
                                       const struct bond_source *source);
 
-/* Checks that all cells of level 0 (the finest) have particles under the initial refinement levels. level: level of
- * each cell, NULL if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels
- * follow from a checkpoint; r->hollow is then corrected and the run must be set up again. */
+/* Returns true if all cells that have level 0 (the finest) at the start have particles. level: level of the cell to
+ * which each cell of level 0 belongs, NULL if there are no coarse cells. Returns false if particles are missing or if
+ * the levels come from a checkpoint. The run must then be set up again, with the cells without particles that r->hollow
+ * now has. */
 bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level);
 
-/* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
- * set up again with more particles. */
+/* Returns true if a cell that shall have level 0 (the finest) has no particles, so that the run must be set up again
+ * with more particles. level: for each cell of level 0 the level of the cell to which it shall belong. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level);
 
-/* Chooses the cells without particles for the refinement levels level[mesh.grid.n] and stores them in r->hollow.
- * Particles change when the run is set up again. */
+/* Chooses the cells without particles for the given refinement levels and stores them in r->hollow. Particles change
+ * only when the run is set up again. level: for each cell of level 0 (the finest) the level of the cell to which it
+ * shall belong. */
 void cells_without_particles_update(struct reference_frame *r, const uint8_t *level);
 
 /* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
