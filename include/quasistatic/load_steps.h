@@ -16,24 +16,24 @@ status engine_solve_static(struct run *e);
  * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_run_load_steps(struct run *e);
 
-/* Initialises e->solver, the solver by which engine_solve_static finds one static equilibrium, with the loads at the
- * end of the scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried
- * by supports. */
+/* Initialises e->solver, with which engine_solve_static finds one static equilibrium under the loads at the end of the
+ * scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried by
+ * supports. */
 status engine_static_solver_make(struct run *e);
 
 /* Checks that the solver of load steps can treat the bodies, loads and supports of the scene of run e. Returns REFUSED,
- * with the reason, if they do not. */
+ * with the reason, if it cannot. */
 status statics_check_scene(const struct run *e);
 
-/* Finds the equilibrium at load time t [s] for an estimate of the cost of a run (`cleave check`). The run cannot be
- * continued with load steps afterwards. Returns FAILED if no equilibrium is found. */
+/* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run
+ * cannot be continued with load steps afterwards. Returns FAILED, with a message, if no equilibrium is found. */
 status engine_find_trial_equilibrium(struct run *e, real t);
 
 /* Computes the largest ratio of bond stretch to critical stretch that the whole run would reach if no bond broke.
- * Stores the ratio in *ratio [1] and its load time in *load_time [s]. Where all loads grow in proportion, the stretches
- * of the present equilibrium are scaled; where loads reverse or further loads begin, equilibria are computed.
- * first_load_time: load time of the preceding engine_find_trial_equilibrium [s]. Returns FAILED if an equilibrium is
- * not found. */
+ * *ratio receives the ratio [1], *load_time the time of the loads at which it is reached [s]. The run must be in the
+ * equilibrium that engine_find_trial_equilibrium found for the time first_load_time [s]. If all loads grow in
+ * proportion, its stretches are scaled; if loads reverse or others begin later, further equilibria are computed.
+ * Returns FAILED, with a message, if one of them is not found. */
 status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
 /* Returns a measure of the size of the loads at pseudo-time t [s], to which it is proportional: the root of the sum of
@@ -41,13 +41,13 @@ status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time,
  * forces [N]. */
 real statics_load_size(const struct run *e, real t);
 
-/* Returns the reason why the growth direction of cracks cannot be determined from their stress-intensity factors (key
- * `steps.path` of the scene), a static text, or NULL if it can. If it can and `plane` is not NULL, stores the plane in
- * which the crack tips move in *plane. */
+/* Returns why the growth direction of cracks cannot be determined from their stress-intensity factors, a static text,
+ * or NULL if it can; key `steps.path` of the scene may exclude it. plane: receives the plane in which the crack tips
+ * move, valid only if NULL is returned; may be NULL if the caller does not need it. */
 const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *plane);
 
-/* Checks a three-dimensional scene with SIF-driven cracks (`steps.path: hoop`). Returns REFUSED, with the reason, if
- * their growth direction cannot be determined (sif_growth_why_impossible). */
+/* Checks a three-dimensional scene that demands crack growth by stress-intensity factors (`steps.path: hoop`). Returns
+ * REFUSED, with the reason, if the growth direction cannot be determined from them. Returns OK for other scenes. */
 status sif_growth_check(const struct run *e);
 
 /* Saves the state between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If a->scope
@@ -55,7 +55,8 @@ status sif_growth_check(const struct run *e);
  * missing or has another size. */
 status statics_save_or_load(struct run *e, struct archive *a);
 
-/* Frees the storage of the equilibrium solver. SIF-driven cracks keep their state; sif_cracks_free frees them. */
+/* Frees the storage of the equilibrium solver in s, except the state of cracks driven by stress-intensity factors
+ * (s->sif), which sif_cracks_free frees. */
 void statics_free(struct statics *s);
 
 #endif

@@ -34,8 +34,9 @@ struct break_list {
     struct broken_bond *bond; /* [n] */
 };
 
-/* Energies of a crack increment, a set of bonds that break together. The load size is a measure proportional to the
- * loads (statics_load_size). */
+/* Energies of a crack increment, a set of bonds that break together. The energy that the body releases grows with the
+ * square of the load size L, a measure proportional to the loads: prescribed displacements [m] or else forces [N]
+ * (statics_load_size). */
 struct crack_increment {
     real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
     real release; /* energy that the body releases, over the square of the load size (statics_load_size) [J/m^2, J/N^2]
