@@ -24,21 +24,21 @@ struct conversion {
     real reversion_energy;            /* change of the total energy by reversions [J] */
 };
 
-/* Functions that `convert` calls, with `context` as first argument. sync: brings the motion of n listed particles up to
- * date if it is stored on the nodes of a mesh (mesh.h), before bonds to them are made; each particle is listed once.
- * converted (may be NULL): reports that n listed particles have become peridynamic and have bonds. */
+/* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings the motion of n listed
+ * particles up to date before bonds to them are made, where nodes of a mesh have their motion; each particle is listed
+ * once. converted: reports that n listed particles have become peridynamic and have bonds; NULL: no report. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
     void (*converted)(void *context, const int32_t *list, int64_t n);
 };
 
-/* Converts material points to peridynamic particles at the end of a step: those that lost a bond or are near another
- * body (FLAG_LOST_BOND, FLAG_NEAR), with the stress criterion of rule->criteria also those with FLAG_STRESSED and, with
- * rule->block, the neighbours of each within the horizon. Clears these flags, rebuilds the bonds b if a particle
- * converts, and updates the partial stresses (`partial`, NULL: none) near converted particles and broken bonds. sync:
- * functions to call before and after bonds are made, NULL if no particle is in a mesh; t: time [s]. Returns the number
- * of particles converted. */
+/* Converts material points to peridynamic particles at the end of a step: those that lost a bond (FLAG_LOST_BOND) or
+ * are near another body (FLAG_NEAR). If rule->criteria has the stress criterion, those with FLAG_STRESSED convert, too.
+ * If rule->block is set, the particles of the same body within the cutoff of any of these points convert with them.
+ * Clears these flags, rebuilds the bonds b if a particle converts, and updates the partial stresses (`partial`, NULL:
+ * none) near converted particles and broken bonds. sync: functions to call before and after bonds are made, NULL if no
+ * particle is in a mesh; t: time [s]. Counts are added to c. Returns the number of particles converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);
@@ -47,23 +47,26 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
  * the particles in `region` (NULL: none). */
 void convert_particles_at_precracks(struct particles *p, const struct bond_source *source, const struct region *region);
 
-/* Computes the region that is peridynamic from step 0 on, and stores it in `region`: the region of the scene
- * (`scene_region`, NULL: none), and a ball of `tip_radius` [m] round each end of a pre-crack inside the body (in 3D a
- * cylinder round each edge). The caller frees region->solid; a region without solids is empty. */
+/* Computes the region that is peridynamic from step 0 on: the region that the scene gives, and a ball round each end of
+ * a pre-crack inside the body (in 3D a cylinder round each edge). region: receives it; the caller frees region->solid,
+ * and a region without solids is empty. scene_region: region of the scene, NULL: none; tip_radius: radius of the balls
+ * and cylinders [m]. */
 void initial_pd_region_make(struct region *region, const struct region *scene_region, const struct particles *p,
                             const struct bond_source *source, real tip_radius);
 
-/* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, the part of its stress that
- * it leaves to these bonds, as a matrix that maps the stress of the point to it: M = T C^-1 with the elastic stiffness
- * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds: K stiffness, xi
- * length, e direction, l share of the reference segment inside the cell; V: volume of the point. changed[n]: particles
- * converted since the last call; only points near them are recomputed. NULL: all points. */
+/* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, i.e. bonds to peridynamic
+ * particles. This is the part of the stress of the point that it leaves to these bonds, stored as the matrix M that
+ * maps the stress of the point to it: M = T C^-1 with the elastic stiffness C of the material and T = (1/V) sum K xi^2
+ * l e e e e (partial_stress.c). The sum is over the bonds: K stiffness, xi length, e direction, l share of the
+ * reference segment inside the cell; V: volume of the point. changed: n particles converted since the last call, only
+ * points near which are recomputed; NULL: all points are. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 
-/* Computes p->end_strain, the contribution of a material point to the mean strain of its family, from the stress of the
- * point by Hooke's law, for all points on the background grid with state-based PD-MPM bonds. Does nothing in bond-based
- * models. material: array of the materials. */
+/* Computes the strain p->end_strain of each material point on the background grid with state-based bonds to peridynamic
+ * particles: what the deformation of its cell contributes to the mean strain of its family. It follows from the stress
+ * of the point by Hooke's law. Does nothing in bond-based models. partial: lists these points; material: array of the
+ * materials. */
 void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                       const struct material *material);
 

@@ -23,26 +23,26 @@ struct coupling_state {
     struct region start_region; /* peridynamic from the start; no solids: empty */
 };
 
-/* Determines how peridynamic particles and material points of run e are coupled (partial stress, hand-shake and so on;
- * hand-shake unless the method is adaptive), then computes the partial stresses of material points and the interface
- * zone, in which motion is damped, for the present bonds. */
+/* Determines how peridynamic particles and material points of run e are coupled: by partial stress, hand-shake or
+ * another method of the scene; by hand-shake unless the method is adaptive. Then computes, for the present bonds, the
+ * partial stresses of material points and the interface zone, in which motion is damped. */
 void coupling_compute_partial_stress(struct run *e);
 
-/* Makes the mesh of the bodies in the reference frame (reference_frame_make) with the present partial stresses and the
- * slits of pre-cracks. motion_set_later: true if the caller sets displacement and velocity of the nodes afterwards.
- * Returns REFUSED or FAILED, with a message, as reference_frame_make does. */
+/* Makes the mesh of the bodies in the reference frame, with the present partial stresses and the slits of pre-cracks.
+ * motion_set_later: true if the caller sets displacement and velocity of the nodes afterwards, false to fit them to
+ * those of the particles. Returns REFUSED or FAILED, with a message, if no mesh is possible (mesh_make). */
 status coupling_make_mesh(struct run *e, bool motion_set_later);
 
-/* Rebuilds data that depend on the bonds, after the bonds b have changed: the marks of material points with bonds to
- * peridynamic particles (c->bonded, only for the FLIP transfer) and the interface zone, in which motion is damped
- * (c->zone, only for FLIP with partial stress). */
+/* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
+ * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone, in
+ * which motion is damped, for FLIP with partial stress only. source: inputs of the bonds. */
 void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
                                          const struct bond_source *source);
 
-/* Updates p->end_strain, the contribution of a material point to the mean strain of the family of its peridynamic
- * neighbours, of all material points with state-based bonds to peridynamic particles: in a mesh from the strain of the
- * cell, on the background grid from the stress of the point. Does nothing in bond-based models. material: array of the
- * materials. */
+/* Updates the strains p->end_strain of all material points with state-based bonds to peridynamic particles: what the
+ * deformation of the cell of such a point contributes to the mean strain of its family. They follow from the strain of
+ * the cell for points of the mesh of `frame`, from the stress of the point for points on the background grid. Does
+ * nothing in bond-based models. partial: lists these points; material: array of the materials. */
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 
@@ -80,20 +80,21 @@ void warn_of_voids(const struct run *e, struct warnings *to);
  * narrow to stay open (warn_of_voids). */
 void warn_of_joined_bodies(const struct run *e, struct warnings *to);
 
-/* Prepares the conversion of a step: marks (FLAG_NEAR) material points that are near other bodies or beside crack faces
- * that approach each other, and updates the active row blocks of bonds. Returns true if the faces of cracks and voids
- * were examined in this step, so that points beside them may be marked. */
+/* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
+ * crack faces that approach each other. Also updates the list of row blocks of bonds that are active, i.e. may move.
+ * Returns true if the faces of cracks and voids were examined in this step, so that points beside them may be
+ * marked. */
 bool conversion_flag_points(struct run *e);
 
-/* Converts the marked material points to peridynamic particles (convert_flagged_points) and updates all that depends on
- * it: bonds, contact, partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this
- * step; faces_examined: result of conversion_flag_points; bonds_fade: true if bonds of growing cracks lose strength
- * gradually. Returns the number of particles converted. */
+/* Converts the marked material points to peridynamic particles, and updates all that depends on it: bonds, contact,
+ * partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
+ * faces_examined: value that conversion_flag_points returned in this step; bonds_fade: true if bonds of growing cracks
+ * lose strength gradually. Returns the number of particles converted. */
 int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
 
-/* Updates the mesh, and the material points with state-based bonds to peridynamic particles, after `converted`
- * particles have become peridynamic (0: only partial stresses have changed). Energy lost by removing points from the
- * mesh is added to e->damped. */
+/* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
+ * conversion. converted: number of particles that have become peridynamic; 0 if at most partial stresses have changed.
+ * Energy lost by removing points from the mesh is added to e->damped. */
 void conversion_update_mesh(struct run *e, int64_t converted);
 
 /* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a
@@ -101,9 +102,9 @@ void conversion_update_mesh(struct run *e, int64_t converted);
  * solver of a single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
 status reversion_check_scene(const struct scene *s);
 
-/* Turns peridynamic particles back into material points if their stress has been low for long enough and none of their
- * bonds was ever cut (reversion_select_particles, reversion_apply). Called before each step, but examines the particles
- * only once in several steps. Does nothing if the scene has no reversion. */
+/* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
+ * bond near them was ever cut (reversion_select_particles). Called before each step; examines the particles only in
+ * step numbers that are multiples of a period. Does nothing if the scene has no reversion. */
 void reversion_apply_due(struct run *e);
 
 #endif

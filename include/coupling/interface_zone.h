@@ -28,23 +28,26 @@ struct interface_zone {
     real scale;         /* s, such that the largest eigenvalue of B is at most 4 [1] */
 };
 
-/* Finds the points of the interface zone, and their neighbours within 1.5 spacings, in the reference configuration.
- * Points of the zone are material points at most the cutoff of bonds plus one spacing away from a peridynamic particle
- * of their body. Pairs cut by a pre-crack and particles with prescribed motion are left out. Replaces the previous
- * zone. Release with interface_zone_free. */
+/* Finds the points of the interface zone and their neighbours, in the reference configuration. The zone contains the
+ * material points whose distance from a peridynamic particle of their body is at most the cutoff of bonds plus one
+ * spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a pre-crack and particles with
+ * prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the bonds. Release with
+ * interface_zone_free. */
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of the interface zone r. */
 void interface_zone_free(struct interface_zone *r);
 
-/* Damps the motion in the interface zone before the forces of a step are computed: changes the velocities of its
- * members by impulses J of fourth-order viscosity. strength: strength k [1], at most 1/16, at which motion that
- * alternates from point to point stops in one step. Returns the first half of the energy removed [J], -J . v/2 with the
- * velocities v before the change; interface_zone_damped_energy_second_half returns the second half. */
+/* Damps the motion in the interface zone r before the forces of a step are computed: changes the momentum of the points
+ * of the zone and their neighbours by impulses J of fourth-order viscosity. strength: strength k of the viscosity [1],
+ * at most 1/16; with 1/16, motion that alternates from point to point stops in one step. Returns the first half of the
+ * energy removed [J]: the sum of -J . v/2, with the velocities v before the change.
+ * interface_zone_damped_energy_second_half returns the second half. */
 real interface_zone_damp_velocities(struct interface_zone *r, struct particles *p, real strength);
 
-/* Returns the second half of the energy that interface_zone_damp_velocities has removed in this step [J]: -J . v'/2
- * with its impulses J and the velocities v' after the step. */
+/* Returns the second half of the energy that interface_zone_damp_velocities has removed in this step [J]: the sum of -J
+ * . v'/2 over the members of the zone, with its impulses J (r->change) and the present velocities v', those after the
+ * step. */
 real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p);
 
 #endif

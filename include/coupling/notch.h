@@ -29,25 +29,25 @@ struct notches {
     const struct voids *voids; /* kept by reference; NULL: no voids */
 };
 
-/* Decides for each pre-crack of the source whether it becomes a slit of the mesh: it does if it runs through material
- * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. tip_radius: radius of the
- * peridynamic zones at the ends of slits [m]; reason_against_slits: why no pre-crack may be a slit, NULL if slits are
- * allowed. Also finds the particles beside slits and narrow voids. Release with notches_free. */
+/* Decides for each pre-crack of `source` whether it becomes a slit of the mesh. It does if it runs through material
+ * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. Also finds the particles
+ * beside slits and narrow voids. tip_radius: radius of the peridynamic zones at the ends of slits [m];
+ * reason_against_slits: why no pre-crack may be a slit, NULL if slits are allowed. Release with notches_free. */
 void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real tip_radius,
                   const char *reason_against_slits);
 
-/* Makes particles peridynamic, before step 0, that are within n->radius of an end of a slit and whose family the slit
- * divides. */
+/* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit if the slit separates them from
+ * a part of their family. source: inputs of the bonds. */
 void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of n; cracks and voids stay with their owners. */
 void notches_free(struct notches *n);
 
-/* Sets FLAG_NEAR of material points beside slits and narrow voids whose opposite faces are about to touch. Tests the
- * distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from present positions and
- * velocities, which must be up to date. Points are marked if this distance is less than spacing (1 - NOTCH_GAP) at a
- * slit, spacing (1 + NOTCH_GAP) - width at a notch of width `width`; at a void, if the faces are close to contact.
- * spacing: of the particles [m]. */
+/* Sets FLAG_NEAR, by which material points convert, of points beside slits and narrow voids whose opposite faces are
+ * about to touch. Tests the distance of particles on opposite faces after the time `time_ahead` [s], extrapolated from
+ * present positions and velocities, which must be up to date. At a slit, points are marked if this distance is less
+ * than spacing (1 - NOTCH_GAP); at a notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a
+ * void, if the faces are close to contact. spacing: of the particles [m]. */
 void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif
