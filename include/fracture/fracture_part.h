@@ -14,8 +14,8 @@ struct fracture_state {
     struct growing_crack *growth; /* [growths] */
 };
 
-/* Returns true if f has a growing crack whose bonds lose their weight gradually while the tip moves on, instead of all
- * at once when it crosses them. */
+/* Returns true if f has a growing crack whose bonds lose their weight gradually while the tip moves on. Other cracks
+ * break the bonds at once when the tip crosses them. */
 bool cracks_have_fading_bonds(const struct fracture_state *f);
 
 #endif

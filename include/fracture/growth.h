@@ -80,11 +80,11 @@ void growing_crack_make(struct growing_crack *g, const struct growth_rule *rule)
 /* Frees the list of fading bonds of g and sets all its members to 0. */
 void growing_crack_free(struct growing_crack *g);
 
-/* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
- * the tip crosses to the list of fading bonds (bonds whose weight decreases to 0 while the crack grows), and reduces
- * the weights of all bonds in this list. source: bond law and neighbour search. control: present stress-intensity
- * factors, which turn the tip to the direction of the largest hoop stress and may set its speed; NULL if they are not
- * known. Returns the number of directed bonds (bond i-j counts twice) whose weight became 0. */
+/* Advances the growing crack g from time t by the time step dt [s]. Moves the tip by its speed times dt, adds the bonds
+ * that the tip crosses to g->fading, and reduces the weights of all bonds in this list, which become 0 as the crack
+ * grows on. source: bond law and neighbour search. control: present stress-intensity factors, which turn the tip to the
+ * direction of the largest hoop stress and may set its speed; NULL if they are not known. Returns the number of
+ * directed bonds (bond i-j counts twice) whose weight became 0. */
 int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
                               const struct bond_source *source, const struct growth_control *control, real t, real dt);
 

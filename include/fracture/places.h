@@ -12,13 +12,13 @@ struct place {
     bool beside;
 };
 
-/* Divides `positions` positions into groups and computes a representative position of one group. Two positions are in
- * one group if a chain of positions connects them in steps of at most `reach` [m], measured perpendicular to the unit
- * vector `along` (dim components; zero vector: in all directions). Positions with `beside` connect others, but no
- * result is computed from them. centre: receives the mean of the other positions of a group or, if none of them is
- * within `reach` of the mean, the one nearest to it (dim components [m]). If there are several groups, the one with the
- * largest x is used (of equal x the largest y, then z). Returns the number of groups, or 0, without a result, if all
- * positions have `beside`. At most the first 16384 positions are examined. */
+/* Divides positions into groups and computes a representative position of one group. Two positions are in one group if
+ * they can be connected by a chain of positions with steps of at most `reach` [m]. position: array of `positions`
+ * entries, of which at most the first 16384 are examined; those with `beside` set only serve to connect others. along:
+ * unit vector, dim components; steps are measured perpendicular to it, or in all directions if it is 0. The group used
+ * is that of the position with the largest x (of equal x the largest y, then z). centre: receives the mean of its
+ * positions, dim components [m], or the position nearest to the mean if none is within `reach` of it. Returns the
+ * number of groups, or 0, with `centre` unchanged, if all positions have `beside` set. */
 int64_t positions_cluster_centre(const struct place *position, int64_t positions, int dim, real reach,
                                  const real *along, real *centre);
 

@@ -39,8 +39,8 @@ struct gradient_rule {
     real tip[DIM_MAX]; /* position of the tip [m] */
 };
 
-/* Weights of the gradient of a field f at particle i: df/dX_d = sum_k weight[k][d] (f(particle[k]) - f(i)), k < n.
- * room: capacity of the arrays. */
+/* Weights of the gradient of a field f at particle i: df/dX_d = sum_k weight[k][d] (f(particle[k]) - f(i)) over the n
+ * neighbours particle[k], for the plane components d = 0, 1. room: capacity of the arrays. */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
@@ -49,10 +49,10 @@ struct gradient_stencil {
     int order;
 };
 
-/* Computes the weights by which values at neighbours give the gradient of a field at particle i. rule: method, range
- * and visibility of neighbours; c: neighbour search over the reference positions. s must be 0 or the result of an
- * earlier call, whose arrays are reused. If i has too few visible neighbours, s->order is 0 and there are no weights.
- * Release with gradient_stencil_free. */
+/* Computes the weights by which values at neighbours give the gradient of a field at particle i, and stores them in *s.
+ * *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method of the gradient, range and
+ * visibility of neighbours; c: neighbour search over the reference positions. If too few neighbours of i are visible,
+ * s->order is 0 and there are no weights. Release with gradient_stencil_free. */
 void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                               const struct cells *c, int64_t i);
 
@@ -70,7 +70,8 @@ struct contour {
     real inner, outer;
 }; /* radii where q decreases from 1 and reaches 0 [m] */
 
-/* A crack tip and options of the integration round it. */
+/* A crack tip and options of the integration round it. The second sum is the part of the interaction integral with the
+ * inertia terms. */
 struct sif_tip {
     struct crack_medium medium;
     real place[2], along[2]; /* reference position [m]; unit vector of the direction of growth */
@@ -97,9 +98,9 @@ struct sif {
     real K[MODES], J;
 }; /* [Pa m^(1/2)], [J/m^2] */
 
-/* Computes the weight `weight` of the interaction integral at distance `distance` from the crack tip [m]: *weight
- * receives the weight, 1 inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form:
- * function that decreases between the two radii. */
+/* Computes the weight q of the interaction integral and its slope at distance r = `distance` from the crack tip [m].
+ * *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m]. form:
+ * function by which q decreases between the two radii. */
 void sif_contour_weight(enum sif_weight form, const struct contour *contour, real distance, real *weight, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
@@ -110,17 +111,17 @@ real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *
                                const struct crack_state *actual, const struct crack_state *auxiliary,
                                real inertia_factor);
 
-/* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for `contours` contours in
- * one pass over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how
- * gradients are computed; c: neighbour search over the reference positions. result: receives `contours` results, K [Pa
- * m^(1/2)] and J [J/m^2]. */
+/* Computes the stress-intensity factors and J of the crack tip `tip` by the interaction integral. contour: `contours`
+ * pairs of radii, integrated in one pass over the particles. motion: displacement, velocity, acceleration and loads of
+ * all particles; rule: how gradients are computed; c: neighbour search over the reference positions. result: receives
+ * for each contour K_I and K_II [Pa m^(1/2)] and J [J/m^2]. */
 void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contours,
                                          const struct sif_motion *motion, const struct gradient_rule *rule,
                                          const struct particles *p, const struct cells *c, struct sif *result);
 
-/* Returns the largest relative difference between the results of `contours` contours [1]: of K_I or K_II over |K|, or
- * of J over J, with means over the contours in the denominators; NAN if one of them is 0. result: `contours` results of
- * sif_compute_by_interaction_integral. */
+/* Returns the largest relative difference between the results of `contours` contours [1]: the largest minus the
+ * smallest K_I, or K_II, over sqrt(K_I^2 + K_II^2) of the mean factors, or the largest minus the smallest J over the
+ * mean J, whichever is largest. Returns NAN if a denominator is 0. */
 real sif_contour_spread(const struct sif *result, int contours);
 
 #endif

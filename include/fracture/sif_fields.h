@@ -35,8 +35,8 @@ struct crack_field {
     struct crack_state state;
 }; /* [m] */
 
-/* Computes the plane stress tensor from the displacement gradient by Hooke's law. gradient: du_i/dx_j [1]; stress:
- * receives sigma_ij [Pa]. */
+/* Computes the stress in the plane from the displacement gradient by Hooke's law. m: elastic constants, which include
+ * the choice of plane stress or plane strain; gradient: du_i/dx_j [1]; stress: receives sigma_ij [Pa]. */
 void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
 
 /* Computes the field at x round the tip of a crack at rest with K = 1 Pa m^(1/2) in one mode (Williams 1957). x:
@@ -59,10 +59,10 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
 void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                      struct crack_field *f);
 
-/* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
- * 1990, chapter 5) [1]; 1 at rest. speed: speed v of the tip [m/s]. With a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 -
- * v^2/c_s^2), both contain the factor 1 - a_s^2; some prints have 1 - a_d^2 in A_II, which then would not tend to 1 at
- * rest. */
+/* Returns the universal function A_I(v) (mode I) or A_II(v) (mode II) of the energy release rate G = (A_I K_I^2 + A_II
+ * K_II^2)/E* (Freund 1990, chapter 5) [1]; both tend to 1 at rest. speed: speed v of the tip [m/s]. Both contain the
+ * factor 1 - a_s^2, with a_s = sqrt(1 - v^2/c_s^2); some prints have 1 - a_d^2 in A_II, with a_d = sqrt(1 - v^2/c_d^2),
+ * by which A_II would not tend to 1. */
 real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
 /* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:

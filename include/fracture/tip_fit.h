@@ -32,9 +32,9 @@ struct tip_view {
 };
 
 /* Computes K_I and K_II of a crack tip by a least-squares fit of the series of Williams to the displacements of the
- * particles round the tip. view: tip position, frame, range of particles and cracks that hide particles; K: receives
- * the factors in the frame of the view [Pa m^(1/2)]. Returns false, with K = 0, if too few particles are visible from
- * the tip. */
+ * particles round the tip. view: position and direction of the tip, radii between which particles are fitted, and
+ * cracks that hide particles. K: receives the two factors [Pa m^(1/2)], in the frame with the x axis view->along.
+ * Returns false, with K = 0, if too few particles are visible from the tip. */
 bool crack_tip_fit_sif(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

@@ -51,9 +51,9 @@ struct crack_tips {
     real *growth; /* [samples][TIPS_MAX] growth of every tip, without `joined` [m] */
 };
 
-/* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
- * pre-cracks represented as slits of the mesh. cut_fraction: for each particle, the share of its bonds that pre-cracks
- * cut once the particle has bonds [1]. */
+/* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
+ * through them. Needed for pre-cracks that are slits of the mesh. cut_fraction: for each particle, the share of its
+ * bonds that pre-cracks cut once the particle has bonds [1]. */
 void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
@@ -62,8 +62,9 @@ void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction
 void tips_make(struct crack_tips *t, const struct particles *p, const struct cells *c, const struct crack *crack,
                int cracks, real spacing, real window);
 
-/* Assigns newly damaged particles to cracks and updates position, growth and speed of all tips; new tips may be added.
- * time: present time [s]; p: particles with their present damage; c: neighbour search over the reference positions. */
+/* Assigns particles whose damage has come to exceed TIP_DAMAGE to cracks, and updates position, growth and speed of all
+ * tips. Damage away from all cracks makes new tips. p: particles with their present damage; c: neighbour search over
+ * the reference positions; time: present time [s]. */
 void tips_update(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
@@ -81,8 +82,8 @@ const struct crack_tip *tips_longest(const struct crack_tips *t);
  * tip has grown. */
 int64_t tips_count_longest_ends(const struct crack_tips *t);
 
-/* Returns true if a crack grows along a plane of symmetry, so that the modelled body has only one face of the crack.
- * mirror: `mirrors` planes of symmetry. */
+/* Returns true if the crack of `tip` grows along a plane of symmetry, so that the modelled body has only one face of
+ * the crack. t: all tips, with the spacing of the particles; mirror: `mirrors` planes of symmetry. */
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
                                const struct mirror_plane *mirror, int mirrors);
 
@@ -100,10 +101,11 @@ struct crack_area {
     real face, own;
 };
 
-/* Returns the crack area created up to the last sample. For a crack that starts at a pre-crack, the area of a face is
- * the sum of its growth over strips one spacing wide along the front, without branches. For any other crack it is half
- * the number of its particles times the area of a particle, since particles of both faces are counted; in a plane of
- * symmetry, where only one face is modelled, it is the whole number. s: planes of symmetry and thickness. */
+/* Returns the area of all cracks, created up to the last sample. For a crack that starts at a pre-crack, the area of
+ * one face is the sum of its growth over strips one spacing wide along the front; branches do not count. For any other
+ * crack it is half the number of its particles times the area of a particle, since particles of both faces are counted;
+ * in a plane of symmetry, where only one face is modelled, it is the whole number times this area. s: planes of
+ * symmetry and thickness. */
 struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
                                   const struct tip_surroundings *s);
 
