@@ -96,8 +96,9 @@ struct contact_near {
     uint8_t *touch;
 };
 
-/* A contact that acts as a linear spring between n particles. Its energy is 1/2 stiffness gap^2. Its gap changes at the
- * rate sum_k along[k] . v[k] with the velocities v[k] of the particles. */
+/* A contact that acts as a linear spring between n particles. Its energy is 1/2 stiffness gap^2, with the gap in m,
+ * form `surface`: in spacings. Its gap changes at the rate sum_k along[k] . v[k] with the velocities v[k] of the
+ * particles. */
 struct contact_term {
     int n;
     int32_t *particle;      /* [n] images included */
@@ -148,10 +149,11 @@ struct contact {
     real *push[DIM_MAX];       /* [particles of the body] recorded contact forces; NULL: not recorded [N] */
 };
 
-/* Initialises the contact of a run; no pairs are searched yet. between: which bodies can be in contact; law: form,
- * contact distance and friction, whose stiffness array is computed here from the elastic constants of the bonds times
- * `stiffness_factor` [1]; source: bond law with spacing and pre-cracks; shape: region of each body; rigid: `rigids`
- * rigid bodies. shape and rigid are kept by reference and must outlive c. Release with contact_free. */
+/* Initialises the contact c of a run, without a search for pairs. between: which bodies can be in contact; law: form,
+ * contact distance and friction, of which a copy is kept. The stiffness of contacts is computed here from the elastic
+ * constants of the bonds times `stiffness_factor` [1]. source: bond law with spacing and pre-cracks; shape: region of
+ * each body; rigid: `rigids` rigid bodies. shape and rigid are kept by reference and must outlive c. Release with
+ * contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
@@ -164,12 +166,12 @@ void contact_free(struct contact *c);
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
                                 real bonds_time_step);
 
-/* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
- * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
- * at least a fixed number of steps ago (BREAKS_WAIT), or if a search was requested (c->due). Particles on which contact
- * forces may act are marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step:
- * number of the step; broken_bonds: number of directed bonds broken so far; conversions: number of conversions and
- * reversions so far. */
+/* Updates the list of pairs of particles that may come into contact, before step number `step`. A new search is done in
+ * three cases: particles have moved farther than contact_list_largest_safe_motion since the last search; bonds have
+ * been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due). Particles on
+ * which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be computed.
+ * family: horizon and lattice; broken_bonds: number of directed bonds broken so far; conversions: number of conversions
+ * and reversions so far. */
 void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
                               const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
 
@@ -179,8 +181,8 @@ void contact_update_pair_list(struct contact *c, const struct particles *p, stru
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *list, int64_t n);
 
-/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b.
- * contact_update_pair_list does so, too; other callers need it only after a restart. */
+/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds in b as active, i.e. to be
+ * computed. Needed after a restart; in all other cases contact_update_pair_list does it. */
 void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
@@ -200,25 +202,25 @@ void contact_record_first_and_last_time(struct contact *c, real t);
  * springs included [J]. A pair with a mirror image of a particle counts half. */
 real contact_energy(const struct contact *c, const struct particles *p);
 
-/* Returns the diagonal of the bounding box of all particles in contact with rigid body number `rigid_body` [m], or 0 if
- * no particle is. */
+/* Returns the diagonal of the bounding box of all particles that touch rigid body number `rigid_body` at present [m],
+ * or 0 if no particle does. */
 real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
 
-/* Searches for pairs (contact_update_pair_list) and selects the contacts that act in an equilibrium solution: those
- * that overlap, and those between bodies whose gap is less than `gap_limit` [spacings]. Selected contacts act as linear
- * springs, also with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the
- * contact law if exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps
- * (struct contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
- * changed. */
+/* Searches for the pairs that may come into contact, and selects the contacts that act in an equilibrium solution:
+ * those that overlap, and those between different bodies whose gap is less than `gap_limit` [spacings]. Selected
+ * contacts act as linear springs, also with a positive gap, until the next selection, so that forces are smooth. An
+ * equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces that correct the
+ * energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and lattice. Returns the
+ * number of contacts whose selection changed. */
 int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b,
                                          struct loads *loads, const struct family *family, real gap_limit);
 
-/* Selects the contacts that act in an equilibrium solution, as contact_search_and_select_active does, from the existing
- * list of pairs. A gap within round-off of 0 does not change the selection. gap_limit: gap between bodies below which a
- * contact is selected [spacings]. Returns the number of contacts whose selection changed. */
+/* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: those that overlap, and
+ * those between different bodies whose gap is less than `gap_limit` [spacings]. A contact whose gap is 0 within
+ * round-off stays as it was. Returns the number of contacts whose selection changed. */
 int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit);
 
 /* Chooses which contacts act when forces are computed next. use: true for those selected by contact_select_active, as
@@ -234,12 +236,12 @@ void contact_end_selection(struct contact *c);
  * search. */
 bool contact_search_needed(struct contact *c, const struct particles *p);
 
-/* Returns how far any particle may move after a search before a pair that is missing in the list could come into
- * contact [m]. */
+/* Returns the largest distance that each particle may move after a search for pairs [m]. Up to it, no pair that is
+ * missing in the list can come into contact. */
 real contact_list_largest_safe_motion(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select_active, with the contact as a linear spring;
- * term is valid during the call only. Does nothing if no contacts have been selected. */
+/* Calls visit(context, term) for each contact selected by contact_select_active. term: the contact as a linear spring,
+ * valid during the call only. Does nothing if no selection has been made. */
 void contact_visit_springs(const struct contact *c, const struct particles *p,
                            void (*visit)(void *context, const struct contact_term *term), void *context);
 
