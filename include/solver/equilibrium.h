@@ -60,12 +60,13 @@ void newton_solver_make(struct newton_solver *q, int dim, int64_t n);
 /* Frees the vectors of q. */
 void newton_solver_free(struct newton_solver *q);
 
-/* Finds the static equilibrium under the present forces by Newton's method, starting from the displacement q->u +
- * increment. On entry q->u and q->f are displacement and forces of the previous equilibrium, on return of the new one.
- * increment: n vectors [m]; its prescribed components are the motion of supports, the others an initial guess.
- * loads_changed: true if loads or supports have changed since the previous equilibrium, false if only the body has, for
- * example by broken bonds. Returns FAILED, with a message, if the residual stays above the tolerance; q->u is then the
- * state with the smallest residual found. */
+/* Finds the static equilibrium under the present loads by Newton's method. On entry q->u and q->f are displacement and
+ * forces of the previous equilibrium, on return those of the new one. loads_changed: true if loads or supports have
+ * changed since the previous equilibrium, false if only the body has, for example by broken bonds. increment: first
+ * change of q->u, n vectors [m]: its prescribed components are the motion of supports, the others a guess; used only if
+ * loads_changed is true. Returns FAILED, with a message, if after all corrections the norm of unbalanced forces exceeds
+ * q->tolerance times that of loads and reactions, and q->noise; q->u is then the displacement after the last
+ * correction. */
 status newton_solver_find_equilibrium(struct newton_solver *q, const struct field *increment, bool loads_changed);
 
 #endif

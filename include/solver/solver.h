@@ -49,24 +49,24 @@ struct static_body {
     int bodies;
 };
 
-/* Initialises a static solution: sets the displacements of driven particles and the applied forces to their values
- * after `ramp_time` [s] of the loads, and the velocities of all particles to 0. Relaxation on the background grid
- * needs no more; other iterations also need static_solver_iteration_make. Returns REFUSED, with a message, if applied
- * forces or moments are neither balanced nor carried by supports. Release with static_solver_free. */
+/* Initialises a static solution: sets the displacements of driven particles and the applied forces to the values of the
+ * loads after `ramp_time` [s], and the velocities of all particles to 0. Relaxation on the background grid needs no
+ * more; other iterations also need static_solver_iteration_make. Returns REFUSED, with a message, if applied forces or
+ * moments are neither balanced nor carried by supports. Release with static_solver_free. */
 status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time);
 
-/* Allocates and computes the vectors that the iterations of a static solution need, after static_solver_make: weights
- * of particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true to use cg_step,
- * false to use relaxation_step afterwards. */
+/* Allocates and computes the vectors that the steps of an iteration need, after static_solver_make: weights of
+ * particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true if the steps are
+ * those of cg_step, false if those of relaxation_step. */
 void static_solver_iteration_make(struct static_solver *s, const struct static_body *body, bool conjugate_gradients);
 
 /* Frees the vectors of s and sets all members to 0. */
 void static_solver_free(struct static_solver *s);
 
-/* Does step number `step` of an iteration for static equilibrium. relaxation_step: a step of dynamic relaxation;
- * cg_step: a step of conjugate gradients. The first step is number 0. body: particles, bonds and loads; *done: receives
- * true if the residual is below body->tolerance. Returns FAILED, with a message, if the iteration stalls or a part of
- * the body moves without resistance. */
+/* Does step number `step`, from 0, of an iteration for static equilibrium: relaxation_step one of dynamic relaxation,
+ * cg_step one of conjugate gradients. body: particles, bonds and loads; *done: false on entry, receives true if the
+ * equilibrium is reached, with a residual of at most body->tolerance. Returns FAILED, with a message, if the iteration
+ * stalls or a part of the body moves without resistance. */
 typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
 static_solver_step_fn relaxation_step, cg_step;
 
@@ -74,8 +74,10 @@ static_solver_step_fn relaxation_step, cg_step;
  * n: number of vectors. */
 real field_largest_component(const struct field *v, int dim, int64_t n);
 
-/* Sets s->residual [1] and s->scale [N] from norms of forces. reaction: norm of the forces on constrained components
- * [N]; unbalanced: norm of the forces on free components, which vanish in equilibrium [N]. */
+/* Sets the scale of forces s->scale = max(s->applied, reaction) [N] and the residual s->residual = unbalanced/s->scale
+ * [1]. reaction: norm of the forces on constrained components [N]; unbalanced: norm of the forces on free components,
+ * which vanish in equilibrium [N]. Without loads, the scale is the largest `unbalanced` so far. The residual is 0 if
+ * the unbalanced forces are 0 or, without loads, round-off. */
 void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced);
 
 /* Saves the state of a static iteration to the archive `a` if a->saving, else restores it from it. Returns FAILED if
