@@ -350,7 +350,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Calls cell_points_mark by one function per dimension, which is not inlined, since few cells are examined. */
+/* Marks the points of cell I that must convert (cell_points_mark), in a function for `dim` that is not inlined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {

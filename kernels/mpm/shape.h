@@ -159,7 +159,8 @@ static ALWAYS_INLINE int64_t cell_row_first_node(const struct cell *c, const str
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
 }
 
-/* Returns the index of node k of a row of four nodes, relative to the index of the first node of the row. */
+/* Returns the index of node k of a row of nodes of a cell, relative to the index of the first node of the row. A row is
+ * four nodes along x or, for linear shapes in 2D and 3D, all corners of the cell. */
 static ALWAYS_INLINE int64_t row_node_offset(const struct grid *g, int k, const int dim, const enum shape shape)
 {
     return HAS_CORNERS(dim, shape) ? k % 2 + k / 2 % 2 * g->stride[1] + k / 4 * g->stride[2] : k;

@@ -144,9 +144,9 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
     return -1;
 }
 
-/* Assigns kinds of particles (with equal surroundings) to classes: kinds are mirror images of each other if the
- * smallest hashes of their mirrored surroundings are equal. of[kinds]: receives the number of each kind's class,
- * from 0. Sets a->classes and a->member. */
+/* Assigns kinds of particles to classes. A kind has equal surroundings; two kinds belong to one class if they are
+ * mirror images of each other, i.e. if the smallest hashes of their mirrored surroundings are equal. of[kinds]:
+ * receives the number of the class of each kind, from 0. Sets a->classes and a->member. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};

@@ -225,9 +225,9 @@ void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles 
     }
 }
 
-/* Saves displacements, velocities and momenta of the nodes of a level (cells with the edge of 2^level finest cells) and
- * the flags of its stressed cells to the archive a, or restores them from it, as the function a->exchange does. Returns
- * FAILED if the archive does not have them. */
+/* Saves the displacements, velocities and momenta of the nodes of `mesh`, the mesh of refinement level `level`, and the
+ * flags of its stressed cells to the archive `a` if a->saving, else restores them from it. Returns FAILED if the
+ * archive does not have them. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};
