@@ -22,7 +22,10 @@ struct absorbing_pulse {
     double reflected, balance, back;
 };
 
-/* Measures the reflection of a pulse `width` spacings wide in 1, 2 or 3 dimensions (dim). */
+/* Results for a plane longitudinal pulse that hits an absorbing face at normal incidence [1]. reflected: largest
+ * reflected velocity over the peak velocity of the pulse; balance: largest error of the energy balance; back: largest
+ * energy that the face released in one step, over the energy of the pulse. The face may only absorb, so that `back`
+ * should be 0. */
 status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure);
 
 /* ---- oblique waves ----------------------------------------------------------------------------------------------- */
@@ -32,13 +35,17 @@ struct absorbing_reflection {
     double as_p, as_s;
 };
 
-/* Computes the reflection at a half space with wave speeds 1 (S) and `ratio` (P), in closed form: the tractions of the
- * waves and of both dashpots balance (Lysmer & Kuhlemeyer 1969). shear: the incident wave is an S wave; angle: between
- * its direction and the normal [rad]. */
+/* Computes in closed form the reflection of a plane wave at the face of a half space with dashpots normal and
+ * tangential to the face (Lysmer & Kuhlemeyer 1969): the tractions of incident and reflected waves equal the forces of
+ * the dashpots. shear: true if the incident wave is an S wave, false for a P wave; angle: between its direction and the
+ * normal of the face [rad]; ratio: speed of P waves over that of S waves [1]. */
 struct absorbing_reflection absorbing_theory(bool shear, double angle, double ratio);
 
-/* Measures the reflection of two plane waves at +-angle between two mirrors, whose distance is half a wavelength along
- * the face. wavelength: [spacings]. Plane strain, Poisson's ratio 1/4. shear, angle: as for absorbing_theory. */
+/* Measures the reflection of a plane wave at oblique incidence in plane strain at Poisson's ratio 1/4, and stores it in
+ * *measured. The body is a strip between two mirrors. Their distance is half a wavelength along the face, so that waves
+ * at +angle and -angle are superposed. m: numerical method; shear: true for an S wave, false for a P wave; angle:
+ * between its direction and the normal of the face [rad]; wavelength [spacings]. Returns FAILED if a step of a run
+ * fails, REFUSED if a scene is invalid. */
 status absorbing_oblique(const struct absorbing_method *m, bool shear, double angle, double wavelength,
                          struct absorbing_reflection *measured);
 

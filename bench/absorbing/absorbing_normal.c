@@ -14,9 +14,9 @@
 enum { NORMAL_LENGTH = 384 };
 #define NORMAL_VELOCITY 1e-3 /* peak velocity of the pulse */
 
-/* Writes the scene of a strip with a pulse and an absorbing face into text[room] and returns the length of the text.
- * dim: number of dimensions; width: of the pulse, length: of the strip [spacings]. The density is 1 and C11 =
- * ABSORBING_SPEED^2; in plane strain and in 3D C11 = 6/5 E at Poisson's ratio 1/4, and G = C11/3. */
+/* Writes the scene of a strip with a pulse and an absorbing face into text[room] and returns the length of the text. m:
+ * numerical method; dim: number of dimensions; width: of the pulse, length: of the strip [spacings]. The density is 1
+ * and C11 = ABSORBING_SPEED^2; in plane strain and in 3D C11 = 6/5 E at Poisson's ratio 1/4, and G = C11/3. */
 static int normal_scene(char *text, size_t room, const struct absorbing_method *m, int dim, int width, int length)
 {
     static const char *const spaces[DIM_MAX + 1] = {"", "line\nsection: 1 m^2", "plane strain\nthickness: 1 m",
@@ -39,9 +39,11 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
                     zeros[dim], zeros[dim], width * ABSORBING_SPACING, NORMAL_VELOCITY, mirrors[dim]);
 }
 
-/* Runs a strip of `length` spacings with a pulse of `width` spacings in `dim` dimensions. Stores in *v the allocated
- * velocities along x at the end [particles], which the caller releases. Updates the largest energy that the face
- * released in a step, and the largest error of the energy balance, in *figure. Returns FAILED if a step fails. */
+/* Runs a strip of `length` spacings with a pulse of `width` spacings in `dim` dimensions and an absorbing face at its
+ * end, with the method m. Stores in *v an allocated array of the final velocities along x, one per particle [m/s],
+ * which the caller releases with memory_free. Raises figure->back to the largest energy that the face released in one
+ * step over the initial energy, and figure->balance to the largest error of the energy balance [1]. Returns FAILED if a
+ * step fails. */
 static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
                          struct absorbing_pulse *figure)
 {

@@ -21,8 +21,9 @@ struct oblique {
     double k, wave, from, radius, station, frequency, until;
 };
 
-/* Computes the initial velocity v[2] at X[2] [m] of the wave packet g(x): for a P wave the gradient of g(x) cos(k y),
- * for an S wave the curl of g(x) sin(k y). context: struct oblique. */
+/* Computes the initial velocity v[2] [m/s] at X[2] [m] of a wave packet with the profile g(x), a Gaussian times
+ * cos(wave x): for a P wave the gradient of g(x) cos(k y), for an S wave the curl of g(x) sin(k y). The velocity is
+ * scaled to a peak of about 1e-3 m/s. context: a struct oblique. */
 static void packet(const void *context, const real *X, real *v)
 {
     const struct oblique *o = context;
@@ -53,9 +54,10 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     return o;
 }
 
-/* Runs a strip that is `along` spacings long. Computes the Fourier amplitudes of the displacement at the observed
- * position, at the frequency of the wave: sum[0] of the component normal to the face, sum[1] of the component along
- * it [m]. m: method of the run. Returns FAILED if a step fails. */
+/* Runs a strip with an absorbing face that is `along` spacings long. Computes the Fourier amplitudes of the velocity at
+ * the observed position, at the frequency of the wave, by summation over time: sum[0] of the component normal to the
+ * face, sum[1] of the component along it [m]. o: geometry and wave packet; m: method of the run. Returns FAILED if a
+ * step fails. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
     struct run e;

@@ -12,8 +12,8 @@ struct plane_wave {
 };
 
 /* Computes the residuals of the two boundary conditions of dashpots (Lysmer & Kuhlemeyer 1969) at x = 0 for a plane
- * wave, divided by i w: to[0] of stress_xx + rho c_p v_x, to[1] of stress_xy + rho c_s v_y. p: slowness along y; mu =
- * c_s^2; density 1 and c_p = 1. */
+ * wave w, divided by i times its frequency: to[0] of stress_xx + rho c_p v_x, to[1] of stress_xy + rho c_s v_y. p:
+ * slowness along y; mu: shear modulus, equal to c_s^2, since density and c_p are 1. */
 static void conditions(const struct plane_wave *w, double p, double mu, double complex *to)
 {
     to[0] = w->s * w->a[0] + (1 - 2 * mu) * p * w->a[1] - w->a[0];

@@ -18,8 +18,8 @@ const struct absorbing_method absorbing_methods[ABSORBING_METHODS] = {
 
 static const int pulse_widths[] = {16, 32, 64};
 
-/* Measures the reflection of pulses of all widths at normal incidence in `dim` dimensions, prints it and adds rows
- * to the table `rows`. m: method of the runs. */
+/* Measures the reflection of pulses of all widths at normal incidence in `dim` dimensions, prints a line with the
+ * results and adds a row per width to the table `rows`. m: method of the runs. */
 static void normal_row(const struct absorbing_method *m, int dim, struct bench_table *rows)
 {
     printf("  %-14s %d D ", m->name, dim);

@@ -112,27 +112,29 @@ extern const int accuracy_problems;
 extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_square, accuracy_cube, accuracy_hole,
     accuracy_cracks, accuracy_sudden, accuracy_spall, accuracy_fracture, accuracy_beam, accuracy_rod;
 
-/* `cleave bench accuracy=reference`: prints the lines of accuracy_reference.h, at increasing resolution. */
+/* Runs the cracks of the problem `fracture` with bond-based peridynamics at increasing resolution and prints the
+ * results as the lines of the table in accuracy_reference.h (`cleave bench accuracy=reference`). quick: true for the
+ * two coarsest resolutions only. Returns FAILED if a run fails. */
 status accuracy_reference(bool quick);
 
-/* Computes displacement [m] and stress xx, yy, xy [Pa] at X [m] in a plate under tension with a hole of radius 1 m
- * (accuracy_hole.c). */
+/* Computes displacement u [m] and stress components xx, yy, xy [Pa] at X [m] in a plate under tension along y with a
+ * hole of radius 1 m around the origin (accuracy_hole.c). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
 
-/* Returns true if the material points of the method use the reference frame. */
+/* Returns true if the material points in the run of point p use the reference frame (mpm.frame: reference). */
 bool accuracy_is_reference(const struct accuracy_point *p);
 
-/* Returns true if the method can reach equilibrium by relaxation (solver: relaxation). */
+/* Returns true if the method of point p can reach equilibrium by relaxation (solver: relaxation). */
 bool accuracy_relaxes(const struct accuracy_point *p);
 
-/* Returns true if the method has coarse cells (mpm.levels). */
+/* Returns true if the method has coarse grid cells besides the finest ones (mpm.levels: 1 or 2). */
 bool accuracy_is_coarse(const struct accuracy_method *method);
 
-/* Returns the name of the solver with which the method reaches equilibrium: a static solver, or explicit with a slowly
- * growing load in the reference frame. */
+/* Returns the value of the scene key `solver` with which the method of point p reaches equilibrium: "cg" for
+ * peridynamics, "explicit" in the reference frame, where the load grows slowly, else "relaxation". */
 const char *accuracy_solver(const struct accuracy_point *p);
 
-/* Returns a quantity of a probe after a run, for `measure`; NAN if there is none. */
+/* Returns a quantity of a probe of the finished run e; NAN if there is none. probe, quantity: their names. */
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
@@ -161,37 +163,45 @@ struct accuracy_plan {
     struct machine machine;
 };
 
-/* Creates all points with their scenes (accuracy_plan.c). Release with accuracy_plan_free. */
+/* Creates the list of all points of the table (runs), and computes the hash of each scene (accuracy_plan.c). Returns
+ * REFUSED or FAILED if a scene cannot be read. Release with accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan);
 
 /* Releases the memory of the plan. */
 void accuracy_plan_free(struct accuracy_plan *plan);
 
-/* Composes the scene of a point: that of the problem, with the keys of the method, the horizon and the time step. */
+/* Composes *s, the scene of point p: the scene of its problem, with the keys of its method, its horizon and its time
+ * step. */
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s);
 
-/* Reads the results in results/bench/accuracy.csv for points with the same settings and program version
- * (accuracy_store.c). */
+/* Reads earlier results from results/bench/accuracy.csv into the points of the plan, as far as the settings (scene and
+ * machine) and the program version are unchanged, and writes the file again without other lines (accuracy_store.c).
+ * Returns FAILED if the file cannot be read or written. */
 status accuracy_store_read(struct accuracy_plan *plan);
 
 /* Returns true if results/bench/accuracy.csv exists. */
 bool accuracy_store_exists(void);
 
-/* Reads the results of bench/accuracy/cost_accuracy.csv, the stored copy of the last complete measurement, which has
- * neither parts of errors nor times on two threads. Returns FAILED if it cannot be read. */
+/* Reads the results of bench/accuracy/cost_accuracy.csv into the points of the plan. This file is the stored copy of
+ * the last complete measurement and has neither parts of errors nor times on two threads. Returns FAILED if it cannot
+ * be read. */
 status accuracy_stored_read(struct accuracy_plan *plan);
 
-/* Appends the result of a point to results/bench/accuracy.csv and flushes the file. */
+/* Appends the result of a point to results/bench/accuracy.csv and closes the file, so that an interrupted bench keeps
+ * its results. Returns REFUSED or FAILED if the file cannot be written. */
 status accuracy_store_append(const struct accuracy_entry *entry);
 
-/* Writes all known results to results/bench/accuracy.csv and its other formats. */
+/* Writes all known results to results/bench/accuracy.csv and accuracy.json, and the problems with their errors to
+ * accuracy_problems.csv. Returns REFUSED or FAILED if a file cannot be written. */
 status accuracy_store_write(const struct accuracy_plan *plan);
 
 /* Header of cost_accuracy.csv. keys: scene keys of the method besides spacing, horizon and step, as
  * key=value;key=value. */
 #define ACCURACY_TABLE_HEADER "problem,case,method,resolution,horizon,step,error,seconds,particles,steps,keys"
-/* Writes results/bench/cost_accuracy.csv: the known points of all lines that are on the Pareto front of their family in
- * some case (accuracy_table.c). bench/accuracy/cost_accuracy.csv is a copy of the last complete measurement. */
+/* Writes results/bench/cost_accuracy.csv with known points of the table. A point is written if its line has a point on
+ * the Pareto front of its family in some case. A line consists of all points of a method at one horizon and time step,
+ * a family of related methods (enum accuracy_family). bench/accuracy/cost_accuracy.csv is a copy of the last complete
+ * measurement. Returns FAILED if the file cannot be written. */
 status accuracy_table_write(const struct accuracy_plan *plan);
 
 /* ---- Pareto front (accuracy_front.c) ----------------------------------------------------------------------------- */
@@ -201,32 +211,37 @@ struct accuracy_dot {
     double time, error;
 };
 
-/* Finds the Pareto front: the points with no other point better in both time and error; of equal points the first.
- * Stores their indices in front[n] in the order of ascending time, and thus descending error. Returns their number. */
+/* Finds the Pareto front of dot[n]: the points with no other point that is at least as good in both time and error and
+ * better in one of them; of equal points the first. Stores their indices in front[], which has space for n, in the
+ * order of ascending time and thus descending error. Returns their number. */
 int accuracy_front(const struct accuracy_dot *dot, int n, int *front);
 
-/* Returns the index of the fastest point with at most this error; -1 if there is none. */
+/* Returns the index of the point in dot[n] with the least time among those with an error of at most `error` [1]; -1 if
+ * there is none. */
 int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
-/* Writes the label of a point: `pd bond 100`, followed by `h` and the horizon, and by `dt` and the fraction of the
- * critical step, unless they are the usual ones. text: capacity `size` [byte]. */
+/* Writes the label of point p into text[size]: method and resolution, as in `pd bond 100`, followed by `h` and the
+ * horizon, and by `dt` and the fraction of the critical step, unless these are the usual ones. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
 
-/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and accuracy.png
- * (accuracy_chart). */
+/* Draws results/bench/accuracy_<problem>.png for every problem with known points, and the overview accuracy.png.
+ * Returns FAILED if a picture cannot be drawn. */
 status accuracy_draw(const struct accuracy_plan *plan);
 
-/* Draws results/bench/accuracy.png: all problems with the fronts of peridynamics, of material points and of both
- * together, and the number of problems on which each is cheapest (accuracy_chart.c). */
+/* Draws results/bench/accuracy.png: for each problem the runs and the Pareto fronts of peridynamics, of material points
+ * and of both together, and above them the number of problems on which each of the three is cheapest
+ * (accuracy_chart.c). Returns FAILED if the picture cannot be drawn. */
 status accuracy_chart(const struct accuracy_plan *plan);
 
-/* Writes results/bench/accuracy.md and prints the same table. */
+/* Writes the overview page results/bench/accuracy.md and prints its table of the fastest methods. Returns FAILED if the
+ * page cannot be written. */
 status accuracy_page(const struct accuracy_plan *plan);
 
-/* Collects the points of one case of a problem, or the worst of all cases (at < 0). part: use the magnitude of this
- * part of the error; < 0: the error. dot, of: receive the values and their entries. Returns the number of points. */
+/* Collects time and error of the known points of a problem in dot[] and their entries in of[], both with space for
+ * plan->n. at: index of the case; < 0: one dot for all cases together, with their longest time and largest error. part:
+ * number of the part of the error whose magnitude is used; < 0: the whole error. Returns the number of dots. */
 int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
                   struct accuracy_dot *dot, const struct accuracy_entry **of);
 

@@ -34,8 +34,8 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
     if (p->at == PULSE) bench_override(&s->set, "pd.surface", "none");
 }
 
-/* Returns the root mean square of amplitude * exp(-(x/r)^2) over the bar of 1.6 m, r = 0.1 m. The pulse has this form
- * in velocity and stress. */
+/* Returns the root mean square of a pulse amplitude * exp(-(x/r)^2) with r = 0.1 m over a bar of 1.6 m, in the unit of
+ * `amplitude`. Velocity and stress of the pulse have this form. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
 /* Computes the relative errors of stress, part[0], and velocity, part[1], of a bar in the run e of point p, and

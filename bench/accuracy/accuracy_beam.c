@@ -35,7 +35,8 @@ static const struct term twisted[] = {{0, {0, 1, 3}, 0.0325}, {0, {0, 3, 1}, -0.
                                       {1, {5, 0, 1}, 0.0081}, {2, {1, 1, 0}, -1.0000}, {2, {1, 1, 2}, -0.0056},
                                       {2, {3, 1, 0}, 0.1843}, {2, {5, 1, 0}, -0.0081}};
 
-/* Eigenmodes of a plate and a bar, with their frequencies for thickness, Young's modulus and density 1. */
+/* Eigenmodes of a plate and of a bar. term[terms]: terms of the sum of products of Legendre polynomials; size: lengths
+ * of the body along the axes; frequency: angular frequency for thickness, Young's modulus and density 1. */
 static const struct mode {
     const struct term *term;
     int terms;
@@ -76,8 +77,8 @@ static double legendre(int degree, double x)
     return now;
 }
 
-/* Computes the velocity v[DIM_MAX] of an eigenmode at X [m], as a sum of products of Legendre polynomials. context:
- * struct mode. */
+/* Computes the velocity v[DIM_MAX] [m/s] of an eigenmode at X [m], as a sum of products of Legendre polynomials.
+ * context: a struct mode. */
 static void mode_at(const void *context, const real *X, real *v)
 {
     const struct mode *m = context;
@@ -90,7 +91,8 @@ static void mode_at(const void *context, const real *X, real *v)
     }
 }
 
-/* Returns the projection of the momentum of all particles on the eigenmode m: the sum of mass times v . v_mode. */
+/* Returns the projection of the motion of all particles in the run e on the eigenmode m: the sum of mass times v .
+ * v_mode, where v_mode is the velocity of the mode at the particle [J]. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
     const struct particles *p = observed_run_of(e).part;
@@ -104,9 +106,10 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* Runs the scene of point p in pieces of 1/300 of its duration until the motion in the eigenmode is zero for the
- * second time, at three quarters of a period. This time is interpolated linearly between pieces. `measured` receives
- * the angular frequency of the mode, NAN if the second zero is not reached. Returns FAILED if a step fails. */
+/* Starts the run e of point p in an eigenmode and runs it in pieces of 1/300 of its duration until the projection of
+ * the motion on the mode is zero for the second time, at three quarters of a period. This time is interpolated linearly
+ * between pieces. Sets `measured` to the angular frequency of the mode, or to NAN if the second zero is not reached.
+ * Returns FAILED if a step fails. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

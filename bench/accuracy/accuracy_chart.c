@@ -82,8 +82,9 @@ static int winner_of(const struct chart *c, double error)
     return best;
 }
 
-/* Sends the runs of chart number `number` to gnuplot as data blocks: all runs, then the Pareto front of each class
- * of methods. Each block ends with a point without position, since gnuplot refuses empty blocks. */
+/* Sends the runs of chart number `number` to gnuplot as data blocks: $all<number> with all runs, then
+ * $f<number>_<class> with the Pareto front of each class of methods. Each block ends with a point without position,
+ * since gnuplot refuses empty blocks. */
 static void chart_send(FILE *to, const struct chart *c, int number)
 {
     int *front = NEW("bench.front", c->n + 1, int);
@@ -101,8 +102,8 @@ static void chart_send(FILE *to, const struct chart *c, int number)
     memory_free(front);
 }
 
-/* Writes one line of the heading, `text`, as label number `number` of gnuplot. above: its distance from the upper
- * edge [pixel]; height: of the picture [pixel]; font: name and size as gnuplot has them. */
+/* Writes one line of the heading, `text`, as label number `number` of gnuplot. above: its distance from the upper edge
+ * [pixel]; height: of the picture [pixel]; font: name and size in the form "NAME,SIZE". */
 static void heading_line_write(FILE *to, int number, const char *text, double above, int height, const char *font)
 {
     fprintf(to, "set label %d ", number);

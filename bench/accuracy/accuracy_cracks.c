@@ -72,8 +72,8 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
         bench_override(&s->set, "pd.normalisation", "local");
 }
 
-/* Computes the errors of K_I, part[0], and K_II, part[1], in the run e of point p, both relative to the magnitude of
- * the exact pair (K_I, K_II). *error is the root of the sum of their squares. */
+/* Computes the errors of K_I, part[0], and K_II, part[1], in the run e of point p, both relative to the magnitude
+ * (K_I^2 + K_II^2)^(1/2) of the exact factors. *error is the root of the sum of the squares of both. */
 static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};

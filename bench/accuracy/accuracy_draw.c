@@ -29,9 +29,9 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-/* Returns the dot of a result in a picture: its time on one thread, and its error or, for part >= 0, the magnitude of
- * this part of the error. An unstable run has the error NAN. A part that is exactly 0 becomes 1e-9, for the logarithmic
- * axis. */
+/* Returns time and error of a result for a picture: its time on one thread [s], and its error or, for part >= 0, the
+ * magnitude of this part of the error [1]. An unstable run has the error NAN. A part that is exactly 0 becomes 1e-9,
+ * for the logarithmic axis. */
 static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
     const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
@@ -136,7 +136,7 @@ static int group_of(const struct accuracy_point *p)
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
-/* Returns true if a run of family g of methods is on the Pareto front of a panel. */
+/* Returns true if a run of family g of methods (an index of group[]) is on the Pareto front of a panel. */
 static bool has_group(const struct panel *q, int g)
 {
     for (int k = 0; k < q->front_n; k++)
@@ -160,8 +160,9 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* Sends the Pareto front of a panel to gnuplot as data blocks: as a line, and by families as points with labels.
- * Points get labels from the most accurate one on, as far as the labels do not overlap. */
+/* Sends the Pareto front of a panel to gnuplot as data blocks: first all its points for a line, then for each family of
+ * methods its points with their labels. From the most accurate point on, a point gets its label if the label does not
+ * overlap with the previous one; else an empty text. */
 static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);
@@ -210,7 +211,8 @@ static void accuracy_draw_panel(FILE *to, const struct panel *q)
 }
 
 /* Plots the key of a page of panels as a panel without axes. panel[panels]: panels whose families of methods are
- * listed; left, above: position of the key [size of the picture]. */
+ * listed; left, above: position of the upper left corner of the key, as shares of width and height of the picture
+ * [1]. */
 static void plot_key(FILE *to, const struct panel *panel, int panels, double left, double above)
 {
     fprintf(to,

@@ -25,9 +25,9 @@ enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the scene of a point: Kalthoff's plate of 100 mm height with `resolution` particles, or a plate of 50 mm width
- * under tension. Loads drive three layers of particles, or a layer as thick as in the files of inputs/ if it is
- * thicker. Edges, notches and crack ends are midway between particles. */
+/* Writes the scene of point p: Kalthoff's plate, 100 mm wide, or a plate under tension, 50 mm wide, with `resolution`
+ * particles across the width. The loads drive three layers of particles, or a layer as thick as in the files of inputs/
+ * if that is thicker. Edges, notches and crack ends are midway between particles. */
 static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
@@ -65,8 +65,8 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
 
 /* ---- observed cracks --------------------------------------------------------------------------------------------- */
 
-/* Returns the time at which the mean growth of all pre-cracks reaches `length` [m], interpolated between samples at
- * which the growth increased [s]; NAN if it does not. */
+/* Returns the time at which the mean growth of all pre-cracks reaches `length` [m], interpolated linearly between
+ * samples at which the growth increased [s]; NAN if it never does. t: crack tips of a run with their history. */
 static double time_of(const struct crack_tips *t, double length)
 {
     double time[2] = {NAN, NAN}, growth[2] = {0, 0};
@@ -85,9 +85,9 @@ static double time_of(const struct crack_tips *t, double length)
     return NAN;
 }
 
-/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad]: the direction to the
- * damaged particles of both cracks at distances of radius - width to radius + width from the ends of the pre-cracks
- * [m], weighted by their damage. Returns NAN if there are none. */
+/* Returns the angle of the crack path in a ring around the end of each pre-crack, positive away from the middle plane
+ * of the plate [rad]. It is the direction to the damaged particles of all cracks whose distance from the end of the
+ * pre-crack is within radius +- width [m], weighted by their damage. Returns NAN if there are none. */
 static double angle_at(const struct run *e, double radius, double width)
 {
     const struct crack_tips *t = &e->fracture->tips;
@@ -121,13 +121,13 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the relative error of a value that should be `wanted`; -1 (100 %) if the value is NAN because the crack did
- * not grow so far. */
+/* Returns the relative error of a value whose exact value is `wanted`; -1 (100 %) if `value` is NAN, because the crack
+ * did not reach the required length. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Computes the relative errors of the cracks in the run e of point p: part[0] of path and length, part[1] of the
- * start time, part[2] of the speed. The reference is peridynamics at a finer resolution. *error is their root mean
- * square. */
+/* Computes the relative errors of the cracks in the run e of point p: part[0] of path angles and length, part[1] of the
+ * start time, part[2] of the speed. The reference is bond-based peridynamics at a quarter of the scenes' spacing.
+ * *error is the root mean square of the three parts. */
 static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
@@ -141,8 +141,9 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
     return OK;
 }
 
-/* Returns false for resolutions at which a method is not run. Methods that do not converge to the reference, and those
- * that take longest, are run at coarse resolutions only. */
+/* Returns true if point p is run. Up to 100 particles all methods are run; above that only bond-based and adaptive
+ * methods of --quick, and up to 200 those in the current frame, since others do not converge to the reference or take
+ * too long. */
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;

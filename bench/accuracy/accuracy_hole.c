@@ -37,8 +37,8 @@ static const double potential[POWERS][2] = {
 };
 
 /* Computes displacement u[2] [m] and stress xx, yy, xy [Pa] at X[2] [m] in a plate with a hole under tension along y
- * (Muskhelishvili 1953): 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi', syy - sxx + 2 i
- * sxy = 2 (conj(z) phi'' + psi'). */
+ * (Muskhelishvili 1953). With the complex potentials phi and psi at z = x + i y: 2 G (u + i v) = kappa phi - z
+ * conj(phi') - conj(psi); sxx + syy = 4 Re phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
 void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));
@@ -66,8 +66,8 @@ static const char plate[] =
     "body: [{box: {from: [-5, -5], to: [5, 5]}}, {subtract: {disc: {centre: [0, 0], radius: 1}}}]\n"
     "particles: {spacing: 0.1}\npd: {region: {disc: {centre: [0, 0], radius: 2}}}\nconversion: {criteria: none}\n";
 
-/* Writes the scene of point p: a static solver, or in the reference frame a load that grows as sin^2 over 30 transit
- * times of a wave across the plate. */
+/* Writes the scene of point p, the plate with a hole under tension: with a static solver or, in the reference frame,
+ * with a load that grows as sin^2 over 30 transit times of a wave across the plate. */
 static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double transit = 10 / sqrt(young / (1 - poisson * poisson)), duration = 30 * transit;
@@ -106,9 +106,9 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
     return OK;
 }
 
-/* Returns true if the plate with a hole is run with method and resolution of p. Excluded are relaxation with
- * transfers for which it converges too slowly, relaxation at fine resolutions (minutes per run), and bond-based
- * models with short horizons. */
+/* Returns true if the plate with a hole is run with the method and resolution of p. Excluded are methods that require
+ * relaxation and converge too slowly with it, relaxation at fine resolutions (minutes per run), and bond-based models
+ * with short horizons. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
     if (accuracy_is_reference(p)) return true;

@@ -44,9 +44,9 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
-/* Adds the squared difference between the stress of particle i and the exact one, stiffness times strain, to *off,
- * and the square of the exact one to *all. Shear components count twice, as in the sum over a tensor.
- * stiffness[n][n], strain[n]: n = 3 or 6 symmetric components. */
+/* Adds the squared difference between the stress of particle i and the exact stress, stiffness times strain, to *off,
+ * and the square of the exact stress to *all [Pa^2]. Shear components count twice, as in the sum over a tensor.
+ * stiffness[n][n] [Pa], strain[n] [1]: n = 3 symmetric components in the plane, 6 in space. */
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {

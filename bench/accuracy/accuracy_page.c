@@ -13,8 +13,8 @@ static const double wanted[] = {0.05, 0.01, 0.003};
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Writes a cell of a table: method, resolution, time and error of the run that has an error of at most `error` [1]
- * in the least time; a dash if there is none. dot[n]: time and error of the runs; of[n]: their entries in the table. */
+/* Writes a cell of a table: method, resolution, time and error of the fastest run with an error of at most `error` [1];
+ * a dash if there is none. dot[n]: time and error of the runs; of[n]: their entries in the table. */
 static void put_cheapest(FILE *to, const struct accuracy_dot *dot, const struct accuracy_entry *const *of, int n,
                          double error)
 {

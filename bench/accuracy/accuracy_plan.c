@@ -36,8 +36,8 @@ void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *
     bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
 }
 
-/* Adds a text to an FNV-1a hash. The hash of a point covers its scene with all defaults and the name of the machine,
- * and thus everything that changes its result. */
+/* Adds a text to an FNV-1a hash. The hash of a point is made of the text of its scene with all defaults and of the name
+ * of the processor, and thus covers everything that changes its result. */
 static void add_to_hash(uint64_t *hash, const char *text)
 {
     for (; *text; text++) *hash = (*hash ^ (unsigned char)*text) * 1099511628211u;
@@ -71,9 +71,10 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-/* Adds points to the plan that differ from p in the horizon or the time step. all: true to add every variation of
- * the problem, false for its first horizon and, if the problem has time steps to vary, its first time step. quick:
- * true if points of the first time step also run with --quick. Returns REFUSED or FAILED if a scene cannot be read. */
+/* Adds copies of point p to the plan that differ from it in the horizon or in the time step. all: true to add every
+ * horizon and time step listed by the problem; false to add only its first horizon and, if its member `steps` is true,
+ * its first time step. quick: true if p runs with --quick; if `steps` is true, its copy with the first time step then
+ * does, too. Returns REFUSED or FAILED if a scene cannot be read. */
 static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;

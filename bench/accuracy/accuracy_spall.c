@@ -32,8 +32,8 @@ static void accuracy_spall_make_scene(const struct accuracy_point *p, struct acc
     if (adaptive) bench_override(&s->set, "conversion.alpha", "0.5");
 }
 
-/* Computes the relative errors of time, part[0], and position, part[1], at which the bar breaks in the run e. *error
- * is their root mean square, or 1 if the bar does not break. */
+/* Computes the relative errors of the time, part[0], and the position, part[1], at which the bar breaks in the run e.
+ * *error is their root mean square, or 1 if the bar does not break. p: not used. */
 static status accuracy_spall_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;

@@ -25,7 +25,8 @@ static void put_key(const struct accuracy_point *p, char *text, size_t size)
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number in the next column of a line, or NAN if the column is empty, and advances *at behind it. */
+/* Returns the number in the column of a line at *at, or NAN if the column is empty, and advances *at to the next
+ * column. */
 static double next_number(const char **at)
 {
     char *end;
@@ -43,7 +44,8 @@ static bool line_ends_with(const char *line, const char *tail)
 }
 
 /* Reads the result of a point from a line of the file of results into *r. Ignores incomplete lines, and lines of
- * other versions of the program or other settings. key: length of the columns that identify the point. */
+ * another program version or with settings other than r->settings. key: length of the columns that identify the point,
+ * which are skipped. */
 static void take_line(struct accuracy_result *r, const char *line, size_t key)
 {
     char tail[64];
@@ -58,8 +60,8 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
     r->stable = next_number(&at) > 0;
 }
 
-/* Reads the result of a point from a line of the stored table into *r: error, time on one thread, particles and
- * steps. key: length of the columns that identify the point. */
+/* Reads the result of a point from a line of the stored table cost_accuracy.csv into *r: error, time on one thread,
+ * particles and steps. key: length of the columns that identify the point, which are skipped. */
 static void take_stored_line(struct accuracy_result *r, const char *line, size_t key)
 {
     const char *at = line + key;
@@ -68,8 +70,8 @@ static void take_stored_line(struct accuracy_result *r, const char *line, size_t
     r->particles = next_number(&at), r->steps = next_number(&at);
 }
 
-/* For each line of `text` that begins with the columns of a point of the plan, calls take(result of the point, line,
- * length of these columns). */
+/* For each point of the plan, finds the lines of `text` that begin with the columns that identify it, and calls
+ * take(result of the point, line, length of these columns). */
 static void take_lines(struct accuracy_plan *plan, const char *text,
                        void (*take)(struct accuracy_result *r, const char *line, size_t key))
 {
@@ -169,8 +171,9 @@ status accuracy_store_write(const struct accuracy_plan *plan)
     return s;
 }
 
-/* Reads the known results of all points of the plan from the file of results, and writes the file again with only
- * the lines that belong to a point of the plan. Returns FAILED if the file cannot be read or written. */
+/* Reads the known results of all points of the plan from the file of results, and writes the file again with only the
+ * lines that belong to a point of the plan. Does nothing if there is no such file. Returns FAILED if it cannot be read,
+ * REFUSED or FAILED if it cannot be written. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
     char *text;

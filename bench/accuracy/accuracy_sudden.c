@@ -48,9 +48,9 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
-/* Runs the scene of point p to each time of comparison in turn, and stores in factor[] the stress-intensity factor
- * over the exact one (Freund 1990). Each piece of the run ends at a step at which all levels of grid cells have the
- * same time, and is sampled there. Returns FAILED if a step fails. */
+/* Runs the scene of point p to each of the times instant[] in turn, and stores in factor[] the stress-intensity factor
+ * at that time over the exact one (Freund 1990) [1]. Each time is rounded to a step at which all levels of grid cells
+ * have the same time, since cells of coarser levels have longer time steps. Returns FAILED if a step fails. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
@@ -67,8 +67,8 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
     return OK;
 }
 
-/* Computes the mean relative error of the stress-intensity factor over all times of comparison, part[0], and its
- * standard deviation, part[1]. *error is the root of the sum of their squares. */
+/* Computes the mean relative error of the stress-intensity factors factor[] over all times of comparison, part[0], and
+ * its standard deviation, part[1]. *error is the root of the sum of their squares. p, e: not used. */
 static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p, (void)e;

@@ -12,7 +12,7 @@
 
 /* ---- selection of lines ------------------------------------------------------------------------------------------ */
 
-/* Returns true if a point of the table has a known result of a stable run with finite error and time. */
+/* Returns true if a point of the table has the known result of a stable run, with finite error and time. */
 static bool is_usable(const struct accuracy_entry *e)
 {
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);
@@ -25,8 +25,9 @@ static bool accuracy_table_same_line(const struct accuracy_point *a, const struc
 
 #define WORST 0.2 /* points with larger errors are ignored for the front */
 
-/* Sets kept[k] to true for each point k of the plan that is on the Pareto front of a family of methods in case `at` of
- * problem q, unless its error exceeds WORST. family: bit set of families. */
+/* Sets kept[k] to true for each point k of the plan that is on the Pareto front of the given families of methods in
+ * case `at` of problem q, unless its error exceeds WORST; other entries of kept[] are left as they are. family: bit set
+ * of enum accuracy_family. */
 static void mark_front(const struct accuracy_plan *plan, const struct accuracy_problem *q, int at, int family,
                        bool *kept)
 {
@@ -60,7 +61,8 @@ static bool *kept_points(const struct accuracy_plan *plan)
 
 /* ---- lines of the file ------------------------------------------------------------------------------------------- */
 
-/* Returns true if the scene key `key` has a column of its own in the table or does not describe the method. */
+/* Returns true if the scene key `key` is not written to the column `keys` of the table: it has a column of its own, or
+ * it does not describe the method. */
 static bool accuracy_table_is_apart(const char *key)
 {
     return strncmp(key, "particles.", 10) == 0 || strncmp(key, "time.", 5) == 0 || strncmp(key, "output.", 7) == 0;

@@ -25,8 +25,8 @@ static const char text[] =
     "body: {box: {from: [-0.5, -0.5], to: [0.5, 0.5]}}\nparticles: {spacing: 0.01}\n"
     "pd: {region: {half-space: {point: [0, 0], normal: [-1, 0]}}}\nconversion: {criteria: none}\n";
 
-/* Returns the initial pulse of the case of point p. It passes the middle of the square at half the duration; S waves
- * travel 1/sqrt(3) times as far as P waves and therefore start nearer to it. */
+/* Returns the initial pulse of the case of point p. It passes the centre of the square at half the duration of the run;
+ * S waves travel 1/sqrt(3) times as far as P waves and therefore start nearer to the centre. */
 static struct wave_pulse pulse_of(const struct accuracy_point *p)
 {
     const double angle = wave_of[p->at].angle * M_PI / 180, c = cos(angle), s = sin(angle);
@@ -89,8 +89,9 @@ static double correlation(const struct wave_pulse *w, const struct particles *p,
     return m.product / sqrt(m.exact2);
 }
 
-/* Returns the distance by which the computed wave is ahead of the exact wave w [m]: the shift of w with the largest
- * correlation, found by golden-section search. gone: distance that w has travelled [m]. */
+/* Returns the distance by which the computed wave of the particles p is ahead of the exact wave [m]. It is the shift of
+ * the exact wave with the largest correlation of velocities, found by golden-section search. w: initial pulse; gone:
+ * distance that the exact wave has travelled [m]. */
 static double best_shift(const struct wave_pulse *w, const struct particles *p, double gone)
 {
     const double golden = 0.6180339887498949;
@@ -107,9 +108,9 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
     return 0.5 * (low + high) - gone;
 }
 
-/* Computes *error, the root-mean-square error of the velocity in the run e of point p, relative to the wave.
- * part[0]: distance by which the wave is ahead over the radius of its packet; part[1]: relative error of its
- * amplitude. */
+/* Computes *error, the root-mean-square error of the velocity in the run e of point p over the root mean square of the
+ * exact velocity. part[0]: distance by which the computed wave is ahead over the radius of its packet; part[1]:
+ * relative error of its amplitude. */
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);

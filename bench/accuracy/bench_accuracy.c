@@ -11,7 +11,7 @@
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Returns the quantity called `quantity` of the probe called `probe` after a run; NAN if there is none. */
+/* Returns the quantity called `quantity` of the probe called `probe` of the finished run e; NAN if there is none. */
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
@@ -32,9 +32,9 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point of the cost-accuracy table on team + 1 threads, and stores the shortest time that its time loop has
- * taken so far. Measures the error if it is not known yet. A run that stops as unstable is a result, too. Returns
- * REFUSED or FAILED if the scene is invalid. */
+/* Runs a point of the cost-accuracy table once on team + 1 threads. Lowers seconds[team] of its result to the time of
+ * the time loop [s] if that is shorter than in earlier runs. Measures the error if it is not known yet. A run that
+ * stops as unstable is a result, too, and OK is returned. Returns REFUSED or FAILED if the scene is invalid. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -57,9 +57,9 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads, as often as its
- * duration allows, and appends the result to the file of results. The error is measured once, since it does not
- * depend on the number of threads. A run that fails is a result, too. Returns the first status that is not OK. */
+/* Runs a point of the cost-accuracy table on one thread and, unless it is 1D, on two threads. Repeats short runs up to
+ * RUNS_MOST times, and appends the result to the file of results. The error is measured once, since it does not depend
+ * on the number of threads. A run that fails is a result, too. Returns the first status that is not OK. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -79,8 +79,8 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Returns the predicted time of a point, approximately in seconds, for comparison with other points of its problem:
- * 100 ns per particle and step, more for long horizons, plus set-up, times the number of repetitions. */
+/* Returns the predicted time of all repetitions of a point [s], for comparison with other points of its problem: 100 ns
+ * per particle and step, more for long horizons, plus set-up. The absolute value is only approximate. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -104,7 +104,7 @@ static int accuracy_number_of(const struct accuracy_problem *q)
 }
 
 /* Returns the predicted time of the remaining points [s]: from the measured rate for problems with results, and from
- * tabulated durations for others. quick: durations with --quick. */
+ * their tabulated durations for others. quick: true to use the durations with --quick. */
 static double seconds_left(const struct progress *g, bool quick)
 {
     double left = 0;

@@ -15,7 +15,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the horizon of a run over the characteristic length E G_c/strength^2 [1]. */
+/* Returns the horizon of the run r over the characteristic length E G_c/strength^2 of the glass [1]. */
 static double relative_horizon(const struct circle_run *r)
 {
     const double length = CIRCLE_YOUNG * CIRCLE_TOUGHNESS / (CIRCLE_STRENGTH * CIRCLE_STRENGTH);
@@ -30,7 +30,7 @@ const char *circle_verdict(const struct circle_run *r)
     return fabs(r->found - c->expected) <= c->tolerance ? "holds" : "MISSED";
 }
 
-/* Prints the measured value of a run beside the expected one, and adds it to its table. */
+/* Prints the measured value of the run r beside the expected one, and adds a row with both to the table of the run. */
 static void circle_report(const struct circle_run *r)
 {
     const struct circle_case *c = r->of;
@@ -53,7 +53,7 @@ static status circle_take(void *row, const char *folder)
     return OK;
 }
 
-/* Prints the problems for which there is no run, with the reasons. */
+/* Prints the cases for which there is no run, with the reasons. */
 static void reasons_print(void)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -74,8 +74,8 @@ struct circles {
     char scene[RUNS_MOST][PATH_LENGTH];
 };
 
-/* Finds path[PATH_LENGTH], the scene file of a specimen. Writes the scene to the folder of c unless it is a shipped
- * file. Returns FAILED if it cannot be written. */
+/* Stores the path of the scene file of specimen s in path[PATH_LENGTH]. If the specimen has no file of its own in
+ * inputs/, writes its scene to the folder of c. Returns FAILED if the file cannot be written. */
 static status scene_prepare(const struct circles *c, const struct circle_specimen *s, char *path)
 {
     if (s->path) return snprintf(path, PATH_LENGTH, "%s", s->path), OK;
@@ -83,8 +83,8 @@ static status scene_prepare(const struct circles *c, const struct circle_specime
     return file_write_whole(path, s->text, strlen(s->text));
 }
 
-/* Writes the particles of a run on a rotated lattice as a list, and adds overrides to *o that replace the body of
- * the scene by this list. Returns FAILED if it cannot be written. */
+/* Replaces the body of the scene of run r by a list of particles on a rotated lattice: writes the list to the folder of
+ * c, and adds the overrides that select it to *o. Returns FAILED if the list cannot be written. */
 static status body_turn(const struct circles *c, const struct circle_run *r, struct bench_overrides *o)
 {
     const struct circle_specimen *s = &circle_specimen[r->of->specimen];
@@ -99,8 +99,8 @@ static status body_turn(const struct circles *c, const struct circle_run *r, str
     return OK;
 }
 
-/* Adds a run of the case `of` at a spacing [mm], on a lattice rotated by `degrees`, whose result goes to `table`.
- * Returns FAILED if a file cannot be written. */
+/* Adds a run of the case `of` to c at a spacing [mm], on a lattice rotated by `degrees`. table: receives a row after
+ * the run. Returns FAILED if a file cannot be written. */
 static status circle_add(struct circles *c, const struct circle_case *of, double spacing, int degrees,
                          struct bench_table *table)
 {
@@ -118,8 +118,8 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
-/* Adds the runs of all cases; with `quick` only the coarsest one of each lattice. Returns FAILED if a file cannot be
- * written. */
+/* Adds the runs of all cases to c, at all their spacings and lattice angles; with `quick` only at the coarsest spacing.
+ * table: receives a row after each run. Returns FAILED if a file cannot be written. */
 static status circles_add(struct circles *c, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -132,7 +132,7 @@ static status circles_add(struct circles *c, bool quick, struct bench_table *tab
     return OK;
 }
 
-/* Prints how many measured values are outside their tolerances. */
+/* Prints how many of the measured values to which an expected value applies are outside their tolerances. */
 static void missed_print(const struct circles *c)
 {
     int asked = 0, missed = 0;

@@ -15,10 +15,11 @@
 
 struct circle_run;
 
-/* A specimen. text: its scene, whose spacing is the variable h, or NULL, with `path` that of a shipped scene. from, to:
- * corners of the body [m]; radius: of a disc round the origin, 0: a box. turned: an override beside those of the list
- * for a body whose lattice is turned, or none. area: of the section through its middle [m^2]. measure:
- * returns the figure of a run in the unit of its case from the output in `folder`; NAN: none. */
+/* A specimen. name: in tables. text: its scene, in which the variable h is the spacing, or NULL; path: file of the
+ * scene in inputs/ if `text` is NULL. from, to: corners of the body [m]; radius: of a disc around the origin [m], 0 for
+ * a box. turned: a further override for runs with a rotated lattice, or none (key NULL). area: of the cross section
+ * through the middle [m^2]. measure: returns the measured value of the run r from its output in `folder`, in the unit
+ * of the case; NAN if there is none. */
 struct circle_specimen {
     const char *name, *path, *text;
     double from[2], to[2], radius;
@@ -43,14 +44,14 @@ extern const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS];
 /* Largest number of spacings, of turned lattices, and of overrides of a case. */
 enum { CIRCLE_SPACINGS = 4, CIRCLE_LATTICES = 2, CIRCLE_OVERRIDES = 2 };
 
-/* A circle with an expected value; a found value may differ by `tolerance`. Both in `unit`. surface: softening starts
- * by a strength surface (strengths of 40 and 1000 MPa), else by the stretch. set: overrides of the scene. spacing,
- * turned: spacings of the lattices along the axes and of the turned ones [mm], the coarsest first, which is also run
- * with --quick; 0 ends the list. degrees: angles of the turned lattices, 0 ends the list. crack: length of the
- * pre-crack [mm] that has to be three horizons for the expected value to apply, 0: it always applies. horizon: largest
- * horizon over E G_c/strength^2 at which the expected value applies, 0: at any. why: reason for which there is no run,
- * or NULL.
- */
+/* A case: a problem of the nine circles with an expected value. circle, figure: names of the problem and of the
+ * measured value. expected, tolerance: expected value and permitted deviation in `unit`. surface: true if bonds begin
+ * to soften by a strength surface (strengths of 40 and 1000 MPa), false if by their stretch. set: overrides of the
+ * scene. spacing, turned: spacings of lattices along the axes and of rotated ones [mm], ending with 0; the first, the
+ * coarsest, also runs with --quick. degrees: angles of the rotated lattices, ending with 0. crack: length of the
+ * pre-crack [mm]; the expected value applies only if it is at least three horizons; 0: it always applies. horizon:
+ * largest horizon over E G_c/strength^2 at which the expected value applies, 0: any. why: reason for which there is no
+ * run, or NULL. */
 struct circle_case {
     const char *circle, *figure, *unit;
     double expected, tolerance;
@@ -67,8 +68,8 @@ extern const struct circle_case circle_cases[];
 /* Number of cases. */
 extern const int circle_cases_count;
 
-/* A run of a case. spacing [mm]; degrees: angle of its lattice; found: its figure. table: receives a line after the
- * run. */
+/* A run of a case. of: the case; spacing [mm]; found: measured value in the unit of the case, NAN until the run has
+ * ended; degrees: angle of its lattice. table: receives a row after the run. */
 struct circle_run {
     const struct circle_case *of;
     double spacing, found;
@@ -76,11 +77,13 @@ struct circle_run {
     struct bench_table *table;
 };
 
-/* Returns "holds" or "MISSED" by the tolerance of the case, or "-" where its expected value does not apply. */
+/* Returns "holds" or "MISSED" depending on whether the measured value of a run is within the tolerance of its case, or
+ * "-" if the expected value does not apply to it, as the crack is too short or the horizon too long. */
 const char *circle_verdict(const struct circle_run *r);
 
-/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `degrees`; columns
- * x, y, volume. spacing [m]; the thickness is 1 mm. FAILED if the file cannot be written. */
+/* Writes the particles of the body of specimen s to the CSV file `path`, with columns x, y [m] and volume [m^3], on a
+ * square lattice rotated by `degrees`. spacing [m]; the thickness is 1 mm. Returns FAILED if the file cannot be
+ * written. */
 status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees);
 
 #endif

@@ -23,8 +23,8 @@
 
 /* clang-format off */
 
-/* Scene of a strip under tension, and of further specimens with the same loading: they begin at 0.9 of the strain of
- * their strength and are strained by half of it in 40 us, between grips that do not break. */
+/* Scene of a strip under tension. The specimens loaded in the same manner begin at 0.9 of the strain at which their
+ * strength is reached, and are strained further by half of that strain in 40 us, between grips that do not break. */
 static const char strip[] =
     "space: plane stress\nthickness: 1 mm\n" PULLED REACTION
     "variables: {h: 0.1 mm, e: 40 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us), nu: 1/3}\n"
@@ -118,7 +118,8 @@ static const char cantilever[] =
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest absolute value of a column of the history in `folder`; NAN if it cannot be read. */
+/* Returns the largest absolute value of a column of the history that a run has written to `folder`; NAN if the history
+ * cannot be read. */
 static double column_peak(const char *folder, const char *column)
 {
     struct history h;
@@ -130,8 +131,8 @@ static double column_peak(const char *folder, const char *column)
     return peak;
 }
 
-/* Returns the load of a notched strip, over P, when the column `column` of the history first exceeds `limit` [1];
- * NAN if it does not. */
+/* Returns the load of a notched strip over its expected value P at the time when the column `column` of the history in
+ * `folder` first exceeds `limit` [1]; NAN if it never does. limit: in the unit of the column. */
 static double load_share(const char *folder, const char *column, double limit)
 {
     struct history h;
@@ -144,19 +145,22 @@ static double load_share(const char *folder, const char *column, double limit)
     return share;
 }
 
-/* Returns the largest mean stress across the middle of a body during the run [MPa]. */
+/* Returns the largest mean stress during a run: the force on the boundary `top` over the cross section of the specimen
+ * [MPa]. folder: output of the run r; NAN if it cannot be read. */
 static double stress_peak(const char *folder, const struct circle_run *r)
 {
     return column_peak(folder, "reaction.force_y") / circle_specimen[r->of->specimen].area / 1e6;
 }
 
-/* Returns the largest stress in the middle of a body during the run [MPa]. */
+/* Returns the largest stress yy at the centre of a body during a run [MPa]. folder: output of the run; r: not used; NAN
+ * if the output cannot be read. */
 static double centre_peak(const char *folder, const struct circle_run *r)
 {
     return (void)r, column_peak(folder, "centre.stress_yy") / 1e6;
 }
 
-/* Returns the load of a notched strip at which the crack has grown by 0.5 mm [MPa]. */
+/* Returns the load of a notched strip at which the crack tip has advanced by 0.5 mm [MPa]. folder: output of the run r;
+ * NAN if the tip does not advance so far. */
 static double notch_load(const char *folder, const struct circle_run *r)
 {
     struct history h;
@@ -166,21 +170,23 @@ static double notch_load(const char *folder, const struct circle_run *r)
     return r->of->expected * load_share(folder, "tip.x", tip + 0.5e-3);
 }
 
-/* Returns the load at which the energy of a crack of 0.5 mm has been dissipated [MPa]. It serves for notches so
- * short that the body may break anywhere. */
+/* Returns the load of a notched strip at which the energy of a crack of 0.5 mm has been dissipated [MPa]. It serves for
+ * notches so short that the body may break anywhere. folder: output of the run r; NAN if less energy is dissipated. */
 static double short_notch_load(const char *folder, const struct circle_run *r)
 {
     const double halves = r->degrees ? 2 : 1;
     return r->of->expected * load_share(folder, "fracture", halves * CIRCLE_TOUGHNESS * 0.25e-3 * 1e-3);
 }
 
-/* Returns the largest load of a notched strip in load steps [MPa]. */
+/* Returns the largest load of a notched strip in a run with load steps [MPa]. folder: output of the run; r: not
+ * used. */
 static double steps_load(const char *folder, const struct circle_run *r)
 {
     return (void)r, CIRCLE_STRENGTH / 1e6 * column_peak(folder, "load_time");
 }
 
-/* Returns the opening at which the crack grows: the mean over the second half of the load steps [um]. */
+/* Returns the displacement between the clamped faces of the strip in pure shear at which the crack grows: the mean over
+ * the second half of the load steps [um]. folder: output of the run; r: not used; NAN if it cannot be read. */
 static double shear_opening(const char *folder, const struct circle_run *r)
 {
     struct history h;
@@ -194,7 +200,8 @@ static double shear_opening(const char *folder, const struct circle_run *r)
     return mean;
 }
 
-/* Returns the largest load of a double cantilever beam [N]. */
+/* Returns the largest load of a double cantilever beam [N]. folder: output of the run; r: not used; NAN if the output
+ * cannot be read. */
 static double cantilever_load(const char *folder, const struct circle_run *r)
 {
     return (void)r, column_peak(folder, "reaction.force_y");
