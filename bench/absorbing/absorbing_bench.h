@@ -16,16 +16,16 @@ enum { ABSORBING_METHODS = 6 };
 extern const struct absorbing_method absorbing_methods[ABSORBING_METHODS];
 
 /* Results for a plane longitudinal pulse that hits an absorbing face at normal incidence [1]. reflected: largest
- * reflected velocity over that of the pulse; balance: largest error of the energy balance; back: largest energy that
- * the face released in one step, over that of the pulse. */
+ * reflected velocity over the peak velocity of the pulse; balance: largest error of the energy balance; back: largest
+ * energy that the face released in one step, over the energy of the pulse. The face may only absorb, so that `back`
+ * should be 0. */
 struct absorbing_pulse {
     double reflected, balance, back;
 };
 
-/* Results for a plane longitudinal pulse that hits an absorbing face at normal incidence [1]. reflected: largest
- * reflected velocity over the peak velocity of the pulse; balance: largest error of the energy balance; back: largest
- * energy that the face released in one step, over the energy of the pulse. The face may only absorb, so that `back`
- * should be 0. */
+/* Measures the reflection of a plane pulse that hits an absorbing face at normal incidence, and stores it in *figure.
+ * m: numerical method; dim: number of dimensions, 1, 2 or 3; width: of the pulse [spacings]. Returns FAILED if a step
+ * of a run fails, REFUSED if a scene is invalid. */
 status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure);
 
 /* ---- oblique waves ----------------------------------------------------------------------------------------------- */

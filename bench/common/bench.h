@@ -5,7 +5,8 @@
 #include "engine/engine.h"
 #include "kernels/microbench/microbench.h"
 
-/* Runs `cleave bench`. argv: words after `cleave`, starting with "bench". */
+/* Runs `cleave bench`. argv[argc]: words of the command line after `cleave`, starting with "bench". Returns REFUSED if
+ * a name is unknown or a bench cannot run here, FAILED if a bench fails. */
 status command_bench(int argc, char **argv);
 
 #define BENCH_FOLDER "results/bench"
@@ -27,78 +28,95 @@ struct bench_table {
     struct bench_cell *cell; /* [cells] row by row */
 };
 
-/* Initialises an empty table with the columns in `header`. Release with bench_table_free. */
+/* Initialises t as an empty table. name: "" for the main table of a bench, else part of the file name; header: names of
+ * the columns, separated by commas. Both texts are kept by reference. Release with bench_table_free. */
 void bench_table_make(struct bench_table *t, const char *name, const char *header);
 
-/* Appends a text as the next cell, row by row. In files commas and quotation marks become semicolons. */
+/* Appends a text as the next cell of table t; cells are filled row by row. In files commas and quotation marks become
+ * semicolons. */
 void bench_text(struct bench_table *t, const char *text);
 
-/* Appends a number as the next cell. In files a number that is not finite is left out. */
+/* Appends a number as the next cell of table t. A number that is not finite is an empty cell in CSV files and null in
+ * JSON. */
 void bench_number(struct bench_table *t, double number);
 
 /* Releases the memory of t. */
 void bench_table_free(struct bench_table *t);
 
-/* Creates the folder results/bench. */
+/* Creates the folder results/bench unless it exists. Returns REFUSED if it is a symbolic link, FAILED if it cannot be
+ * created. */
 status bench_folder_make(void);
 
-/* Checks that a bench may write its files. REFUSED if results/bench has a file NAME.json, or without it a table or
- * picture of this name, that no bench wrote. */
+/* Checks that the bench `name` (NAME) may write its files, so that no file of a user is overwritten. Returns REFUSED if
+ * results/bench has a file NAME.json that no bench wrote, or, without NAME.json, such a NAME.csv, .png or .svg. */
 status bench_guard(const char *name);
 
-/* Creates results/bench and, unless it exists, a NAME.json without rows, by which later files of the bench are
- * recognised. REFUSED as bench_guard; FAILED if the file cannot be written. */
+/* Prepares the files of the bench `name` (NAME): creates results/bench and, unless it exists, a NAME.json without rows,
+ * by which files of the bench are recognised later. Returns REFUSED if files with these names were not written by a
+ * bench, FAILED if the file cannot be written. */
 status bench_begin(const char *name);
 
-/* Writes results/bench/NAME.csv (the table named ""), NAME_<table>.csv for others and NAME.json with all tables. */
+/* Writes the results of the bench `name` (NAME) to results/bench: NAME.csv for the table named "", NAME_<table>.csv for
+ * others and NAME.json with all of table[tables]. Returns REFUSED if files with these names were not written by a
+ * bench, FAILED if a file cannot be written. */
 status bench_write(const char *name, const struct bench_table *table, int tables);
 
-/* Draws results/bench/NAME.png and .svg of width x height pixels. draw: writes the commands to gnuplot; context: its
- * argument. */
+/* Draws the pictures results/bench/NAME.png and NAME.svg of the bench `name` (NAME), width x height pixels. draw(to,
+ * context): writes the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context);
 
-/* Prints a line about the processor and one about the program. */
+/* Prints a line with the processor, the version of the program, its kernels and the number of threads. */
 void bench_print_machine(int threads);
 
 /* ---- bench_results.c: figures in bench/results ------------------------------------------------------------------- */
 
-/* Standard output while it is kept, and the lines that precede results. */
+/* State while the standard output of a bench is collected. printed: temporary file that receives it; output: copy of
+ * the descriptor of the standard output; head: lines that precede the results. */
 struct bench_results {
     FILE *printed;
     int output;
     char head[1024];
 };
-/* Starts to keep what is printed and the tables that are written. Makes the folder bench/results. REFUSED outside a
- * source tree. */
+/* Begins to collect what the bench `name` prints and the tables that it writes, and makes the folder bench/results.
+ * quick: true if the bench runs with --quick, which is stated in the results. Returns REFUSED outside a source tree,
+ * FAILED if a file cannot be created. */
 status bench_results_begin(struct bench_results *r, const char *name, bool quick);
-/* Prints what was kept; writes it to bench/results/NAME.txt if the bench succeeded (`measured` is OK). */
+/* Ends the collection and prints what was collected. If the bench succeeded (`measured` is OK), also writes it to
+ * bench/results/NAME.txt, where NAME is `name`. Returns `measured` if it is not OK, FAILED if the file cannot be
+ * written. */
 status bench_results_end(struct bench_results *r, const char *name, status measured);
-/* Writes a table (CSV of at most 250 lines) to bench/results/FILE as well, while results are kept. */
+/* Writes a copy of a table to bench/results/FILE while results are collected; does nothing otherwise, or if the table
+ * has more than 250 lines. file: FILE; text: the table as CSV. Returns FAILED if the file cannot be written. */
 status bench_results_table(const char *file, const char *text);
 
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 
-/* Reads a scene from `text`, or from the file `path` if `text` is NULL, with override[overrides], and creates its run
- * without output. s: must stay valid and at its address until bench_engine_free. */
+/* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with override[overrides], and creates its run
+ * e without output. path: with `text`, its name in messages. s: receives the scene and must keep its address until
+ * bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the run cannot be created; both are then
+ * already released. */
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int overrides);
 
-/* Releases the run and the scene. */
+/* Releases the run e and its scene s. */
 void bench_engine_free(struct run *e, struct scene *s);
 
-/* Computes the velocity v [m/s] at X [m]. */
+/* A function that computes a velocity v[dim] [m/s] at the reference position X[dim] [m]. context: argument for the
+ * function. */
 typedef void bench_field(const void *context, const real *X, real *v);
 
-/* Sets the velocities of all particles, and of the nodes of the reference frame, to field(context, X). */
+/* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the field at their reference
+ * positions. context: passed to the field. */
 void bench_engine_start(struct run *e, bench_field *field, const void *context);
 
-/* Runs to the end of step `until`, or of the next step at which all levels of coarse cells have the same time; between
- * such steps the energy is not balanced, and a sample would disturb the run. The last step is a sample. spent: the
- * times of the sections of a step are added; may be NULL. */
+/* Runs e to the end of step `until` or, with levels of coarse cells, of the next step at which all levels have the same
+ * time. In between the energy is not balanced, and a sample of results would disturb the run. The last step is sampled.
+ * spent: the times of the sections of a step are added to it; NULL: not wanted. Returns FAILED if a step fails. */
 status bench_engine_run(struct run *e, int64_t until, struct timers *spent);
 
-/* Overrides whose texts are composed one by one; the pointers in `at` are set by bench_overrides_ready. */
+/* Overrides of scene keys whose values are composed one by one. at[n]: keys, and pointers to the values that
+ * bench_overrides_ready sets; value[n]: the values. */
 enum { OVERRIDES_MAX = 24, OVERRIDE_LENGTH = 160 };
 struct bench_overrides {
     int n;
@@ -106,11 +124,13 @@ struct bench_overrides {
     char value[OVERRIDES_MAX][OVERRIDE_LENGTH];
 };
 
-/* Appends an override. value: format of printf; key: borrowed. */
+/* Appends an override to *o. key: scene key, kept by reference; value: its value, a format of printf followed by its
+ * arguments. */
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Sets the pointers and returns the overrides as arguments for scene readers; valid until the next bench_override. */
+/* Sets the pointers to the values of the overrides and returns them as an array of o->n entries, as functions that read
+ * scenes expect it. The array is part of *o and valid until the next bench_override. */
 const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
 
 /* A quantity of a probe. */
@@ -119,20 +139,23 @@ struct bench_figure {
     double value;
 };
 
-/* Stores the values of those quantities figure[n] that probes of the run have; others keep their value. */
+/* Stores the current values of those of the n quantities in figure[] that probes of the run e have; other entries keep
+ * their value. */
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n);
 
-/* Runs a scene to its end, and its counterpart with material points only if a pulse probe compares with it. Stores
- * quantities of its probes in figure[n]; NAN if a probe has none. path, text: as for bench_engine_make. */
+/* Runs a scene to its end and stores n quantities of its probes in figure[]; NAN if no probe has them. If a pulse probe
+ * compares with material points alone, such a run is made, too. The scene is `text` or, if `text` is NULL, the file
+ * `path`; o: overrides of the scene. Returns REFUSED or FAILED if the scene is invalid or a step fails. */
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 
-/* Returns true if the scene file exists; else prints a line about it. */
+/* Returns true if the scene file `path` exists; else prints that it is left out. */
 bool bench_scene_exists(const char *path);
 
-/* Checks that all scene files path[n] of a bench exist. REFUSED if one is missing. */
+/* Checks that all n scene files path[] exist. bench: name of the bench for the message. Returns REFUSED if a file is
+ * missing. */
 status bench_scenes_needed(const char *bench, const char *const *path, size_t n);
 
-/* Removes a folder with its contents. */
+/* Removes a folder with its contents. Failures are ignored. */
 void bench_folder_remove(const char *folder);
 
 /* A run as a separate process (`cleave run`). Its output remains in `folder` until bench_child_free. */
@@ -142,22 +165,25 @@ struct bench_child {
     double processor; /* processor time of all its threads, after its end [s] */
 };
 
-/* Starts a run of the scene `path` with override[overrides] on `threads` threads. FAILED if no process can be
- * started. */
+/* Starts a run of the scene file `path` with override[overrides] on `threads` threads as a separate process, whose
+ * output goes to a new folder c->folder. Returns FAILED if the folder or the process cannot be created. Release with
+ * bench_child_free. */
 status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
                          int threads);
 
-/* Waits for the run. FAILED unless it exited with status 0. */
+/* Waits for the end of the process c and stores its processor time in c->processor. Returns FAILED unless it exited
+ * with status 0. */
 status bench_child_wait(struct bench_child *c);
-/* Waits for the run if it has not ended, and removes its folder. */
+/* Waits for the process c if it has not ended, and removes its output folder. */
 void bench_child_free(struct bench_child *c);
-/* Runs a scene as a separate process on one thread, reads n numbers of its summary.json by key[n] into value[n], and
- * removes its output. */
+/* Runs the scene file `path` with override[overrides] as a separate process on one thread and reads n numbers of its
+ * summary.json into value[]. key[n]: names of the numbers. The output of the run is removed. Returns FAILED if the run
+ * fails or a number is missing. */
 status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
                            const char *const *key, double *value, int n);
 
 /* Returns a pseudo-random number, uniform in [-1, 1) and equal on all machines, from a linear congruential generator,
- * which suffices to perturb particles. seed: state. */
+ * which suffices to perturb particles. seed: state of the generator, which is advanced. */
 static inline double bench_random(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
@@ -166,7 +192,7 @@ static inline double bench_random(uint64_t *seed)
 
 /* ---- bench_blocks.c: blocks of any size -------------------------------------------------------------------------- */
 
-/* A method on a square or a cube. */
+/* A numerical method applied to a square (dim 2) or a cube (dim 3), for timing. */
 struct bench_block {
     const char *name;
     int dim;
@@ -175,14 +201,17 @@ struct bench_block {
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
 
-/* Creates a run with about `particles` particles, at least 12 along an edge. out: may be NULL. Release with
+/* Creates the run e of a block for timing, with its scene in *s. b: method and dimension; particles: approximate number
+ * of particles, at least 12 along an edge; steps: number of time steps; frames: number of frames in the output `out`,
+ * which may be NULL for a run without output. Returns REFUSED or FAILED if the scene is invalid. Release with
  * bench_engine_free. */
 status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
                         int frames, struct output *out);
 
 /* ---- the benches ------------------------------------------------------------------------------------------------- */
 
-/* Measures every kernel instance relative to the limits of the machine, and the targets. quick: few repetitions. */
+/* Times every kernel and compares it with the limits of the machine (memory bandwidth and arithmetic), and compares
+ * times and memory of whole runs with their targets (bench_kernels.c). quick: few repetitions. */
 status bench_kernels(bool quick);
 
 /* Number of threads of the performance targets (bench_targets.c), which are measured for inputs/kalthoff_winkler.yaml
@@ -205,29 +234,32 @@ struct targets {
     struct bench_table timers;
 };
 
-/* Measures the peak memory. Call before anything large is allocated: a child process inherits the high-water mark of
- * its parent. */
+/* Runs scenes as separate processes and adds their peak memory per particle with its target to *f. Call before this
+ * process allocates much memory, since a child process inherits the high-water mark of its parent. Returns FAILED if a
+ * run fails. */
 status bench_targets_memory(struct targets *f);
 
-/* Measures speed and bandwidth. quick: few repetitions. */
+/* Measures the time per step of whole runs and the memory bandwidth, and adds them with their targets to *f. quick: few
+ * repetitions. Returns FAILED if a run fails. */
 status bench_targets_speed(struct targets *f, bool quick);
 
-/* Prints the quantities beside their targets. */
+/* Prints the measured quantities of f beside their targets. */
 void bench_targets_print(const struct targets *f);
 
-/* Adds the quantities to a table. */
+/* Adds a row per measured quantity of f to the table t. */
 void bench_targets_table(const struct targets *f, struct bench_table *t);
 
 /* Measures the effect of an interface between material points and bonds on waves and on uniform strain
  * (bench_coupling.c). */
 status bench_coupling(bool quick);
 
-/* Measures error against computing time of every method on problems with known solutions; continues an interrupted
- * measurement (bench_accuracy.c). */
+/* Measures the error against the computing time of every method on problems with known solutions. Results of an
+ * earlier, interrupted measurement are used (bench_accuracy.c). quick: coarse resolutions and few methods. */
 status bench_accuracy(bool quick);
 
-/* Runs a part of bench_accuracy. only: NULL for all, the name of a problem, `chart` (writes the chart), `auto` (tests
- * method auto) or `reference` (recomputes the cracks of accuracy_reference.h). */
+/* Runs a part of bench_accuracy. only: NULL for all, the name of a problem, `chart` to draw the known results without
+ * runs, or `reference` to recompute the cracks in accuracy_reference.h. quick: coarse resolutions and few methods.
+ * Returns REFUSED if there is no such problem. */
 status bench_accuracy_of(const char *only, bool quick);
 
 /* Compares stress-intensity factors, static and dynamic, with closed forms and published tables (bench_sif.c). */
@@ -236,65 +268,74 @@ status bench_sif(bool quick);
 /* Measures strong and weak scaling on 1 ... all cores (bench_threads.c). */
 status bench_threads(bool quick);
 
-/* Measures time and memory per particle, set-up and output over the number of particles (bench_scale.c). */
+/* Measures time and memory per particle, set-up time and the time of output for blocks of 1e4 to 1e7 particles
+ * (bench_scale.c). */
 status bench_scale(bool quick);
 
-/* Measures particles, memory and time of Kalthoff's plate over its spacing (scale_growth.c). */
+/* Measures how the numbers of particles, memory and time of Kalthoff's plate grow as the spacing decreases
+ * (scale_growth.c). quick: few and short runs. */
 status bench_growth(bool quick);
 
-/* Runs bench_growth including the finest spacing in 3D. */
+/* Makes the measurements of `scale=growth` (Kalthoff's plate at decreasing spacing) including the finest spacing in 3D,
+ * which takes long. quick: few and short runs. */
 status bench_growth_finest(bool quick);
 
-/* Measures a crack in a plate with coarse cells far from the crack, a hundred times larger in area than the region
- * around the crack (scale_field.c). */
+/* Measures the cost of a crack in a large plate, whose area is a hundred times that of the region around the crack,
+ * with coarse grid cells or absorbing faces far from the crack (scale_field.c). */
 status bench_far_field(bool quick);
 
-/* Compares a block and a plate in Cleave and in LAMMPS, if `lmp` is installed (bench_peers.c). */
+/* Compares speed and results of a block and a plate in Cleave and in LAMMPS, if its program `lmp` is installed
+ * (bench_peers.c). quick: small cases. */
 status bench_peers(bool quick);
 
 /* Times a copper Taylor bar of material points that yields and one that does not, prints both beside the recorded time
- * of MPM3D-F90 and writes peers_bar.csv (peers_bar.c). Returns FAILED if a run or a file fails. */
+ * of MPM3D-F90 and writes peers_bar.csv (peers_bar.c). quick: coarse and short runs. Returns FAILED if a run or a file
+ * fails. */
 status bench_bar(bool quick);
 
 /* Compares the observed critical time step with the predicted one for every method, and runs scenes in which methods
  * fail, with their thresholds and remedies (bench_stability.c). */
 status bench_stability(bool quick);
 
-/* Runs only the long map of bench_stability. only: `lasting` for all of it, or a part of the names of the cases, whose
- * results are only printed. */
+/* Runs only the long runs of bench_stability, which measure the drift of the energy (energy_drift.c). only: `lasting`
+ * for all cases, whose results are written to files, or a part of the names of the cases, whose results are only
+ * printed. */
 status bench_stability_of(const char *only, bool quick);
 
-/* Compares computing times with Table 1 of the paper (bench_efficiency.c). quick: one repetition. */
+/* Compares the computing times of adaptive runs and of full peridynamics, and with Table 1 of Zeng et al. 2022
+ * (bench_efficiency.c). quick: short scenes and one repetition. */
 status bench_efficiency(bool quick);
 
-/* Measures how far the ends of cracks differ between runs that differ only in the time step (bench_sensitivity.c). */
+/* Measures how far the crack tips at the end of runs differ between runs that differ only in the time step
+ * (bench_sensitivity.c). quick: fewer scenes and time steps. */
 status bench_sensitivity(bool quick);
 
 /* Compares collisions of bodies with closed forms (bench_contact.c). */
 status bench_contact(bool quick);
 
-/* Measures the reflection from absorbing faces (bench_absorbing.c). */
+/* Measures how much of a wave absorbing faces reflect (bench_absorbing.c). quick: fewer dimensions and angles. */
 status bench_absorbing(bool quick);
 
-/* Tests whether the error bars of `cleave converge` contain the true values (bench_uncertainty.c). */
+/* Tests whether the error bars of `cleave converge` contain the exact values (bench_uncertainty.c). */
 status bench_uncertainty(bool quick);
 
 /* Tests whether `method: auto` reaches the requested accuracy (bench_pilot.c). */
 status bench_pilot(bool quick);
 
-/* Compares cracks with experiments and other codes (bench_experiments.c). */
+/* Compares cracks with published experiments and other codes; takes hours (bench_experiments.c). */
 status bench_experiments(bool quick);
 
-/* Compares laws of materials with closed forms and published values (bench_laws.c). quick: single elements only. */
+/* Compares material laws with closed forms and published values (bench_laws.c). quick: only single elements, no
+ * bodies. */
 status bench_laws(bool quick);
 
 /* Compares bonds that soften with the challenge problems of Kamarei et al. 2025 (bench_circles.c). */
 status bench_circles(bool quick);
 
-/* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
+/* Compares static runs with load steps with linear elastic fracture mechanics (bench_slow.c). */
 status bench_slow(bool quick);
 
-/* Measures start, length, angle and energy of cracks over the time step (bench_steps.c). */
+/* Measures how start time, length, angle and energy of cracks depend on the time step (bench_steps.c). */
 status bench_steps(bool quick);
 
 #endif

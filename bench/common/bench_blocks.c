@@ -45,10 +45,11 @@ static int64_t edge_of_block(const struct bench_block *b, double particles)
     return n > 12 ? n : 12;
 }
 
-/* Writes the scene of a block for timing. particles: approximate number; steps, frames: numbers of time steps and of
- * frames. Every particle moves, because particles at rest may be skipped; displacements stay small, with 1 m/s at
- * the farthest corner. All cells of the reference frame have two spacings: with coarser cells a run could only be
- * stopped at steps at which the levels of cells have one time, and parts of it could not be timed. */
+/* Writes the scene of a block for timing. particles: approximate number of particles; steps, frames: numbers of time
+ * steps and of frames. Every particle moves, because particles at rest may be skipped; displacements remain small, with
+ * 1 m/s at the farthest corner. All grid cells of the reference frame have an edge of two spacings. With coarser cells
+ * a run could only be stopped at steps at which all levels of cells have the same time, and parts of it could not be
+ * timed. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;

@@ -49,8 +49,8 @@ double bench_summary_figure(const char *folder, const char *key)
 
 /* ---- goals ------------------------------------------------------------------------------------------------------- */
 
-/* Adds a goal to the table *t. unit: of the values that are printed; measured: measured value; asked: largest value
- * with which the goal is reached; name: name of the goal, a format of printf with its arguments. */
+/* Adds a goal to the table *t. unit: unit of the printed values; measured: measured value; asked: largest value that
+ * meets the goal, in the unit of `measured`; name: name of the goal, a format of printf with its arguments. */
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
 {
     va_list more;

@@ -4,7 +4,7 @@
 
 #include "bench/common/bench.h"
 
-/* A run of a scene as a separate process. */
+/* A run of a scene as a separate process. path: scene file; overrides: of its keys. */
 struct bench_job {
     const char *path;
     struct bench_overrides overrides;
@@ -13,11 +13,12 @@ struct bench_job {
     status (*take)(void *row, const char *folder);
 };
 
-/* Runs n jobs, `at_once` in parallel with one thread each (1: one after another with all threads). Calls `take` in the
- * order of the jobs. */
+/* Runs n jobs as separate processes and calls `take` of each after its end, in the order of the jobs. at_once: number
+ * of jobs in parallel, with one thread each; 1: one after another, each with all threads. Returns FAILED if a run
+ * fails, else the first status of a `take` that is not OK. */
 status bench_jobs_run(struct bench_job *job, int n, int at_once);
 
-/* Returns a number of the summary in `folder`, NAN if it has none. */
+/* Returns the number `key` of the file summary.json in `folder`; NAN if it has none. */
 double bench_summary_figure(const char *folder, const char *key);
 
 /* A result and its goal. */
@@ -31,14 +32,17 @@ struct bench_goals {
     struct bench_goal goal[BENCH_GOALS_MAX];
 };
 
-/* Adds a goal. name: format of printf. */
+/* Adds a goal to the table *t. unit: unit of the values, "%" for values that are printed times 100; measured: measured
+ * value; asked: largest value that meets the goal; name: name of the goal, a format of printf followed by its
+ * arguments. */
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Prints all goals and whether they are met. */
+/* Prints all goals with measured and required values, and marks those that are missed. */
 void bench_goals_print(const struct bench_goals *t);
 
-/* Writes results/bench/NAME.csv and draws its bars. */
+/* Writes the goals to results/bench/NAME.csv and .json, where NAME is `name`, and draws a bar for each in NAME.png and
+ * .svg. Returns FAILED if a file cannot be written. */
 status bench_goals_write(const char *name, const struct bench_goals *t);
 
 #endif

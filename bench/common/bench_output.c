@@ -127,7 +127,7 @@ status bench_folder_make(void)
     return OK;
 }
 
-/* Composes text[room], the first bytes of the file NAME.json of a bench, by which such files are recognised. name:
+/* Composes in text[room] the bytes with which the file NAME.json of a bench begins and by which it is recognised. name:
  * NAME. */
 static void json_begin(char *text, size_t room, const char *name)
 {
@@ -154,8 +154,8 @@ status bench_guard(const char *name)
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }
 
-/* Writes the file of results `path`. If `json`, the name of the bench, is not NULL: all tables table[tables] as
- * JSON; else table[0] as CSV. Returns FAILED if it cannot be written. */
+/* Writes tables to the file `path`. json: NULL to write table[0] as CSV; else the name of the bench, to write all of
+ * table[tables] as JSON. Returns FAILED if the file cannot be written. */
 static status write_file(const char *path, const char *json, const struct bench_table *table, int tables)
 {
     char *text = NULL;

@@ -20,8 +20,8 @@ enum { LINES_MAX = 250 };
 
 /* ---- head -------------------------------------------------------------------------------------------------------- */
 
-/* Writes the commit of the working folder, according to git, into name[size], with `-dirty` if files differ from it;
- * "unknown" without git. */
+/* Stores the commit of the working folder, according to git, in name[size], followed by `-dirty` if files differ from
+ * the commit; "unknown" if git is not available. */
 static void commit_name(char *name, size_t size)
 {
     FILE *git = popen("git describe --always --dirty --abbrev=10 --exclude='*' 2>/dev/null", "r");
@@ -63,8 +63,8 @@ static char *text_of(FILE *from)
     return text;
 }
 
-/* Writes the file bench/results/FILE, which consists of `head` and `text`, under a temporary name and renames it.
- * Returns FAILED if it cannot be written. */
+/* Writes `head` and `text` as the file bench/results/FILE. It is written under a temporary name and then renamed, so
+ * that it is never incomplete. file: FILE. Returns FAILED if it cannot be written. */
 static status results_put(const char *file, const char *head, const char *text)
 {
     char path[256], *whole = NULL;
@@ -79,8 +79,8 @@ static status results_put(const char *file, const char *head, const char *text)
     return s;
 }
 
-/* Writes the output that a bench has printed to bench/results/NAME.txt. An equals sign in the name becomes an
- * underscore. Returns FAILED if it cannot be written. */
+/* Writes the output `printed` of a bench, preceded by the lines r->head, to bench/results/NAME.txt. name: NAME; an
+ * equals sign becomes an underscore. Returns FAILED if the file cannot be written. */
 static status printed_put(const struct bench_results *r, const char *name, const char *printed)
 {
     char file[64], *equals;

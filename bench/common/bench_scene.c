@@ -146,8 +146,9 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
 
 /* ---- separate processes ------------------------------------------------------------------------------------------ */
 
-/* Starts a child process with the arguments argv by posix_spawn; after fork() only one thread of the team would
- * exist in the child. *child: receives its process id, or 0 on a failure. Returns FAILED if it cannot be started. */
+/* Starts this program with the arguments argv as a child process, without standard output. *child: receives its process
+ * id, or 0 on a failure. posix_spawn is used because after fork() only one thread of the team would exist in the child.
+ * Returns FAILED if it cannot be started. */
 static status spawn(char **argv, pid_t *child)
 {
     posix_spawn_file_actions_t actions;

@@ -35,9 +35,10 @@ static double edge_bending(double x)
     return sqrt(tan(t) / t) * (0.923 + 0.199 * pow(1 - sin(t), 4)) / cos(t);
 }
 
-/* Returns the factor F(x) of an edge crack between grips that do not rotate, K = force/(B W) (pi a)^(1/2) F. x =
- * a/W: crack length over width; slenderness: H/W, height over width. The grips exert a moment that cancels the
- * rotation caused by the crack; both rotations follow from the energy of the crack (Castigliano). */
+/* Returns the factor F(x) of an edge crack between grips that do not rotate, K = force/(B W) (pi a)^(1/2) F, with crack
+ * length a, width W and thickness B. x = a/W; slenderness: H/W with the distance H of the grips. The grips exert a
+ * moment that cancels the rotation caused by the crack. Both rotations follow from the energy of the crack
+ * (Castigliano). */
 static double edge_in_grips(double x, double slenderness)
 {
     enum { PARTS = 400 };

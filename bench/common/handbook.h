@@ -10,7 +10,7 @@ enum specimen_kind {
     THREE_POINT_BEND     /* edge crack opposite to the middle roller, span of four widths (ASTM E399) */
 };
 
-/* Dimensions and material of a specimen. */
+/* Kind, dimensions and material of a specimen. */
 struct specimen {
     enum specimen_kind kind;
     double width;               /* width W; for double cantilevers the height of an arm [m] */
@@ -21,13 +21,14 @@ struct specimen {
     double energy_release_rate; /* of the material [J/m^2] */
 };
 
-/* Returns the load at which a crack of length a [m] has the energy release rate of the material [N]. Errors: at most 3
- * % for a/W between 0.2 and 0.8, 0.5 % for the formulas of ASTM. */
+/* Returns the load [N] at which a crack of length a [m] in the specimen has the energy release rate
+ * s->energy_release_rate of its material. The error of the formulas is at most 3 % for a/W between 0.2 and 0.8, and 0.5
+ * % for those of ASTM. */
 double specimen_load(const struct specimen *s, double a);
 
-/* Returns the angle of the chord from the notch to the crack tip, relative to the notch [degree], for a beam in
+/* Returns the angle between the pre-crack and the straight line from its end to the crack tip [degree], for a beam in
  * three-point bending with an eccentric notch: span 160 mm, height 40 mm, notch of 16 mm at 31.75 mm from the middle.
- * length: of the chord [m]; NAN beyond 20 mm. */
+ * length: of that line [m]. Returns NAN for more than 20 mm. */
 double bend_chord(double length);
 
 #endif

@@ -19,8 +19,8 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
     return product;
 }
 
-/* Computes the amplitudes of component a of the body force that the manufactured motion requires [N/m^3]: *steady of
- * its constant part, *beat of its part proportional to sin^2(pi t/T), with the period T. */
+/* Computes the two amplitudes of component a of the body force that the manufactured motion requires [N/m^3]: *steady
+ * of its constant part, *beat of its part proportional to sin^2(pi t/T), where T is the period m->period. */
 static void manufactured_forces(const struct manufactured *m, int a, real *steady, real *beat)
 {
     const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);

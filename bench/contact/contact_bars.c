@@ -48,9 +48,10 @@ static status bars_run(struct run *e, struct contact_course *seen)
     return report_end(e);
 }
 
-/* Runs two equal bars with opposite velocities that collide. given[] of the case: length, length [spacings], speed
- * [wave speeds]. figure[0..2]: relative velocity afterwards, duration of contact and largest force, each over the
- * exact value; figure[3]: largest energy error [1]. Returns FAILED if a step fails. */
+/* Runs two equal bars that approach each other with opposite velocities. given[] of the case: lengths of the first and
+ * the second bar [spacings], speed of each [wave speeds], and again the negative speed. Stores the relative velocity
+ * after the collision, the duration of contact and the largest force, each over its exact value, in figure[0] to
+ * figure[2], and the largest energy error [1] in figure[3]. Returns FAILED if a step fails. */
 status contact_bars(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -69,9 +70,9 @@ status contact_bars(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths [spacings], speed [wave
- * speeds]. figure[0], figure[1]: velocities of the two bars afterwards over the initial velocity, exactly 0 and 1/2;
- * figure[2]: largest energy error. Returns FAILED if a step fails. */
+/* Runs a bar that hits a bar of twice its length at rest. given[] of the case: lengths of both [spacings], speed of the
+ * first [wave speeds]. Stores the velocities of both bars after the collision over the initial velocity, exactly 0 and
+ * 1/2, in figure[0] and figure[1], and the largest energy error [1] in figure[2]. Returns FAILED if a step fails. */
 status contact_striker(const struct contact_case *c, double *figure)
 {
     struct run e;
@@ -89,9 +90,9 @@ status contact_striker(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a plane bar that bounces given[1] times between two fixed walls, with gaps of 5 spacings in all. The bar has
- * given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. figure[0], figure[1]: largest errors of
- * energy and of momentum [1]. Returns FAILED if a step fails. */
+/* Runs a plane bar that moves between two rigid walls and hits them given[1] times in all; both gaps together are 5
+ * spacings wide. The bar has given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. Stores the largest
+ * errors of energy and of momentum [1] in figure[0] and figure[1]. Returns FAILED if a step fails. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -10,9 +10,11 @@
 
 enum { CONTACT_FIGURES = 4 };
 
-/* A case: measured quantities and the ranges required from closed forms (INFINITY: no limit). given: parameters of the
- * case. falls_short: known to miss the ranges (for contact of pairs: beyond their law). long_run: takes more than a
- * second. */
+/* A case: quantities that are measured in a run and compared with closed forms. name, law: of the case, and of the
+ * contact law. measure: makes the runs and stores the quantities in figure[CONTACT_FIGURES]. given: its parameters.
+ * falls_short: known not to meet the requirements, as contact between pairs of particles beyond the range of its law.
+ * long_run: takes more than a second. asked: names of the quantities (NULL ends the list), and their required ranges,
+ * which INFINITY leaves open. */
 struct contact_case {
     const char *name, *law;
     status (*measure)(const struct contact_case *c, double *figure);
@@ -30,10 +32,11 @@ extern const struct contact_case contact_cases[];
 /* Number of cases. */
 extern const int contact_cases_count;
 
-/* Returns true if all figure[CONTACT_FIGURES] are within the required ranges. */
+/* Returns true if all quantities figure[CONTACT_FIGURES] of the case are within their required ranges. */
 bool contact_case_holds(const struct contact_case *c, const double *figure);
 
-/* Creates a run of a scene; text: format of printf. Release with bench_engine_free. */
+/* Creates the run e of a scene and stores the scene in *s. text: the scene, a format of printf followed by its
+ * arguments. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
 status contact_engine(struct run *e, struct scene *s, const char *text, ...) __attribute__((format(printf, 3, 4)));
 
 /* Motion of a body from its particles: mass [kg], centre of mass [m], mean velocity [m/s], angular velocity in the
@@ -42,36 +45,44 @@ struct contact_motion {
     double mass, x[DIM_MAX], v[DIM_MAX], spin;
 };
 
-/* Returns the motion of a body. */
+/* Computes the motion of a body from its particles in the run e. body: its index. */
 struct contact_motion contact_motion_of(const struct run *e, int body);
 
-/* Two bars of given[0] and given[1] particles with speeds given[2] and given[3] wave speeds (contact_bars.c). figure:
- * relative speed after over before; duration over 2 L/c; largest force over that of a bar; energy error. */
+/* Runs the collision of two bars of given[0] and given[1] particles with the velocities given[2] and given[3] [wave
+ * speeds] (contact_bars.c). Stores in figure[]: relative velocity after over before; duration of contact over 2 L/c;
+ * largest force over rho c v A; energy error [1]. Returns FAILED if a step fails. */
 status contact_bars(const struct contact_case *c, double *figure);
 
-/* A moving bar hits a bar at rest (contact_bars.c). figure: its speed after over before; speed of the second bar over
- * that; energy error. */
+/* Runs a moving bar of given[0] particles with the speed given[2] [wave speeds] that hits a bar of given[1] particles
+ * at rest (contact_bars.c). Stores in figure[]: velocities of the first and the second bar after the collision over the
+ * initial velocity; energy error [1]. Returns FAILED if a step fails. */
 status contact_striker(const struct contact_case *c, double *figure);
 
-/* A bar that bounces between rigid walls given[1] times (contact_bars.c). figure: energy error; momentum error. */
+/* Runs a bar of given[0] particles in length that bounces given[1] times between rigid walls at the speed given[2]
+ * [wave speeds] (contact_bars.c). Stores the errors of energy and momentum [1] in figure[0] and figure[1]. Returns
+ * FAILED if a step fails. */
 status contact_bounces(const struct contact_case *c, double *figure);
 
-/* Two discs of radius given[0] spacings with speed given[1] wave speeds each, on paths given[2] radii apart, on a
- * lattice rotated by given[3] against the line of centres (contact_discs.c). figure: normal and tangential relative
- * velocity after over before; angular velocity of each times R/v; energy error. */
+/* Runs the collision of two discs of radius given[0] [spacings] with the speed given[1] each [wave speeds], whose paths
+ * are given[2] radii apart, on a lattice rotated by given[3] [rad] relative to the line of centres (contact_discs.c).
+ * Stores in figure[]: normal and tangential relative velocity after over before; mean angular velocity of the discs
+ * times R/v; energy error [1]. Returns FAILED if a step fails. */
 status contact_discs(const struct contact_case *c, double *figure);
 
-/* A block of given[0] x given[0] particles that is cut through, with its ends displaced by the strain given[1] and the
- * shear given[2] [spacings] (contact_faces.c). figure: normal and tangential force on the ends over that of the intact
- * block; overlap. */
+/* Compares a block of given[0] x given[0] particles that is cut in two with an intact one (contact_faces.c). Its ends
+ * are displaced towards each other by the strain given[1] and along each other by given[2] [spacings]. Stores in
+ * figure[]: normal and tangential force on the ends over those of the intact block; overlap of the cut faces
+ * [spacings]. Returns FAILED if a run fails. */
 status contact_block(const struct contact_case *c, double *figure);
 
-/* A block on a slope with tangent given[0] and friction given[1], on a rigid floor if given[2] is not 0
- * (contact_slope.c). figure: acceleration over g sin; displacement [spacings]; energy error. */
+/* Runs a block under its weight on a slope with the tangent given[0] and the coefficient of friction given[1], on a
+ * rigid floor if given[2] > 0, else on a deformable one (contact_slope.c). Stores in figure[]: acceleration over g
+ * sin(slope); distance moved [spacings]; energy error [1]. Returns FAILED if a step fails. */
 status contact_slope(const struct contact_case *c, double *figure);
 
-/* A ball of radius given[0] spacings hits a fixed plane at given[1] wave speeds (contact_faces.c). figure: exponent of
- * the force over the approach; duration over that of Hertz; speed after over before; energy error. */
+/* Runs a ball of radius given[0] [spacings] that hits a rigid plane at the speed given[1] [wave speeds]
+ * (contact_faces.c). Stores in figure[]: exponent of the force over the approach; duration of contact over that of
+ * Hertz; speed after over before; energy error [1]. Returns FAILED if a step fails. */
 status contact_hertz_space(const struct contact_case *c, double *figure);
 
 #endif

@@ -8,8 +8,8 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* Runs the collision of two discs to the end. normal[2]: receives the direction between their centres when these are
- * nearest to each other, since the direction rotates during contact. Returns FAILED if a step fails. */
+/* Runs the collision of two discs to the end. normal[2]: receives the unit vector between their centres at the time
+ * when these are nearest to each other, since this direction rotates during contact. Returns FAILED if a step fails. */
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;

@@ -47,8 +47,9 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
     return ran;
 }
 
-/* Compares a cut block in compression with the intact one. figure[0], figure[1]: normal and tangential force of the
- * cut block over those of the intact block; figure[2]: overlap of its faces. Returns FAILED if a run fails. */
+/* Compares a block that is cut in two and compressed with an intact one. Stores normal and tangential force on its ends
+ * over those of the intact block in figure[0] and figure[1], and the overlap of the cut faces [spacings] in figure[2].
+ * c: case with its parameters. Returns FAILED if a run fails. */
 status contact_block(const struct contact_case *c, double *figure)
 {
     struct block_force whole, cut;
@@ -62,10 +63,10 @@ status contact_block(const struct contact_case *c, double *figure)
 
 /* ---- Hertz ------------------------------------------------------------------------------------------------------- */
 
-/* Runs a ball of radius given[0] spacings that hits a fixed plane at given[1] wave speeds. figure[0]: exponent of
- * the force over the approach (Hertz: 3/2), fitted above a tenth of the largest force; figure[1]: duration over that
- * of Hertz, 2.87 (m^2/(R E*^2 v))^(1/5) with E* = E/(1 - nu^2); figure[2]: speed afterwards over v; figure[3]:
- * energy error. Returns FAILED if a step fails. */
+/* Runs a ball of radius R = given[0] spacings that hits a rigid plane at the speed v = given[1] wave speeds. figure[0]:
+ * exponent of the force over the approach (Hertz: 3/2), fitted above a tenth of the largest force; figure[1]: duration
+ * over that of Hertz, 2.87 (m^2/(R E*^2 v))^(1/5) with the mass m and E* = E/(1 - nu^2); figure[2]: speed afterwards
+ * over v; figure[3]: energy error [1]. Returns FAILED if a step fails. */
 status contact_hertz_space(const struct contact_case *c, double *figure)
 {
     struct run e;

@@ -54,8 +54,9 @@ static status bar_add(struct bar_table *t, struct bar_run r)
     return OK;
 }
 
-/* Runs the bar with all couplings and several widths of the pulse, with the interface on a grid node, and adds the
- * results to the table. quick: true for fewer widths. Returns FAILED or REFUSED if a run does. */
+/* Runs the bar with all couplings and several widths of the pulse, with a grid node at the interface between bonds and
+ * material points, and adds the results to the table. quick: true for fewer widths. Returns FAILED or REFUSED if a run
+ * does. */
 static status measure_pulses(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant < VARIANTS; variant++)
@@ -66,8 +67,9 @@ static status measure_pulses(struct bar_table *t, bool quick)
 
 enum { PLACES = 4 };
 
-/* Runs the bar with partial stress and handshake for several positions of the interface in its grid cell of two
- * spacings, and adds the results to the table. quick: fewer widths of the pulse. Returns FAILED if a run fails. */
+/* Runs the bar with the couplings partial stress and handshake for several distances between the interface and the next
+ * node of the grid, whose cells have two spacings, and adds the results to the table. quick: fewer widths of the pulse.
+ * Returns FAILED or REFUSED if a run does. */
 static status measure_places(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
@@ -81,9 +83,9 @@ static status measure_places(struct bar_table *t, bool quick)
     return OK;
 }
 
-/* Runs the bar with partial stress and handshake with one particle per cell, and with the transfer APIC, and adds
- * the results to the table. The coupling without damping is left out with APIC, since only FLIP damps the interface.
- * quick: fewer combinations. Returns FAILED if a run fails. */
+/* Runs the bar with the couplings partial stress and handshake, with one particle per cell and with the transfer APIC,
+ * and adds the results to the table. With APIC, partial stress is run once only, since only FLIP damps the interface.
+ * quick: fewer combinations. Returns FAILED or REFUSED if a run does. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct {
@@ -106,7 +108,7 @@ static status measure_variants(struct bar_table *t, bool quick)
 /* Indices of the values of a result (share_of). */
 enum { REFLECTED, TRANSMITTED, ENERGY, SHARES };
 
-/* Returns one of the three values of a result. share: its index REFLECTED, TRANSMITTED or ENERGY. */
+/* Returns one of the three values of the result r [1]. share: REFLECTED, TRANSMITTED or ENERGY. */
 static double share_of(const struct pulse_result *r, int share)
 {
     return share == REFLECTED ? r->reflected : share == TRANSMITTED ? r->transmitted : r->energy_change;
@@ -165,7 +167,8 @@ static void print_variants(const struct bar_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Appends reflected amplitude, transmitted amplitude and change of energy to a row of the table `rows`. */
+/* Appends reflected amplitude, transmitted amplitude and change of energy of the result r to a row of the table
+ * `rows`. */
 static void fill_result(struct bench_table *rows, const struct pulse_result *r)
 {
     bench_number(rows, r->reflected);
@@ -207,8 +210,8 @@ static status coupling_write_tables(const struct coupling_figures *all)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Runs all parts of the bench, prints their results and writes tables and pictures. Returns REFUSED if the scene
- * files are missing, FAILED if a run or a file fails. quick: fewer runs. */
+/* Runs all parts of the bench, stores their results in *all, prints them and writes tables and pictures. quick: fewer
+ * runs. Returns REFUSED if the scene files are missing, FAILED if a run or a file fails. */
 static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))

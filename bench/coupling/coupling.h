@@ -24,7 +24,7 @@ struct coupling_variant {
 };
 extern const struct coupling_variant coupling_variant[VARIANTS];
 
-/* Appends the overrides for coupling_variant[variant]. */
+/* Appends the overrides that select the coupling coupling_variant[variant] to *o. */
 void coupling_variant_override(struct bench_overrides *o, int variant);
 
 /* Effect of an interface on a pulse: reflected and transmitted amplitude over the incident one; change of energy over
@@ -53,8 +53,9 @@ struct bar_table {
 
 /* ---- coupling_patch.c: uniform strain across an interface -------------------------------------------------------- */
 
-/* Largest nodal force over stress times cell face [1]: with a node at the interface (its corner or centre), and over
- * all positions of the grid. */
+/* A result of the patch test: largest nodal force over stress times area of a cell face [1], which should be 0. shape,
+ * load: of the interface and of the uniform strain; coupling, weights: values of the scene keys. on_node: with a grid
+ * node at the interface (at its corner or centre); largest: over all positions of the grid. */
 struct patch_row {
     const char *shape, *load, *coupling, *weights;
     int cell; /* size of the grid cells [spacings] */
@@ -67,13 +68,15 @@ struct patch_table {
     struct patch_row row[PATCH_ROWS_MAX];
 };
 
-/* Measures the nodal forces and fills the table. quick: fewer positions of the grid. */
+/* Makes the patch test: measures the nodal forces under uniform strain for all shapes of the interface, couplings and
+ * loads, and adds them to the table. quick: one load and fewer positions of the grid. Returns FAILED or REFUSED if a
+ * run does. */
 status patch_measure(struct patch_table *t, bool quick);
 
-/* Prints the table. */
+/* Prints the results of the patch test. */
 void patch_print(const struct patch_table *t);
 
-/* Copies the table to rows for files. */
+/* Fills `rows`, a table for files, with the results of the patch test. Release with bench_table_free. */
 void patch_fill(const struct patch_table *t, struct bench_table *rows);
 
 /* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
@@ -93,13 +96,14 @@ struct plane_table {
     struct plane_row row[PLANE_ROWS_MAX];
 };
 
-/* Runs all interfaces, couplings and weights and fills the table. quick: fewer of them. */
+/* Runs a plane wave towards flat and inclined interfaces with all couplings and weights, and adds the results to the
+ * table. quick: one interface and width only. Returns FAILED or REFUSED if a run does. */
 status plane_measure(struct plane_table *t, bool quick);
 
-/* Prints the table. */
+/* Prints the results for plane waves. */
 void plane_print(const struct plane_table *t);
 
-/* Copies the table to rows for files. */
+/* Fills `rows`, a table for files, with the results for plane waves. Release with bench_table_free. */
 void plane_fill(const struct plane_table *t, struct bench_table *rows);
 
 /* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */
@@ -111,10 +115,12 @@ struct coupling_figures {
     struct plane_table plane;
 };
 
-/* Writes the commands of the picture to gnuplot. figures: struct coupling_figures. */
+/* Writes the gnuplot commands of the picture with all results to the stream `to`. figures: a struct
+ * coupling_figures. */
 void coupling_draw(FILE *to, const void *figures);
 
-/* Runs the bar with two couplings and draws results/bench/coupling_pulse.png and .svg. */
+/* Runs a pulse through the bar with the couplings handshake and partial stress and draws its velocities as
+ * results/bench/coupling_pulse.png and .svg. Returns FAILED or REFUSED if a run or the picture fails. */
 status coupling_pulse_picture(void);
 
 #endif

@@ -7,7 +7,7 @@
 
 /* ---- panels ------------------------------------------------------------------------------------------------------ */
 
-/* Styles of lines by coupling, as options of gnuplot. */
+/* Styles of the lines of each coupling in the picture, as options of gnuplot. */
 static const char *const variant_style[VARIANTS] = {
     [VARIANT_DAMPED] = "lw 4.5 pt 7 ps 1.1 lc rgb '#0072b2'",
     [VARIANT_UNDAMPED] = "lw 2 pt 7 ps 0.8 lc rgb '#56b4e9'",
@@ -71,8 +71,8 @@ static void draw_pulses(FILE *to, const struct bar_table *t)
 
 /* ---- the plane wave ---------------------------------------------------------------------------------------------- */
 
-/* Lines of the panel with plane waves: coupling, interface and transfer that select its results; style and title for
- * gnuplot. */
+/* Lines of the panel with plane waves. variant, interface, transfer: coupling, interface and transfer of its results;
+ * style, title: for gnuplot. */
 static const struct series {
     int variant;
     const char *interface, *transfer, *style, *title;
@@ -86,16 +86,16 @@ static const struct series {
 };
 enum { SERIES = COUNT_OF(series) };
 
-/* Returns true if row r of the results belongs to line s: equal coupling, interface and transfer, with isotropic
- * weights. */
+/* Returns true if row r of the results belongs to line s of the panel with plane waves: they have the same coupling,
+ * interface and transfer, and the weights of the row are isotropic. */
 static bool of_series(const struct plane_row *r, const struct series *s)
 {
     return r->variant == s->variant && !strcmp(r->interface, s->interface) && !strcmp(r->transfer, s->transfer) &&
            !strcmp(r->weights, "isotropic");
 }
 
-/* Draws the amplitude that returns from the interface as a plane wave, over the width of the pulse, a line for each
- * entry of `series`. */
+/* Draws a panel with the reflected amplitude over the width of the pulse, with a line for each entry of `series`. The
+ * amplitude is that of means over blocks of particles, which can travel as a wave. */
 static void draw_plane(FILE *to, const struct plane_table *t)
 {
     bool there[SERIES] = {false};
@@ -120,8 +120,8 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Sends the data of bar number `member` of the `members` bars in a group: its position, its height `largest`, and
- * the height `on_node` at which a line crosses it. */
+/* Sends the data of a bar to gnuplot: its position, its height `largest`, and the height `on_node` at which a line
+ * crosses it. group: index of its group of bars; member: its index among the `members` bars of the group. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);
@@ -140,8 +140,8 @@ static void plot_bars(FILE *to, const char *block, int members, const char *cons
     fputs("NaN notitle\n", to);
 }
 
-/* Draws bars of the reflected amplitude for three couplings and each width of the pulse: the largest one over all
- * positions of the interface in its cell, with a line for the interface on a node. */
+/* Draws bars of the reflected amplitude for three couplings and each width of the pulse. A bar is the maximum over all
+ * positions of the interface in its grid cell, with a line for the interface on a node. */
 static void draw_places(FILE *to, const struct bar_table *t)
 {
     static const int variant[] = {VARIANT_HANDSHAKE, VARIANT_DAMPED, VARIANT_UNDAMPED};
@@ -173,7 +173,7 @@ static void draw_places(FILE *to, const struct bar_table *t)
 }
 
 /* Draws bars of the largest nodal force in the patch test, for each shape of the interface and each coupling. A bar is
- * the maximum over all loads and positions of the grid, with a line for the interface on a node. */
+ * the maximum over all loads and positions of the grid, with a line for the interface on a grid node. */
 static void draw_patch(FILE *to, const struct patch_table *t)
 {
     static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};

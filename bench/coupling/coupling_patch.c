@@ -114,7 +114,7 @@ status patch_measure(struct patch_table *t, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if two rows of the patch test are printed in one line: they differ only in their load. */
+/* Returns true if two rows of the patch test are printed in one line because they differ only in their load. */
 static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
     return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&

@@ -13,7 +13,7 @@
 enum { BLOCK = 4, AWAY = 12 }; /* size of blocks; least distance from the interface [spacings] */
 enum { WEIGHTS = 2 };
 
-/* Geometry of the strip, in spacings of 1 mm. */
+/* Geometry of the strip, in spacings of 1 mm. length, height: its size. */
 struct strip {
     double length, height, start; /* centre of the pulse at t = 0 */
     double at, normal[2];         /* the interface: point (at, 0) and normal */
@@ -24,10 +24,10 @@ static const char *const interface_name[] = {"flat", "45 degrees"};
 /* Directions of the interface; names in interface_name. */
 enum { FLAT, OBLIQUE, INTERFACES };
 
-/* Returns the geometry of the strip for a pulse of `width` spacings. interface FLAT: distances as in the bar, so that
- * results are comparable. OBLIQUE: the strip is high enough for the reflected wave to become plane (for a pulse of 32
- * spacings, heights of 3 to 6 widths change the measured `wave` by at most 1/7), and the interface is half a spacing
- * from the particles. */
+/* Returns the geometry of the strip for a pulse of `width` spacings. interface: FLAT or OBLIQUE. FLAT: distances as in
+ * the bar, so that results are comparable. OBLIQUE: the strip is high enough for the reflected wave to become plane,
+ * and the interface is half a spacing from the particles. (For a pulse of 32 spacings, heights of 3 to 6 widths change
+ * the measured reflection by at most 1/7.) */
 static struct strip strip_of(int interface, double width)
 {
     if (interface == FLAT) return (struct strip){1024, 4, 256, 512, {1, 0}, 512, 0.2};
@@ -36,8 +36,9 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* Creates the run e of the strip s with the settings of a row of results. A negative row->variant means material
- * points only, without interface. Returns FAILED or REFUSED if the scene cannot be read. */
+/* Creates the run e of the strip s and stores its scene in *scene. row: coupling, weights, transfer and width of the
+ * pulse; row->variant < 0 for material points only, without interface. Returns FAILED or REFUSED if the scene cannot be
+ * read. Release with bench_engine_free. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
@@ -67,9 +68,9 @@ struct plain {
     real *v[2], energy_change;
 };
 
-/* Runs the strip s without interface and stores its final velocities and energy change in b. All runs number the
- * particles alike, so that they can be compared one by one. row: settings of the run. Returns FAILED if a step
- * fails. Release b with plain_free. */
+/* Runs the strip s without interface and stores its final velocities and energy change in *b. All runs of a strip
+ * number the particles alike, so that they can be compared particle by particle. row: weights, transfer and width of
+ * the pulse. Returns FAILED if a step fails. Release b with plain_free. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct run e;
@@ -93,15 +94,17 @@ static void plain_free(struct plain *b)
 
 /* ---- effect of the interface ------------------------------------------------------------------------------------- */
 
-/* Returns the signed distance of particle i from the interface [spacings], positive beyond it. */
+/* Returns the signed distance of particle i from the interface of the strip s [spacings], positive for material beyond
+ * it. */
 static double beyond(const struct strip *s, const struct particles *p, int64_t i)
 {
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x
- * BLOCK particles away from the interface [m/s]. Means are compared, since the grid does not resolve single
- * particles: only a mean over two cells can travel as a wave. */
+/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x BLOCK
+ * particles in front of the interface [m/s]. Only blocks at least AWAY spacings from the interface count. Means are
+ * compared since the grid does not resolve single particles: only a mean over two cells can travel as a wave. p:
+ * particles of the run with interface; s: strip. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
@@ -119,9 +122,9 @@ static double largest_block(const struct strip *s, const struct particles *p, co
     return largest;
 }
 
-/* Computes reflected and transmitted velocity and energy change of the run e, from its difference from the run b
- * without interface, and stores them in *r. Near the interface only particles behind the pulse are used, because
- * inside the pulse both sides differ by their dispersion. */
+/* Computes reflected and transmitted amplitude and energy change of the run e of the strip s, and stores them in *r.
+ * The reflection is the difference from the run b without interface. Near the interface only particles behind the pulse
+ * are used for it, because inside the pulse both runs differ by their dispersion. */
 static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {
@@ -152,9 +155,9 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     return ran;
 }
 
-/* Runs the strip with all couplings and weights of bonds, after one run without interface, and adds the results to
- * the table. interface: index of the interface's direction; width: of the pulse [spacings]; transfer: flip or apic.
- * Returns FAILED if a run fails. */
+/* Runs the strip once without interface, then with all couplings and weights of bonds, and adds the results to the
+ * table. interface: FLAT or OBLIQUE; width: of the pulse [spacings]; transfer: value of the scene key mpm.transfer,
+ * "flip" or "apic". Returns FAILED or REFUSED if a run does. */
 static status group_measure(struct plane_table *t, int interface, double width, const char *transfer)
 {
     static const char *const weights[WEIGHTS] = {"uniform", "isotropic"};

@@ -35,8 +35,9 @@ static status pulse_bar_make(struct run *e, struct scene *s, int variant)
     return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_ready(&o), o.n);
 }
 
-/* Stores positions [mm], velocities and velocity differences from the bar without interface [mm/s] in *shot. p,
- * plain: particles of the bars with and without interface, which are numbered alike. */
+/* Stores positions [mm], velocities, and differences of velocity from the bar without interface [mm/s] in *shot, in
+ * allocated arrays with an entry per particle. p, plain: particles of the bars with and without interface, which are
+ * numbered alike. */
 static void coupling_pulse_take(struct snapshot *shot, const struct particles *p, const struct particles *plain)
 {
     shot->x = NEW("bench.snapshot", p->n, double);
@@ -71,8 +72,8 @@ static status column_run(struct pulse_picture *picture, int column)
 
 /* ---- drawing ----------------------------------------------------------------------------------------------------- */
 
-/* Sends snapshot k of a coupling (column of the picture) as a data block: position, velocity and velocity difference of
- * each particle. */
+/* Sends snapshot k of a coupling to gnuplot as a data block: position, velocity and difference of velocity of each
+ * particle. column: column of the picture, which belongs to the coupling. */
 static void put_shot(FILE *to, const struct pulse_picture *picture, int column, int k)
 {
     const struct snapshot *shot = &picture->shot[column][k];

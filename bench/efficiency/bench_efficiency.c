@@ -62,11 +62,11 @@ static status make(struct run *e, struct scene *s, const struct result *x, int v
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of peridynamic particles in a run over that of all particles [1]. */
+/* Returns the number of peridynamic particles in the run e over the number of all its particles [1]. */
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* Runs a scene in SAMPLES pieces and stores in r the time and the share of peridynamic particles after each of them.
- * Returns FAILED if a step fails. */
+/* Runs a scene in SAMPLES pieces of equal numbers of steps and stores time and share of peridynamic particles after
+ * each of them in r->time and r->share. Returns FAILED if a step fails. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -77,8 +77,8 @@ static status run_pieces(struct run_times *r, struct run *e)
     return OK;
 }
 
-/* Stores in r the times spent on bonds, material points, conversion and samples in run number `repetition`. spent:
- * times of the sections of a step, summed over the run [s]. */
+/* Stores the times that run number `repetition` has spent on bonds, material points, conversion and samples in r->part
+ * [s]. spent: times of the sections of a step (enum timer), summed over the run [s]. */
 static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
     r->part[PART_BONDS][repetition] = spent[TIMER_BONDS];
@@ -115,9 +115,9 @@ static status run_shares(struct result *x, int variant)
 
 /* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
-/* Compares the end of the longest crack of full peridynamics with the crack of an adaptive run that ends nearest to
- * it. variant: index of the adaptive run; dim: dimension of the scene. Stores the differences of start time, tip
- * position and angle in *x; the latter two are NAN without a crack. */
+/* Compares the longest crack of the run with full peridynamics with that crack of an adaptive run whose tip is nearest
+ * at the end. Stores the differences of start time, tip position and angle in *x; the latter two are NAN without a
+ * crack. variant: index of the adaptive run; dim: dimension of the scene. */
 static void compare_tips(struct result *x, int variant, int dim)
 {
     const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;
@@ -132,8 +132,8 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
-/* Returns the median over the repetitions of a run of the loop time without the part `part`, such as samples or
- * conversion [s]. */
+/* Returns the median over the repetitions of a run of its loop time without the time spent on `part`, such as samples
+ * or conversion [s]. */
 static double median_without(const struct run_times *r, enum loop_part part, int repetitions)
 {
     double t[REPETITIONS];
@@ -141,8 +141,8 @@ static double median_without(const struct run_times *r, enum loop_part part, int
     return median_by_sorting(t, repetitions);
 }
 
-/* Returns the median over repetitions of the share of the loop time that is spent neither on bonds nor on material
- * points [1]. */
+/* Returns the median over the repetitions of a run of the share of its loop time that is spent on conversion and
+ * samples, hence neither on bonds nor on material points [1]. */
 static double median_rest(const struct run_times *r, int repetitions)
 {
     double t[REPETITIONS];
@@ -190,9 +190,9 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* Finds the part of the loop that takes most time in an adaptive run, writes its name and its time over that of full
- * peridynamics to text[room], and returns text. Returns "" if the run saves as much time as required. variant: index
- * of the adaptive run. */
+/* Finds the part of the loop (bonds, points, conversion or samples) that takes most time in an adaptive run, writes its
+ * name and its time over that of full peridynamics to text[room], and returns text. Returns "" if the run saves as much
+ * time as required, or if nothing is required. variant: index of the adaptive run. */
 static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
@@ -219,7 +219,7 @@ static void print_variant(const struct result *x, int variant)
     fflush(stdout);
 }
 
-/* Returns the share of peridynamic particles in the sample of a run that is nearest to time t [s]. */
+/* Returns the share of peridynamic particles [1] in that sample of the run r which is nearest to time t [s]. */
 static double share_at(const struct run_times *r, double t)
 {
     int best = 0;
@@ -244,8 +244,8 @@ static void print_marks(const struct efficiency *all)
         "searches and samples;\n  in the way, of rows below their aim: the largest part of the loop, over t_PD\n");
 }
 
-/* Adds the rows of an adaptive run to the three tables of results, shares and runs. variant: index of the adaptive
- * run. */
+/* Adds the rows of an adaptive run of the scene of x to three tables: table[0] with results, table[1] with shares of
+ * peridynamic particles over time, table[2] with properties of the runs. variant: index of the adaptive run. */
 static void add_variant(struct bench_table *table, const struct result *x, int variant)
 {
     const double main[] = {x->t[variant],
@@ -351,8 +351,8 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fputs("set yrange [*:*]\n", to);
 }
 
-/* Returns the number of panels with shares of peridynamic particles. Bond-based scenes at their own spacing come first
- * in the list and are the only ones in the paper: each of them has a panel. */
+/* Returns the number of panels that show shares of peridynamic particles over time. Each bond-based scene at its own
+ * spacing has a panel; these scenes come first in the list and are the only ones in Zeng et al. 2022. */
 static int panels(const struct efficiency *all)
 {
     int n = 0;
@@ -396,8 +396,9 @@ static void efficiency_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all scenes that exist, prints a line for each adaptive variant, and writes tables and picture. Returns
- * REFUSED if no scene exists, FAILED if a run or a file fails. quick: only short scenes, once each. */
+/* Measures all scenes that exist, stores their results in *all, prints a line for each adaptive variant, and writes
+ * tables and picture. quick: only short scenes, once each. Returns REFUSED if no scene exists, FAILED if a run or a
+ * file fails. */
 static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
     const int repetitions = quick ? 1 : REPETITIONS;

@@ -44,15 +44,16 @@ struct all_scatters {
     struct scatter *at;
 };
 
-/* Returns false for scenes in 3D (dim = 3) at a finer spacing than their own, which take minutes per run. */
+/* Returns false for scenes in 3D at a finer spacing than their own, which take minutes per run. dim: dimension of the
+ * scene. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }
 
 static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run / (runs - 1) - 1); }
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs a scene with one method and the time step dt [s], and stores the ends of its cracks in *ends. Returns FAILED
- * if a step fails. method: index of the method. */
+/* Runs the scene of x with one method and the time step dt [s], and stores its crack tips in *ends and its spacing in
+ * x->spacing. method: index in variant_of[]. Returns FAILED or REFUSED if the run does. */
 static status sensitivity_run_once(struct scatter *x, int method, double dt, struct crack_ends *ends)
 {
     struct scene s;
@@ -65,8 +66,9 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     return ran;
 }
 
-/* Runs the scene of x with both methods and all time steps around dt [s]. Stores start, position and angle of one
- * crack per run: the crack that ends nearest to the longest crack of the first run. Returns FAILED if a step fails. */
+/* Runs the scene of x with both methods and x->runs time steps around dt [s]. Stores start time, tip position and angle
+ * of one crack per run in x->end: that crack whose tip is nearest to the tip of the longest crack of the first run.
+ * Returns FAILED or REFUSED if a run does. */
 static status sensitivity_run_all(struct scatter *x, double dt)
 {
     struct crack_ends *ends = NEW("bench.ends", 2, struct crack_ends);
@@ -91,8 +93,8 @@ static status sensitivity_run_all(struct scatter *x, double dt)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the means of start, angle and position over the runs end[n], and the root-mean-square deviations from
- * them. */
+/* Computes the means of start time [s], crack angle [degree] and tip position [m] over the runs end[n], and the
+ * root-mean-square deviations from these means, and stores them in *s. */
 static void spread_find(struct spread *s, const struct end *end, int n)
 {
     double start = 0, angle = 0, place = 0;
@@ -160,8 +162,9 @@ static status sensitivity_write_tables(const struct all_scatters *all)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Draws a column for each scene with the two methods side by side: the distance of the crack end of every run from the
- * mean of full peridynamics. context: struct all_scatters. */
+/* Sends the commands of the picture to gnuplot: for each scene a column with both methods side by side, with the
+ * distance of the crack tip of every run from the mean tip position of full peridynamics. context: a struct
+ * all_scatters. */
 static void sensitivity_draw(FILE *to, const void *context)
 {
     const struct all_scatters *all = context;
@@ -193,8 +196,8 @@ static void sensitivity_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Runs a scene with all time steps and both methods, and computes the scatter of its crack ends. quick: fewer time
- * steps. Returns FAILED if a run fails. */
+/* Runs the scene of x with all time steps and both methods, and computes means and scatter of its crack tips. quick:
+ * fewer time steps. Returns FAILED or REFUSED if a run does. */
 static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;

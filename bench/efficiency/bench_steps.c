@@ -51,8 +51,8 @@ struct breaking_method {
     const char *model, *method, *rule;
 };
 
-/* Starts the run of method w with a time step of `share` times the critical one as a separate process. child:
- * receives the process. Returns FAILED if it cannot be started. */
+/* Starts the run of the scene and method w as a separate process, with a time step of `share` times the critical one.
+ * child: receives the process. Returns FAILED if it cannot be started. */
 static status stepped_start(struct bench_child *child, const struct breaking_method *w, double share)
 {
     struct bench_overrides o = {0};
@@ -74,8 +74,9 @@ static status stepped_take(struct bench_child *child, double *figure)
     return s;
 }
 
-/* Runs the method w with `runs` time steps around `share` times the critical one, as many at once as there are
- * cores. Stores means and deviations of their figures in *to. Returns FAILED if a run fails. */
+/* Runs the scene and method w with `runs` time steps around `share` times the critical one, as many at once as there
+ * are cores. Stores means and root-mean-square deviations of the measured figures (start time, length, angle and
+ * energies of the crack) in *to. Returns FAILED if a run fails. */
 static status stepped_run(const struct breaking_method *w, double share, int runs, struct stepped *to)
 {
     double figure[RUNS_MOST][FIGURES];
@@ -101,8 +102,9 @@ static status stepped_run(const struct breaking_method *w, double share, int run
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Prints how figures change from the smallest time step to the default one and to the largest one: start [%], length
- * [spacings], angle [degree], fracture energy [%]. x[SHARES]: figures at all time steps; spacing [m]. */
+/* Prints how the figures of the crack change from the smallest time step to the default one and to the largest one:
+ * start time [%], length [spacings], angle [degree], fracture energy [%]. x[SHARES]: figures at all time steps; spacing
+ * [m]. */
 static void print_change(const struct stepped *x, double spacing)
 {
     const struct stepped *to = &x[SMALLEST];
@@ -157,8 +159,8 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Runs all scenes, models, methods and rules for the last force of a bond, and adds their figures to the table.
- * Returns REFUSED if no scene exists, FAILED if a run fails. quick: short scenes and one model only. */
+/* Runs all scenes, peridynamic models, methods and rules for the last force of a breaking bond, and adds their figures
+ * to the table. quick: short scenes and one model only. Returns REFUSED if no scene exists, FAILED if a run fails. */
 static status stepped_all(struct bench_table *t, bool quick)
 {
     int done = 0;

@@ -5,12 +5,14 @@
 #include "bench/common/bench.h"
 #include "fracture/tips.h"
 
-/* Share of peridynamic particles that the paper states for a time. */
+/* Share of peridynamic particles that Zeng et al. 2022 state for a time. time [s]; share [1]. */
 struct mark {
     double time, share;
 }; /* [s], [1] */
 
-/* A scene with its model, spacing and goals. */
+/* A scene with its model, spacing and goals. t_r = 1 - t_adaptive/t_PD is the computing time that an adaptive run
+ * saves, over that of full peridynamics; paper: Zeng et al. 2022. mark[marks]: shares of peridynamic particles in the
+ * paper. */
 struct scene_case {
     const char *name, *path, *model;
     const char *tips;    /* conversion.tips of adaptive runs [horizons] */
@@ -25,7 +27,9 @@ struct scene_case {
 enum { EFFICIENCY_CASES = 21 };
 extern const struct scene_case efficiency_case[EFFICIENCY_CASES];
 
-/* A variant: full peridynamics first, then adaptive runs with different levers (values of scene keys). */
+/* A variant: full peridynamics first, then adaptive runs with different levers, the options by which they save time.
+ * levers: name of the options. frame, rest, back, notch: values of the scene keys mpm.frame, time.active_set,
+ * conversion.reversion and conversion.notch. */
 struct variant {
     const char *method, *levers, *frame, *rest, *back, *notch;
     bool coarse;        /* with levels of coarse cells: one, two in finer scenes */
@@ -41,24 +45,27 @@ enum {
 };
 extern const struct variant efficiency_variant[VARIANTS];
 
-/* Creates scene and run of a variant. dt: time step [s]; 0: that of the scene. Surface correction is used for
- * bond-based models only: state-based ones normalise with the existing family. */
+/* Creates scene *s and run *e of scene c with the settings efficiency_variant[variant]. dt: time step [s]; 0: that of
+ * the scene. Surface correction is used for bond-based models only, since state-based ones normalise with the existing
+ * family. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
 status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int variant, double dt);
 
-/* Returns true if the model of a scene is bond-based. */
+/* Returns true if the peridynamic model of the scene c is bond-based. */
 bool efficiency_of_bonds(const struct scene_case *c);
 
-/* Returns true if a variant is run for a scene: finer scenes take long and are run with one lever only. */
+/* Returns true if efficiency_variant[variant] is run for the scene c: all variants at the scene's own spacing, and at
+ * finer spacings, which take long, only full peridynamics and the variants `frame`, `slits` and `levels`. */
 bool efficiency_is_run(const struct scene_case *c, int variant);
 
-/* Returns the smallest of the own time steps of all variants that are run for a scene [s]. */
+/* Stores in *dt the smallest of the time steps [s] that the variants run for the scene c would choose, so that all can
+ * be run with the same one. Returns REFUSED or FAILED if a run cannot be created. */
 status efficiency_step(const struct scene_case *c, double *dt);
 
-/* Writes a title such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` and returns `text`, capacity `room`
- * [byte]. */
+/* Writes a title of the scene c such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` into text[room], and returns
+ * text. */
 const char *efficiency_title(const struct scene_case *c, char *text, size_t room);
 
-/* Writes the title, model and spacing as a quoted label of gnuplot with one word per line. */
+/* Writes name, model and spacing of a scene as a quoted label of gnuplot, with one word per line. */
 void efficiency_tic(FILE *to, const struct scene_case *scene);
 
 /* Crack tips at the end of a run. */
@@ -68,14 +75,15 @@ struct crack_ends {
     double start;      /* time of the first broken bond [s] */
 };
 
-/* Stores the crack tips of a run. */
+/* Stores the crack tips, the longest crack and the time of the first broken bond of the run e in *c. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e);
 
-/* Returns the crack tip of another run that ended nearest to the end of `tip`; NULL if no crack grew there. (The
- * nearest start may belong to a crack of one spacing that arrested beside the one that ran.) */
+/* Returns that crack tip of another run, among those of cracks that grew, which ended nearest to the end of `tip`; NULL
+ * if no crack grew. Ends are compared because the nearest start may belong to a crack that grew by only one spacing
+ * beside the long one. */
 const struct crack_tip *crack_partner(const struct crack_ends *other, const struct crack_tip *tip);
 
-/* Returns the distance of two positions [m]. */
+/* Returns the distance between two positions a[DIM_MAX] and b[DIM_MAX] [m]. */
 double place_distance(const real *a, const real *b);
 
 #endif

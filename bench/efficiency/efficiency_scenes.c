@@ -107,7 +107,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Stores in *c the crack tips of a run, the index of the longest crack, and the time of its first broken bond. */
+/* Stores the crack tips of the run e, the index of the longest crack, and the time of its first broken bond in *c. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e)
 {
     const struct crack_tip *longest = tips_longest(&e->fracture->tips);
