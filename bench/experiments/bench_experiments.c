@@ -14,7 +14,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if an experiment or another code gives a range in which the result r must be. */
+/* Returns true if the result r has a range required by an experiment or another code. */
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
 static bool experiment_is_held(const struct experiment_row *r) { return r->value >= r->low && r->value <= r->high; }
@@ -75,8 +75,8 @@ void experiment_curve_add(struct experiment_curve *c, double x, double y, double
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the results and the curves of the bench as the tables experiments.csv and experiments_curves.csv. Returns
- * FAILED if a file cannot be written. */
+/* Writes the results and the curves of x as the tables experiments.csv and experiments_curves.csv in results/bench.
+ * Returns FAILED if a file cannot be written. */
 static status experiments_write(const struct experiments *x)
 {
     struct bench_table t[2];
@@ -109,7 +109,7 @@ static status experiments_write(const struct experiments *x)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Releases all results, curves and paths of the bench, and removes its folder. */
+/* Releases all results, curves and crack paths of x, and removes its folder. */
 static void experiments_free(struct experiments *x)
 {
     for (int k = 0; k < x->paths; k++)
@@ -120,7 +120,7 @@ static void experiments_free(struct experiments *x)
     memory_free(x);
 }
 
-/* Prints how many results are outside their required ranges, and these results. */
+/* Prints how many results of x are outside their required ranges, and lists these results. */
 static void experiments_summary(const struct experiments *x)
 {
     int asked = 0, held = 0;

@@ -50,25 +50,27 @@ struct experiments {
     char folder[64];
 };
 
-/* Adds a result and prints it. */
+/* Adds a result to x and prints it. */
 void experiment_add(struct experiments *x, struct experiment_row row);
 
-/* Starts a curve of a picture. name: format of printf. Returns the curve, owned by x. */
+/* Adds an empty curve to x. picture: name of the picture in which it is drawn; name: title of the curve, a format of
+ * printf followed by its arguments. Returns the curve, which is part of x. */
 struct experiment_curve *experiment_curve_begin(struct experiments *x, const char *picture, const char *name, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Appends a point to a curve. */
+/* Appends the point (x, y) to a curve. error: half height of its error bar; NAN: none. */
 void experiment_curve_add(struct experiment_curve *c, double x, double y, double error);
 
 /* ---- experiments_draw.c: pictures -------------------------------------------------------------------------------- */
 
-/* Draws all pictures. */
+/* Draws all pictures from the results, curves and crack paths of x. Returns FAILED if a picture cannot be drawn. */
 status experiments_draw(struct experiments *x);
 
 /* ---- experiments_study.c: a scene at three spacings, with variations that have no physical meaning --------------- */
 
-/* A result of a study: the value of a key of summary.json, or the return value of `measure` (NAN: none), times
- * `scale`. */
+/* A quantity that is measured in every run of a study: the number `key` of its summary.json or, if `key` is NULL, the
+ * return value of measure(folder of the run, spacing [m]), times `scale`. NAN: the run does not have it. low, high:
+ * required range, both NAN for none; source: of the range. */
 struct experiment_figure {
     const char *name, *unit, *key;
     double (*measure)(const char *folder, double spacing);
@@ -77,7 +79,7 @@ struct experiment_figure {
 };
 enum { EXPERIMENT_FIGURES_MOST = 8, EXPERIMENT_PAIRS_MOST = 8 };
 
-/* A scene and the results to be measured. */
+/* A scene, and the quantities that are measured in its convergence study. pair: overrides of the scene. */
 struct experiment_case {
     const char *experiment, *variant;
     const char *path, *text; /* path of a scene in inputs/, or its text */
@@ -88,48 +90,57 @@ struct experiment_case {
     struct experiment_figure figure[EXPERIMENT_FIGURES_MOST];
 };
 
-/* Makes the convergence study of a case and adds its results. */
+/* Makes the convergence study of the case c, with runs at three spacings and variations without physical meaning, and
+ * adds its results to x. Returns REFUSED or FAILED if the study does. */
 status experiment_study(struct experiments *x, const struct experiment_case *c);
 
-/* Computes mean, standard deviation and half of the 95 % interval of the mean of the finite ones of n values. Returns
- * the number of finite values. */
+/* Computes mean, standard deviation and half width of the 95 % confidence interval of the mean of value[n], without
+ * values that are not finite. Returns the number of finite values. */
 int experiment_mean(const double *value, int n, double *mean, double *deviation, double *interval);
 
 /* ---- experiments_branch.c: crack branching ----------------------------------------------------------------------- */
 
-/* Branching of a crack: position x of the first column of particles from which on, over 4 mm, there is damage at two or
- * more positions with a distance above BRANCH_APART [m], NAN: none; angle between the outermost branches from 2 to 10
- * mm beyond x [degree]; largest number of branches. */
+/* Branching of a crack along x. The crack has branched where, over the next 4 mm, nine of ten columns of particles have
+ * damage at two or more positions with a distance above 3.5 spacings. x: coordinate of the first such column [m], NAN
+ * if there is none; angle: between the outermost branches from 2 to 10 mm beyond x [degree]; branches: largest number
+ * of branches of a column. */
 struct branching {
     double x, angle;
     int branches;
 };
 
-/* Finds the branching in a frame. spacing: of the particles [m]. */
+/* Finds the branching of a crack along x in the damage of a frame. spacing: of the particles [m]. */
 struct branching branching_find(const struct output_frame *f, double spacing);
 
-/* Returns the position x of the branching in the last frame of a run [m]. */
+/* Returns the coordinate x at which the crack branches, in the last frame of a run [m]; NAN if it does not. folder: of
+ * the run; spacing [m]. */
 double branching_place(const char *folder, double spacing);
 
-/* Returns the angle of the branching in the last frame of a run [degree]. */
+/* Returns the angle between the outermost branches of the crack in the last frame of a run [degree]; NAN if it does not
+ * branch. folder: of the run; spacing [m]. */
 double branching_angle(const char *folder, double spacing);
 
-/* Returns the number of branches in the last frame of a run. */
+/* Returns the largest number of branches of the crack in the last frame of a run; 0 if there is no such frame. folder:
+ * of the run; spacing [m]. */
 double branching_count(const char *folder, double spacing);
 
-/* Reads the last frame of a run. Release with frame_free. */
+/* Reads the last frame of the run in `folder` into *f. Returns FAILED if there is none or it cannot be read. Release
+ * with frame_free in either case. */
 status experiment_last_frame(struct output_frame *f, const char *folder);
 enum { EXPERIMENT_DAMAGED = 35 }; /* damage that counts as crack, as for crack tips [%] */
 
 /* ---- the experiments --------------------------------------------------------------------------------------------- */
 
-/* Runs Kalthoff's plate, and branching in glass. */
+/* Runs Kalthoff's plate and branching in glass, and adds their results to x. Returns REFUSED or FAILED if a study
+ * does. */
 status experiments_plates(struct experiments *x);
 
-/* Runs a crack through a strip whose faces are displaced apart. */
+/* Runs a crack through a strip with displaced faces under several loads, and adds speed, stress-intensity factor and
+ * energy to x. Returns REFUSED or FAILED if a study does. */
 status experiments_strip(struct experiments *x);
 
-/* Runs a crack that follows a moving field (surfing). */
+/* Runs a crack that follows a prescribed moving displacement field (surfing, Hossain et al. 2014), and adds the energy
+ * per crack area to x. Returns REFUSED or FAILED if a run does. */
 status experiments_surfing(struct experiments *x);
 
 /* Measured by surf_run: energy of broken bonds over the new crack area [J/m^2]; mean crack speed over that of the
@@ -138,25 +149,29 @@ struct surf_figures {
     double taken, speed;
 };
 
-/* Runs a crack in a field with A_I K^2/E = share * G_c that moves at `speed` times the Rayleigh speed. spacing: [m];
- * safety: fraction of the critical time step. Stores the results in *found and the Rayleigh speed [m/s] in *rayleigh.
- * G_c is 40 J/m^2. */
+/* Runs a mode I crack under the displacements of a steadily moving crack, prescribed at the edge of the plate. The
+ * field has the energy release rate A_I K^2/E = share * G_c with G_c = 40 J/m^2 and moves at `speed` times the Rayleigh
+ * speed. spacing [m]; safety: fraction of the critical time step. Stores the results in *found and the Rayleigh speed
+ * [m/s] in *rayleigh. Returns REFUSED or FAILED if the run does. */
 status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found,
                 double *rayleigh);
 
-/* Runs a vortex with manufactured body force. */
+/* Runs a vortex with manufactured body force, after Kamojjala et al. 2015, at several spacings, and adds its errors and
+ * their order to x. Returns REFUSED or FAILED if a run does. */
 status experiments_vortex(struct experiments *x);
 
 /* Numerical methods of the vortex. */
 enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
 
-/* Runs the vortex at a spacing [m]. error: receives the displacement error at the end over the displacements. */
+/* Runs the vortex with a numerical method at a spacing [m]. error: receives the root-mean-square error of the
+ * displacements at the end over the root mean square of the displacements [1]. Returns REFUSED or FAILED if the run
+ * does. */
 status vortex_run(enum vortex_method method, double spacing, double *error);
 
-/* Runs a notched beam. */
+/* Runs the notched beam of John & Shah 1990 and adds its results to x. Returns REFUSED or FAILED if a run does. */
 status experiments_beam(struct experiments *x);
 
-/* Runs a compressed disc. */
+/* Runs a compressed disc and adds its stress and strength to x. Returns REFUSED or FAILED if the study does. */
 status experiments_disc(struct experiments *x);
 
 #endif

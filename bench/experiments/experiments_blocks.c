@@ -102,9 +102,9 @@ status experiments_beam(struct experiments *x)
 #define DISC_TOUGHNESS 20.0  /* energy release rate G_c [J/m^2] */
 #define DISC_CLOSED "2 P/(pi D t)"
 
-/* Returns the horizontal stress in the middle of a compressed disc over 2 P/(pi D t), with load P, diameter D and
- * thickness t: the mean from 0.7 of the time of the first break to that time. folder: of the run; spacing: not used.
- * Returns NAN if the results cannot be read. */
+/* Returns the horizontal stress in the middle of a compressed disc over the closed form 2 P/(pi D t), with load P,
+ * diameter D and thickness t. It is the mean over the samples between 0.7 and 1 times the time at which the first bond
+ * breaks. folder: of the run; spacing: not used. Returns NAN if the results cannot be read. */
 static double disc_stress(const char *folder, double spacing)
 {
     struct history h;
@@ -123,9 +123,10 @@ static double disc_stress(const char *folder, double spacing)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Returns the largest load on a compressed disc over (pi D t/2) E s_c, the load at which the strength E s_c of bonds
- * is reached, with diameter D, thickness t and s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m].
- * Returns NAN if the results cannot be read. */
+/* Returns the largest load P on a compressed disc over (pi D t/2) E s_c, with diameter D, thickness t and Young's
+ * modulus E. Under that load the tensile stress 2 P/(pi D t) in its middle is E s_c, the stress at which bonds break,
+ * where s_c = sqrt(4 pi G_c/(9 E delta)). folder: of the run; spacing [m]. Returns NAN if the results cannot be
+ * read. */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

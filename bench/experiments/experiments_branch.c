@@ -31,8 +31,9 @@ static int by_y(const void *a, const void *b)
     return (p->y > q->y) - (p->y < q->y);
 }
 
-/* Returns the columns of a frame, slices one spacing wide from x = 0 on, as an allocated array of length *columns.
- * The caller releases it with memory_free. spacing [m]. */
+/* Divides a frame into columns, slices one spacing wide from x = 0 on, and returns them as an allocated array with the
+ * branches of the crack in each. columns: receives their number; spacing [m]. The caller releases the array with
+ * memory_free. */
 static struct branch_column *columns_of(const struct output_frame *f, double spacing, int *columns)
 {
     struct branch_point *point = NEW("bench.branch", f->n, struct branch_point);
@@ -69,9 +70,9 @@ static bool branches_from(const struct branch_column *c, int columns, int k, dou
     return held >= BRANCH_SHARE * stretch;
 }
 
-/* Returns the slope by which the distance between the outermost branches grows along x [1], by least squares over
- * the columns first .. end - 1 (slices one spacing wide). Returns NAN for fewer than six columns with two branches.
- * spacing [m]. */
+/* Returns the slope by which the distance between the outermost branches grows along x [1], by least squares over the
+ * columns c[first] to c[end - 1], which are slices one spacing wide. Returns NAN for fewer than six columns with two
+ * branches. spacing [m]. */
 static double opening_slope(const struct branch_column *c, int first, int end, double spacing)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -101,8 +102,8 @@ struct branching branching_find(const struct output_frame *f, double spacing)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the last frame of the run in `folder`. Returns FAILED if there is none or it cannot be read. Release with
- * frame_free. */
+/* Reads the last frame of the run in `folder` into *f. Returns FAILED if there is none or it cannot be read. Release
+ * with frame_free in either case. */
 status experiment_last_frame(struct output_frame *f, const char *folder)
 {
     int n;

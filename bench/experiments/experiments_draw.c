@@ -7,7 +7,8 @@
 
 /* ---- curves ------------------------------------------------------------------------------------------------------ */
 
-/* A panel: picture to which it belongs, title, commands for its axes, and plot elements behind the curves. */
+/* A panel of a picture: name of the picture, title, gnuplot commands for its axes, and plot elements behind the
+ * curves. */
 struct experiment_panel {
     const char *picture, *title, *commands, *behind;
 };
@@ -59,7 +60,7 @@ static void experiments_draw_curves(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-/* Adds a curve for each study of a crack that branches: position of the branching over the spacing. */
+/* Adds a curve to x for each study of a crack that branches: position of the branching over the spacing. */
 static void experiments_curves(struct experiments *x)
 {
     for (int k = 0; k < x->n && x->curves < EXPERIMENT_CURVES_MOST; k++) {
@@ -76,7 +77,8 @@ enum { PATHS_WIDE = 4 }; /* panels in a row */
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Draws the crack paths of every study in a panel of its own, coloured by spacing. context: struct experiments. */
+/* Sends the gnuplot commands of a picture: the crack paths of every study in a panel of its own, coloured by spacing.
+ * context: a struct experiments. */
 static void experiments_draw_paths(FILE *to, const void *context)
 {
     const struct experiments *x = context;

@@ -67,8 +67,8 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
     return false;
 }
 
-/* Returns the slope of the column called y_name over the column called x_name in the window w of a history, by least
- * squares. */
+/* Returns the slope of the column y_name over the column x_name of a history, by least squares over the rows of the
+ * window w, in which the crack is straight. */
 static double strip_slope(const struct strip_window *w, const char *x_name, const char *y_name)
 {
     const int cx = history_find_column(&w->h, x_name), cy = history_find_column(&w->h, y_name);
@@ -81,8 +81,8 @@ static double strip_slope(const struct strip_window *w, const char *x_name, cons
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/* Returns the mean speed of the crack over the Rayleigh speed c_R while the crack is straight; NAN if it never is.
- * folder: of the run; spacing [m]. */
+/* Returns the mean speed of the crack over the Rayleigh speed c_R while the crack is straight and far from the ends of
+ * the strip; NAN if it never is. folder: of the run; spacing [m]. */
 static double strip_speed(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -92,8 +92,8 @@ static double strip_speed(const char *folder, double spacing)
     return v / strip_medium().rayleigh;
 }
 
-/* Returns the energy of broken bonds per new crack area over G_c while the crack is straight; NAN if it never is.
- * folder: of the run; spacing [m]. */
+/* Returns the energy of broken bonds per new crack area over G_c while the crack is straight and far from the ends of
+ * the strip; NAN if it never is. folder: of the run; spacing [m]. */
 static double strip_taken(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -103,8 +103,8 @@ static double strip_taken(const char *folder, double spacing)
     return taken;
 }
 
-/* Returns the mean stress-intensity factor at the running tip over K_c = sqrt(G_c E) while the crack is straight;
- * NAN if it never is. folder: of the run; spacing [m]. */
+/* Returns the mean stress-intensity factor at the moving crack tip over K_c = sqrt(G_c E) while the crack is straight
+ * and far from the ends of the strip; NAN if it never is. folder: of the run; spacing [m]. */
 static double strip_factor(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -117,8 +117,8 @@ static double strip_factor(const char *folder, double spacing)
     return mean / sqrt(STRIP_TOUGHNESS * STRIP_YOUNG);
 }
 
-/* Returns the energy flux into the running tip over G_c, A_I(v) K_I^2/(E G_c) with the universal function A_I of the
- * speed v, while the crack is straight; NAN if it never is. folder: of the run; spacing [m]. */
+/* Returns the energy flux into the moving crack tip over G_c, A_I(v) K_I^2/(E G_c), while the crack is straight; NAN if
+ * it never is. A_I is the universal function of the crack speed v (Freund 1990). folder: of the run; spacing [m]. */
 static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();
@@ -128,8 +128,8 @@ static double strip_flux(const char *folder, double spacing)
 
 /* ---- all loads --------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of the result called `figure` for the strip of the given variant, and stores its deviation in
- * *deviation. Returns NAN if there is none. */
+/* Returns the last result called `figure` that x has for the strip under the load `variant`, and stores its standard
+ * deviation in *deviation. Returns NAN and leaves *deviation unchanged if there is none. */
 static double strip_value(const struct experiments *x, const char *variant, const char *figure, double *deviation)
 {
     for (int k = x->n; k-- > 0;)
@@ -140,8 +140,8 @@ static double strip_value(const struct experiments *x, const char *variant, cons
     return NAN;
 }
 
-/* Evaluates all loads of the strip together: adds the largest speed of a straight crack as a result, and the curves of
- * the picture. variant[STRIP_LOADS]: names of the variants by load. */
+/* Evaluates the results for all loads of the strip together: adds the largest speed of a straight crack to x as a
+ * result, and the curves of the picture. variant[STRIP_LOADS]: names of the loads in the results. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
     struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip");

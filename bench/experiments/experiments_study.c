@@ -31,7 +31,8 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the value of the figure f in run k of a study; NAN if the run has failed or does not have the figure. */
+/* Returns the value of the figure f, a quantity to be measured, in run k of a study; NAN if the run has failed or does
+ * not have it. */
 static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
 {
     double value = NAN;
@@ -46,8 +47,8 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
 }
 
 /* Computes mean and scatter of a figure at each spacing level of a study: of the finest level into *row, of the next
- * two into row->coarse. value[k]: the figure in run k; NAN to leave out the run, as for the angle of branching of a
- * crack that does not branch. */
+ * two into row->coarse. value[k]: the figure in run k of the study; NAN to leave out the run, as for the angle of
+ * branching of a crack that does not branch. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
     double own[LEVELS_MOST * RUNS_MOST], mean, deviation, interval;
@@ -92,7 +93,7 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
-/* Appends the position (at_x, at_y) [m] of a damaged particle to the crack paths *p. level: spacing level of its
+/* Appends the position (at_x, at_y) [m] of a damaged particle to the crack paths *p. level: index of the spacing of its
  * run. */
 static void path_add(struct experiment_paths *p, double at_x, double at_y, int level)
 {
@@ -121,8 +122,8 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
 
 /* ---- a study ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the convergence study of case c and adds its results and crack paths to x. Does nothing for cases without
- * scene file, or that --quick leaves out. Returns REFUSED or FAILED if the study does. */
+/* Makes the convergence study of case c and adds its results and crack paths to x. Does nothing for cases whose scene
+ * file is missing, or which --quick leaves out. Returns REFUSED or FAILED if the study does. */
 status experiment_study(struct experiments *x, const struct experiment_case *c)
 {
     struct convergence_study s;

@@ -48,8 +48,8 @@ static void surf_text(FILE *to, double spacing)
     fprintf(to, "  - {fixed: all, region: {box: {from: [-inf, %.9g], to: [inf, inf]}}}\n", SURF_HEIGHT - edge);
 }
 
-/* Computes the displacement u[2] [m] and velocity v[2] [m/s] of the moving field at the reference position of particle
- * i and time t [s]. */
+/* Computes the displacement u[2] [m] and velocity v[2] [m/s] of the prescribed field of a moving crack, at the
+ * reference position of particle i of p and time t [s]. */
 static void surf_field(const struct surf *s, const struct particles *p, int64_t i, double t, double *u, double *v)
 {
     const real at[2] = {p->X[0][i] - s->tip - s->speed * t, p->X[1][i]};
@@ -61,8 +61,8 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
     }
 }
 
-/* Sets all particles of e to the displacement and velocity of the moving field at t = 0, and lists the particles of the
- * edge in s->particle. */
+/* Sets all particles of e to the displacement and velocity of the prescribed field at t = 0. Lists the particles at the
+ * edge of the plate, whose displacement is prescribed, in s->particle[s->held], and sets their velocity to 0. */
 static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;

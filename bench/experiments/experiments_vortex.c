@@ -34,8 +34,8 @@ static const struct vortex_case vortex_cases[VORTEX_METHODS] = {
 static const double vortex_spacings[] = {0.1, 0.05, 0.025, 0.0125}; /* [m] */
 enum { VORTEX_SPACINGS = COUNT_OF(vortex_spacings) };
 
-/* Replaces the uniform body force of the scene by the body force of the vortex at the current time: sets the shares
- * of the load, forces of each particle [N] that the load multiplies by its time function. */
+/* Replaces the uniform body force of the scene by the body force of the vortex v at the current time of the run e. Sets
+ * the forces `share` of its first load, one per particle [N], which the load multiplies by its time function. */
 static void vortex_load(struct run *e, const struct vortex *v)
 {
     struct load *load = &e->loads.load[0];
@@ -51,7 +51,8 @@ static void vortex_load(struct run *e, const struct vortex *v)
     }
 }
 
-/* Returns the root-mean-square error of the displacements over the root mean square of the exact displacements [1]. */
+/* Returns the root-mean-square error of the displacements in the run e over the root mean square of the displacements
+ * of the vortex v [1]. */
 static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;

@@ -10,8 +10,8 @@
 /* Returns the factor on the rotation at time t [s]: sin^2(pi t/(2 T)), which grows from 0 to 1 over the time T. */
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
-/* Returns the rotation angle alpha of the vortex at X[2] [m] and time t [rad], and stores its derivative along the
- * radius R, divided by R, in *slope. */
+/* Returns the rotation angle alpha of the vortex at X[2] [m] and time t [s] in rad, and stores alpha'/R in *slope, its
+ * derivative along the radius R over R [1/m^2]. */
 static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
 {
     const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
@@ -38,8 +38,9 @@ void vortex_gradient(const struct vortex *v, const double *X, double t, double F
 
 /* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
-/* Fills v with the bonds of a square lattice with uniform weights. reach: length of the longest bond [spacings]. The
- * weights are scaled to the bulk modulus of the plane, c11 + c12. */
+/* Fills the members bonds, xi and weight of v with the bonds of a square lattice with uniform weights, whose longest
+ * bond has the length `reach` [spacings]. The weights are scaled so that they have the bulk modulus of the plane, (c11
+ * + c12)/2. */
 void vortex_bonds(struct vortex *v, double reach)
 {
     double sum = 0;
@@ -90,8 +91,8 @@ void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
 
 /* ---- force ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the derivative of the stress P_ab along axis b at X[2] [m] and time t [s] to sum[a] for a = 0 and 1 [N/m^3], by
- * fourth-order central differences. */
+/* Adds the derivatives of the stresses P_ab along axis b at X[2] [m] and time t [s] to sum[a], for a = 0 and 1 [N/m^3],
+ * by fourth-order central differences. The sum over b = 0 and 1 is the divergence Div P. */
 static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
 {
     static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};

@@ -26,20 +26,21 @@ struct vortex {
     double xi[VORTEX_BONDS_MOST][2], weight[VORTEX_BONDS_MOST];
 };
 
-/* Fills the bonds of a lattice with uniform weights and a given reach [spacings], scaled to the bulk modulus of the
- * plane. */
+/* Fills the members bonds, xi and weight of v with the bonds of a square lattice with uniform weights, scaled to the
+ * bulk modulus of the plane. reach: length of the longest bond [spacings]. */
 void vortex_bonds(struct vortex *v, double reach);
 
-/* Computes the deformation gradient F at X [m] and time t [s]. */
+/* Computes the deformation gradient F of the vortex at the reference position X[2] [m] and time t [s]. */
 void vortex_gradient(const struct vortex *v, const double *X, double t, double F[2][2]);
 
-/* Computes the first Piola-Kirchhoff stress P of a deformation gradient [Pa]. */
+/* Computes the first Piola-Kirchhoff stress P [Pa] at the deformation gradient F by the law v->law. */
 void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2]);
 
-/* Computes the current position x of X [m]. */
+/* Computes the position x[2] [m] at time t [s] of the material point at the reference position X[2] [m]. */
 void vortex_place(const struct vortex *v, const double *X, double t, double *x);
 
-/* Computes the body force b per reference volume [N/m^3]. */
+/* Computes the body force b[2] per reference volume [N/m^3] that the motion requires at the reference position X[2] [m]
+ * and time t [s]. */
 void vortex_force(const struct vortex *v, const double *X, double t, double *b);
 
 #endif

@@ -31,9 +31,10 @@ static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Creates a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, and runs one step. dim: its
- * dimension; method, model, mpm: values of these scene keys; more: further keys of the scene; yields: true if the
- * material has a yield stress. Returns FAILED if the step fails. Release with bench_engine_free. */
+/* Creates the run e of a body of about 80,000 particles with spacing 0.5 mm in which no bond breaks, with its scene in
+ * *s, and makes one step. dim: its dimension; method, model, mpm: values of these scene keys; more: further keys of the
+ * scene; yields: true if the material has a yield stress. Returns FAILED if the step fails. Release with
+ * bench_engine_free. */
 static status kernels_body_make(struct run *e, struct scene *s, int dim, const char *method, const char *model,
                                 const char *mpm, const char *more, bool yields)
 {
@@ -59,8 +60,8 @@ static status kernels_body_make(struct run *e, struct scene *s, int dim, const c
     return bench_engine_run(e, 1, NULL); /* sorts the points and covers them with a grid */
 }
 
-/* Displaces one half of a body with a cut by 0.02 spacings against the other half, so that their faces are in
- * contact. */
+/* Displaces one half of the body of run e, which a crack cuts in two, by 0.02 spacings towards the other half, so that
+ * the crack faces are in contact. */
 static void faces_press(struct run *e)
 {
     real low, high;
@@ -104,14 +105,15 @@ static void ground_free(struct ground *g)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the run on whose bonds the kernel of job j is timed. */
+/* Returns the run of g on whose bonds the kernel of job j is timed: bonds of state-based models, of yielding bonds, or
+ * of elastic ones. */
 static struct run *bonds_of(const struct job *j, struct ground *g)
 {
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
-/* Calls the kernel of job j that moves the material points of run e. yields: true to call it with the yielding
- * material of the run, false with an elastic one. */
+/* Calls the kernel of job j that gathers velocities from the grid and moves the material points of run e. yields: true
+ * to call it with the yielding material of the run, false with an elastic one. */
 static void g2p_call(const struct job *j, struct run *e, bool yields)
 {
     struct elastic material = e->tables.elastic[0];
@@ -121,8 +123,8 @@ static void g2p_call(const struct job *j, struct run *e, bool yields)
     g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
 }
 
-/* Sets the stresses of all material points beyond their yield stress, so that the next call of a kernel returns them
- * to it. */
+/* Sets the stresses of all material points of run e beyond their yield stress and their plastic strain to 0, so that
+ * the next call of a kernel has to return the stresses to the yield surface. */
 static void points_stress(struct run *e)
 {
     const real yield = e->tables.elastic[0].law->yield;
@@ -131,8 +133,8 @@ static void points_stress(struct run *e)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
-/* Updates the list of particle pairs in contact. changed: 1 to require a search for pairs, as if particles had
- * changed; else 0. */
+/* Updates the list of particle pairs in contact of run e. changed: 1 to require a new search for pairs, 0 to keep the
+ * list if it is still valid. */
 static void faces_update(struct run *e, int changed)
 {
     contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
@@ -200,8 +202,8 @@ static void job_call(const struct job *j, struct ground *g)
     }
 }
 
-/* Times the kernel of job j in two calls, the first of which fills the caches, and stores the shortest time so far
- * in j->seconds. g: bodies on which kernels are timed. */
+/* Times the kernel of job j in two calls, the first of which fills the caches, and lowers j->seconds to the shorter of
+ * their times [s] if it is shorter than in earlier calls. g: bodies on which kernels are timed. */
 static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
@@ -236,8 +238,9 @@ static void time_all(struct kernel_bench *b, bool quick)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean number of bytes that kernels read per column of a row block (the bonds of eight particles).
- * Columns of row blocks with a shared stencil count 0, since they remain in cache. */
+/* Returns the mean number of bytes that kernels read from memory per column of a row block. A row block holds the bonds
+ * of eight particles, and one of its columns a bond of each. Columns of row blocks whose bonds follow a common stencil
+ * of the lattice count 0, since the stencil remains in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
@@ -250,8 +253,8 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
-/* Returns the number of bytes that contact moves per particle near a face: its list of pairs twice, forces, energy and
- * positions. */
+/* Returns the number of bytes that contact in the run e moves per particle near a face: its list of pairs twice,
+ * forces, energy and positions. */
 static double contact_bytes(const struct run *e)
 {
     const struct contact *c = e->contact;
@@ -259,8 +262,8 @@ static double contact_bytes(const struct run *e)
            3 * sizeof(real) * (double)e->part.dim;
 }
 
-/* Returns the number of bytes that the kernel of job j must move per particle. Each array that the kernel reads or
- * writes counts once; nodes are shared among the points of their cell. g: bodies on which kernels are timed. */
+/* Returns the least number of bytes that the kernel of job j moves per particle. Each array that the kernel reads or
+ * writes counts once; a grid node counts once for all points that share it. g: bodies on which kernels are timed. */
 static double job_bytes(const struct job *j, struct ground *g)
 {
     const double mesh_node = sizeof(real) / (double)(1 << j->dim);
@@ -311,8 +314,8 @@ static double job_bytes(const struct job *j, struct ground *g)
     }
 }
 
-/* Computes the lower limit of the time per particle of each kernel [s]: bytes over memory bandwidth, or for kernels on
- * bonds the time of the arithmetic if that is longer. */
+/* Computes the lower limit of the time per particle of each kernel in b->job [s]: its bytes over the memory bandwidth,
+ * or for kernels on bonds the time of the arithmetic if that is longer. */
 static void find_limits(struct kernel_bench *b)
 {
     for (int k = 0; k < b->jobs; k++) {
@@ -326,8 +329,8 @@ static void find_limits(struct kernel_bench *b)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Times all kernels and targets, computes their limits, and prints and writes the results. quick: few repetitions.
- * Returns FAILED if a run or a file fails. */
+/* Times all kernels, and the whole runs that have targets, computes lower limits of the times, and prints and writes
+ * the results. quick: few repetitions. Returns FAILED if a run or a file fails. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_memory(&b->targets));

@@ -38,8 +38,8 @@ struct scale_bench {
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Resets the high-water mark of the memory of this process and returns the current memory [byte]; NAN if the system
- * does not allow to reset it. */
+/* Resets the high-water mark of the memory of this process, so that it can be read after a following task. Returns the
+ * current memory [byte]; NAN if the system does not allow the reset. */
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
@@ -51,8 +51,8 @@ static double memory_from_here(void)
     return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
 }
 
-/* Returns true if 0.7 of the memory of the machine suffice for a block of `particles` particles, with the most
- * expensive method and while a frame is being written. */
+/* Returns true if a block of `particles` particles fits into 0.7 of the memory of the machine, with the most expensive
+ * method and while a frame is being written. block: its dimension. */
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
@@ -61,8 +61,9 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a block of about `particles` particles that writes a frame every FRAME_EVERY steps. Stores in *r how long a
- * frame stops the time loop [s] and its size per particle [byte]. Returns FAILED if the run fails. */
+/* Runs a block of about `particles` particles that writes a frame every FRAME_EVERY steps. Stores the time for which a
+ * frame stops the time loop [s] in r->frame and its size per particle [byte] in r->frame_bytes. Returns FAILED if the
+ * run fails. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -90,9 +91,9 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
-/* Measures set-up time, time per step and memory of a block of about `particles` particles, and stores them in *r.
- * Steps are timed in PIECES pieces, of which the fastest counts. visits: particles times steps of a piece. Returns
- * FAILED if a step fails. */
+/* Measures set-up time [s], time per step [s] and memory per particle [byte] of a block of about `particles` particles,
+ * and stores them in *r. The steps are timed in PIECES pieces, of which the fastest counts. visits: number of particles
+ * times number of steps of a piece. Returns FAILED if a step fails. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;
@@ -115,8 +116,8 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the set-up time of a block in units of steps of full peridynamics on the same block. which: index of the
- * block; size: index of its size. */
+/* Returns the set-up time of a block over the time of a step of full peridynamics on a block of the same dimension and
+ * size [1]. which: index in bench_blocks; size: index in size_of. */
 static double setup_steps(const struct scale_bench *b, int which, int size)
 {
     int pd = which;
@@ -221,8 +222,8 @@ static void scale_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures block number `which` at all of the first `sizes` sizes that the memory of the machine allows, and prints
- * the results. quick: small sizes. Returns FAILED if a run fails. */
+/* Measures the block bench_blocks[which] at the first `sizes` sizes, as far as the memory of the machine allows, and
+ * prints the results. quick: small sizes. Returns FAILED if a run fails. */
 static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
     const struct bench_block *block = &bench_blocks[which];

@@ -54,7 +54,7 @@ struct targets_bench {
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the sum of the timers of a time loop without output [s]. */
+/* Returns the sum of the timers of a time loop, without that of output [s]. l: times of the sections of a step. */
 static double loop_of(const struct timers *l)
 {
     double sum = 0;
@@ -124,7 +124,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Appends a measured quantity with its target to the list, unless the list is full. */
+/* Appends a measured quantity with its target to f, unless f is full. */
 static void add_figure(struct targets *f, struct target_figure figure)
 {
     if (f->figures < SPEED_TARGETS_MAX) f->figure[f->figures++] = figure;
@@ -176,8 +176,8 @@ status bench_targets_speed(struct targets *f, bool quick)
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Runs the scene of w for a short time as a separate process and stores its peak memory per particle in *peak
- * [byte]. Returns FAILED if the run fails. */
+/* Runs the scene of the benches for 1 us with the overrides of w as a separate process, and stores its peak memory per
+ * particle in *peak [byte]. Returns FAILED if the run fails. */
 static status peak_per_particle(const struct target_run *w, double *peak)
 {
     static const char *const key[] = {"memory_peak_bytes", "particles"};
@@ -210,7 +210,8 @@ status bench_targets_memory(struct targets *f)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the measured value over the limit of the machine meets the target of a quantity. */
+/* Returns true if the quantity a meets its target: the measured value over the limit of the machine is at most
+ * a->asked, or at least that if a->at_least. */
 static bool met(const struct target_figure *a)
 {
     const double ratio = a->measured / a->limit;

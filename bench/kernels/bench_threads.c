@@ -24,7 +24,8 @@ struct threads_bench {
 
 static bool power_of_two(int t) { return (t & (t - 1)) == 0; }
 
-/* Chooses the numbers of threads that are measured: 1, 2, 3, 4, 6, 8, 12, 16 and so on, and all `cores` cores. */
+/* Stores the numbers of threads that are measured in b->team[]: 1, 2, 3, 4, 6, 8, 12, 16 and so on, and all `cores`
+ * cores. */
 static void choose_teams(struct threads_bench *b, int cores)
 {
     for (int t = 1; t < cores && b->teams < TEAMS_MAX - 1; t = t == 1 ? 2 : power_of_two(t) ? t / 2 * 3 : t / 3 * 4)
@@ -37,8 +38,8 @@ static double cost(const struct threads_bench *b, int which, int scaling, int t)
     return b->step[which][scaling][t] / b->particles[which][scaling][t];
 }
 
-/* Returns the parallel efficiency of team number t: the time on one thread over the product of time and number of
- * threads. which: index of the block; scaling: index in scaling_name. */
+/* Returns the parallel efficiency with b->team[t] threads [1]: the time per particle on one thread, over the product of
+ * time per particle and number of threads. which: index in bench_blocks; scaling: index in scaling_name. */
 static double efficiency(const struct threads_bench *b, int which, int scaling, int t)
 {
     return cost(b, which, scaling, 0) / (b->team[t] * cost(b, which, scaling, t));

@@ -42,7 +42,9 @@ struct job {
     double bytes, limit; /* bytes moved per particle; lower limit of the time per particle [s] */
 };
 
-/* Bodies on which kernels are timed, for each dimension; there are no state-based particles in 1D. */
+/* Bodies on which kernels are timed, for each dimension: BONDS elastic bonds, POINTS material points of the current
+ * frame, STATES state-based bonds (not in 1D), MESH cells of the reference frame, YIELDING yielding bonds, CUT a body
+ * with pressed crack faces. */
 enum { BONDS, POINTS, STATES, MESH, YIELDING, CUT, GROUNDS };
 struct ground {
     struct scene scene[GROUNDS];
@@ -65,26 +67,28 @@ struct kernel_bench {
     struct targets targets;
 };
 
-/* Returns true if the kernel visits bonds. */
+/* Returns true if the kernel of job j visits bonds. */
 static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
 
-/* Returns the number of particles that the kernel visits; for contact those near a face. */
+/* Returns the number of particles that the kernel of job j visits in its body of g; for contact kernels those near a
+ * face. */
 static inline int64_t job_particles(const struct job *j, const struct ground *g)
 {
     if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;
     return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 
-/* Returns the number of bonds per particle; NAN if the kernel visits none. */
+/* Returns the number of bonds per particle in the body of job j; NAN if its kernel visits no bonds. g: bodies on which
+ * kernels are timed. */
 static inline double job_bonds(const struct job *j, const struct ground *g)
 {
     return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
 }
 
-/* Prints the results (kernels_draw.c). */
+/* Prints the limits of the machine, the times of all kernels and the targets (kernels_draw.c). */
 void kernels_print(const struct kernel_bench *b);
 
-/* Writes the tables and draws the picture (kernels_draw.c). */
+/* Writes the tables and draws the picture of the bench (kernels_draw.c). Returns FAILED if a file cannot be written. */
 status kernels_write(const struct kernel_bench *b);
 
 #endif

@@ -13,8 +13,8 @@ static const char *const job_name[JOB_KINDS] = {
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints the measured limits of the machine: arithmetic of bonds, memory bandwidth, and transfers of material points
- * without arithmetic. */
+/* Prints the measured limits of the machine for one thread: time of the arithmetic of a bond, memory bandwidth, and
+ * time of a step of a simple material point method per particle. */
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");
@@ -77,7 +77,8 @@ static status kernels_draw_write_tables(const struct kernel_bench *b)
 
 /* ---- picture ----------------------------------------------------------------------------------------------------- */
 
-/* Writes a label in double quotes: the first word of `variant` in lower case, followed by `more`. */
+/* Writes a label in double quotes: the first word of `variant` in lower case, with spaces for underscores, followed by
+ * `more`. */
 static void kernels_draw_put_label(FILE *to, const char *variant, const char *more)
 {
     fputc('"', to);
@@ -123,7 +124,8 @@ static void kernels_draw_set_panel(FILE *to, double left, double right, double b
             left, right, below, above);
 }
 
-/* Draws bars of the measured quantities over their targets; a bar of 1 or less meets its target. */
+/* Draws a bar for each measured quantity of f with a target: measured value over target. A bar of 1 or less meets its
+ * target. */
 static void draw_speed_targets(FILE *to, const struct targets *f)
 {
     if (!f->figures) return;

@@ -55,9 +55,9 @@ struct field_bench {
 
 /* ---- scene ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene of the whole plate or, if `part` is true, of a part of it between absorbing faces. A wave that
- * enters the part through an absorbing face is caused by a load of twice its stress. Returns FAILED if the file
- * cannot be written. */
+/* Writes the scene of the whole plate or, if `part` is true, of a part of it between absorbing faces. The load of the
+ * part has twice the stress of the wave, since it acts on an absorbing face, which takes up half of it. b: spacing,
+ * wave speed and pulse. Returns FAILED if the file cannot be written. */
 static status field_scene_write(const struct field_bench *b, bool part)
 {
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
@@ -79,9 +79,10 @@ static status field_scene_write(const struct field_bench *b, bool part)
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Reads size, memory, times and the curve K_I(t) from the results of a run into *r. folder: of the run; later: time
- * by which its wave is shifted [s]; processor: processor time that the run received [s]. Returns FAILED if a file
- * cannot be read. */
+/* Reads number of particles, memory, times and the curve K_I(t) from the results of a run into *r. folder: of the run;
+ * later: added to the times of the curve [s], as the wave starts nearer to the crack in a part of the plate; processor:
+ * processor time of the run, by which its times are corrected for other load [s]. Returns FAILED if a file cannot be
+ * read. */
 static status field_read(struct field_row *r, const char *folder, double later, double processor)
 {
     struct history h = {0};
@@ -132,7 +133,7 @@ static status field_run(struct field_bench *b, int k)
 
 /* ---- differences ------------------------------------------------------------------------------------------------- */
 
-/* Returns the stress-intensity factor of a run at time t [s], interpolated linearly between samples. */
+/* Returns K_I of the run r at time t [s], interpolated linearly between samples [Pa m^0.5]. */
 static double intensity_at(const struct field_row *r, double t)
 {
     int64_t k = 1;
@@ -140,8 +141,9 @@ static double intensity_at(const struct field_row *r, double t)
     return r->K[k - 1] + (r->K[k] - r->K[k - 1]) * (t - r->t[k - 1]) / (r->t[k] - r->t[k - 1]);
 }
 
-/* Returns the largest difference of K_I between a run and a direct run, over the largest K_I of the direct run. It is
- * evaluated at the samples of the direct run that are within the duration of the other run. */
+/* Returns the largest difference of K_I(t) between the run r and a direct run, over the largest K_I of the direct run
+ * [1]. It is evaluated at the samples of the direct run that are within the duration of r. A direct run has bonds, or
+ * cells of two spacings, everywhere. */
 static double field_off(const struct field_row *r, const struct field_row *direct)
 {
     double most = 0;
@@ -153,8 +155,8 @@ static double field_off(const struct field_row *r, const struct field_row *direc
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of cells in the front of the pulse, which is half of its length, for the largest cells of run
- * k. */
+/* Returns how many of the largest cells of run k the rising front of the pulse spans; the front is half of the length
+ * of the pulse. */
 static double cells_in_front(const struct field_bench *b, int k)
 {
     return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
@@ -184,9 +186,9 @@ static enum timer largest_timer(const struct field_row *r)
     return (enum timer)most;
 }
 
-/* Prints the fastest of the runs that deviate little enough from direct run number `direct`, and whether it reaches
- * the required ratio of times. part: true for runs of the part between absorbing faces, false for those of the whole
- * plate. */
+/* Prints the fastest of the runs whose K_I deviates by at most K_AIM from direct run number `direct`, and whether its
+ * time is shorter by the required factor. part: true for runs of the part between absorbing faces, false for those of
+ * the whole plate. */
 static void field_print_aim(const struct field_bench *b, int direct, bool part)
 {
     int best = -1;
@@ -265,8 +267,8 @@ static void field_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes all runs, prints a row for each with its differences from the direct runs, and writes table and picture.
- * Returns FAILED if a run or a file fails. */
+/* Makes all runs, prints a row for each with its differences from the direct runs (bonds, or cells of two spacings,
+ * everywhere), and writes table and picture. Returns FAILED if a run or a file fails. */
 static status field_measure(struct field_bench *b)
 {
     printf("  spacing %g mm, half plate of %.0f by %.0f spacings; pulse of %.0f spacings, its front %.0f; %d samples; "

@@ -64,8 +64,8 @@ struct growth_bench {
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of levels of coarse cells with which the largest cells are 2 mm. spacing: of the particles
- * [mm]. */
+/* Returns the number of levels of coarse grid cells with which the largest cells are at most 2 mm: cells have two
+ * spacings, and each level doubles them. spacing: of the particles [mm]. */
 static int levels_of(double spacing)
 {
     int levels = 0;
@@ -73,8 +73,8 @@ static int levels_of(double spacing)
     return levels;
 }
 
-/* Appends the overrides of a run of the series s to *o. spacing [mm]; until: end of the run [us], 0: that of the
- * scene. */
+/* Appends the overrides of a run of the series s to *o. spacing: of the particles [mm]; until: end of the run [us], or
+ * 0 for that of the scene. */
 static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing, double until)
 {
     const double width = 3 * spacing;
@@ -136,8 +136,8 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     return ran;
 }
 
-/* Measures a run of the series s at a spacing [mm] and stores the fastest repetition in *least. Runs shorter than
- * SHORT are repeated. quick: true for one run of the first microseconds. Returns FAILED if a run fails. */
+/* Makes a run of the series s at a spacing [mm] and stores its results in *least. Runs shorter than SHORT are repeated,
+ * and the fastest one is stored. quick: true for one run of the first microseconds. Returns FAILED if a run fails. */
 static status growth_time(struct growth_row *least, const struct growth_series *s, double spacing, bool quick)
 {
     const int repeated = quick ? 1 : REPEATED;
@@ -151,8 +151,8 @@ static status growth_time(struct growth_row *least, const struct growth_series *
 
 /* ---- exponents --------------------------------------------------------------------------------------------------- */
 
-/* Returns the slope of log2(y) over the number of halvings of the spacing, by least squares over the rows first .. n
- * - 1. y(row, which): returns quantity number `which` of a row. */
+/* Returns the slope of log2(y) over -log2(spacing), thus the exponent of y per halving of the spacing, by least squares
+ * over row[first] to row[n - 1]. y(row, which): returns quantity number `which` of a row. */
 static double exponent_of(const struct growth_row *row, int first, int n, double (*y)(const struct growth_row *, int),
                           int which)
 {
@@ -179,9 +179,9 @@ static int rows_of(const struct growth_row *row)
     return n;
 }
 
-/* Computes the exponents of the cost of a series of runs, row[], and the section of a step that exceeds its goal
- * most. The goal for the finest run is the time of the section in the coarsest run, extrapolated with the required
- * exponent. */
+/* Computes the exponents by which particles, memory and time of the series s grow, and finds the section of a step that
+ * exceeds its goal most. The goal for the finest run is the time of the section in the coarsest run, extrapolated with
+ * the required exponent. row[]: runs of the series from coarse to fine. */
 static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, const struct growth_series *s)
 {
     const int n = rows_of(row);
@@ -275,7 +275,8 @@ static status growth_write_table(const struct growth_bench *b)
     return s;
 }
 
-/* Draws number of particles, memory and time over the spacing, a panel each. context: struct growth_bench. */
+/* Sends the gnuplot commands of the picture: number of particles, memory and time over the spacing, a panel each.
+ * context: a struct growth_bench. */
 static void growth_draw(FILE *to, const void *context)
 {
     static const char *const title[AIMS] = {"particles made", "peak memory [MB]", "loop [s]"};
@@ -305,8 +306,8 @@ static void growth_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture.
- * quick: few and short runs; finest: includes the finest spacings. Returns FAILED if a run or a file fails. */
+/* Measures all series of runs, prints a row for each spacing, fits the exponents, and writes table and picture. quick:
+ * few and short runs; finest: true to include the finest spacings. Returns FAILED if a run or a file fails. */
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
     bool any = false;

@@ -84,8 +84,8 @@ static bool peer_installed(void)
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene of case c with `edge` particles along an edge: a uniform extension in x, slightly rotated so that no
- * direction is special. No particles come into contact. */
+/* Writes the scene of case c with `edge` particles along an edge: a uniform extension along x, with the lattice
+ * slightly rotated so that no direction is special. No particles come into contact. */
 static void scene_text(FILE *to, const struct peer_case *c, int edge)
 {
     const double half = 0.5 * edge * SPACING, rate = c->breaking ? 3000 : 300, step = c->dim == 2 ? 4e-8 : 2e-8;
@@ -134,9 +134,9 @@ static status peer_engine(struct run *e, struct scene *s, const struct peer_case
 
 /* ---- the input of LAMMPS ----------------------------------------------------------------------------------------- */
 
-/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number.
- * type[particles]: receives a LAMMPS type of its own for each particle of such a bond; types: incremented for each;
- * exclude: file to which the exclusions of these pairs are written. */
+/* Finds the bonds that the cracks of run e cut, each pair of particles once, and returns their number. type[particles]:
+ * gives each particle of such a bond a LAMMPS atom type of its own; types: number of types, incremented for each;
+ * exclude: receives the LAMMPS commands that exclude these pairs. */
 static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclude)
 {
     const struct particles *p = &e->part;
@@ -235,8 +235,8 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
 
 /* ---- both runs --------------------------------------------------------------------------------------------------- */
 
-/* Reads positions and damage of n particles that LAMMPS has written, in the order of ids, into the arrays of s.
- * Returns FAILED if particles are missing. */
+/* Reads positions and damage of n particles from the file that LAMMPS has written, and stores them in the arrays of s
+ * in the order of ids. Returns FAILED if particles are missing. */
 static status peer_solution(struct solution *s, int64_t n)
 {
     char line[512];
@@ -310,7 +310,8 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Prints sizes, times and differences between Cleave and LAMMPS of a case. */
+/* Prints numbers of particles and bonds, times of a step, and the difference between the results of Cleave and LAMMPS
+ * for case c. */
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
     printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);
@@ -324,9 +325,9 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
     fflush(stdout);
 }
 
-/* Measures the time of bond_style bpm/peri if the installed LAMMPS has it; else derives it from the time of
- * pair_style peri by the ratios of its authors. Prints a line for each timed case. result[CASES]: results of the
- * cases; quick: small cases. Returns FAILED if a run fails. */
+/* Measures the time of a step with bond_style bpm/peri if the installed LAMMPS has it; else derives it from the time of
+ * pair_style peri by the ratios that its authors state. Prints a line for each timed case. result[CASES]: results of
+ * the cases; quick: small cases. Returns FAILED if a run fails. */
 static status bond_style_compare(struct peer_result *result, bool quick)
 {
     char text[TEXT_ROOM];

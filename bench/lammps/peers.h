@@ -13,15 +13,17 @@ bool peer_has_bond_style(void);
  * table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
 double peer_bond_style_ratio(bool lps);
 
-/* Runs `lmp` with the arguments "-in INPUT", "-log LOG" in a folder. Returns FAILED if lmp cannot be started or fails.
- */
+/* Runs `lmp` with the arguments "-in", input, "-log", log in a folder. input, log: names of files. Returns FAILED if
+ * lmp cannot be started or fails. */
 status peer_spawn(const char *folder, const char *input, const char *log);
 
-/* Reads the time of a step from the log of a run of `steps` steps [s]. Returns FAILED if the log does not tell. */
+/* Reads the loop time from the LAMMPS log file `log` of a run of `steps` steps and stores the time of a step in
+ * *seconds [s]. Returns FAILED if the log does not contain it. */
 status peer_seconds(const char *log, int steps, double *seconds);
 
-/* Exports a scene for bond_style bpm/peri to PEERS_FOLDER, runs it in LAMMPS and stores the time of a step [s]. text:
- * the scene, of `steps` steps. Returns REFUSED if the scene cannot be exported, FAILED if LAMMPS fails. */
+/* Exports a scene for bond_style bpm/peri to PEERS_FOLDER, runs it in LAMMPS and stores the time of a step in *seconds
+ * [s]. text: the scene; steps: its number of time steps. Returns REFUSED if the scene cannot be exported, FAILED if
+ * LAMMPS fails. */
 status peer_run_bond_style(const char *text, int steps, double *seconds);
 
 #endif

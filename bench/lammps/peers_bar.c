@@ -22,10 +22,11 @@ struct bar_result {
     double particles, steps, seconds; /* processor time of the fastest run [s] */
 };
 
-/* Runs a cylinder of copper that hits a plane of symmetry for 80 us (quick: with coarse particles for 8 us). Stores
- * the shortest processor time so far in *r, since other programs disturb it least. yields: true for 190 m/s and von
- * Mises with linear hardening; false for an elastic bar and 19 m/s, since 190 m/s would stretch it by 8 %, beyond
- * what the current frame allows. Returns FAILED if the run does. */
+/* Runs a cylinder of copper that hits a plane of symmetry for 80 us and lowers r->seconds to its processor time [s] if
+ * that is shorter than in earlier runs, since other programs disturb the shortest time least. yields: true for 190 m/s
+ * and von Mises plasticity with linear hardening; false for an elastic bar and 19 m/s, since 190 m/s would stretch it
+ * by 8 %, beyond what the current frame allows. quick: coarse particles and 8 us. Returns FAILED or REFUSED if the run
+ * does. */
 static status bar_run(struct bar_result *r, bool yields, bool quick)
 {
     struct scene s;

@@ -14,8 +14,8 @@
 
 extern char **environ;
 
-/* Starts lmp with the arguments argv in a folder, with its output in the file `out`, and waits for its end. Returns
- * FAILED if it cannot be started or exits with another status than 0. */
+/* Starts lmp with the arguments argv in the folder `folder`, with its standard output in the file `out`, and waits for
+ * its end. Returns FAILED if it cannot be started or exits with another status than 0. */
 static status lmp_run(char *const *argv, const char *folder, const char *out)
 {
     pid_t child;

@@ -104,7 +104,8 @@ bool laws_figure_holds(const struct laws_figure *asked, double found)
     return fabs(found - asked->expected) <= asked->tolerance;
 }
 
-/* Prints the values found[] of a case beside the expected ones, and adds them to the table. */
+/* Prints the measured values found[LAWS_FIGURES] of a case beside the expected ones, and adds a row for each to the
+ * table. */
 static void laws_rows(const struct laws_case *c, const double *found, struct bench_table *rows)
 {
     for (int k = 0; k < LAWS_FIGURES && c->asked[k].what; k++) {

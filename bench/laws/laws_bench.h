@@ -15,8 +15,9 @@ struct laws_figure {
     double expected, tolerance;
 };
 
-/* A case. measure: stores the found values, in the order of `asked`. given: parameters. body: a run of a body, which
- * takes seconds; else a single element, in milliseconds. source: where the expected values come from. */
+/* A case. measure: stores the measured values in found[], in the order of `asked`. given: parameters for `measure`.
+ * body: true if it runs a body, which takes seconds; false for a single element, in milliseconds. source: where the
+ * expected values come from. */
 struct laws_case {
     const char *name, *source;
     status (*measure)(const struct laws_case *c, double *found);
@@ -31,33 +32,37 @@ extern const struct laws_case laws_cases[];
 /* Number of cases. */
 extern const int laws_cases_count;
 
-/* Returns true if a found value meets its tolerance. */
+/* Returns true if the measured value `found` is within the tolerance of asked->expected. */
 bool laws_figure_holds(const struct laws_figure *asked, double found);
 
 /* ---- laws_elements.c: single elements ---------------------------------------------------------------------------- */
 
-/* Returns a law with its derived constants. young, poisson, yield [Pa] [1] [Pa]: of the material; density [kg/m^3]. */
+/* Returns a copy of `law` with its derived constants. young [Pa], poisson [1], yield [Pa], density [kg/m^3]: constants
+ * of the material. */
 struct law laws_material(struct law law, real young, real poisson, real yield, real density);
 
-/* Returns steel (200 GPa, 0.3, 200 MPa) with one of the flow laws. */
+/* Returns steel with one of the flow laws: Young's modulus 200 GPa, Poisson's ratio 0.3, yield stress 200 MPa. */
 struct law laws_steel(enum flow flow);
 
-/* Returns eight equal points without stress, at 294 K, whose rate of strain has no effect (duration 0). */
+/* Returns a state of eight equal material points, which law_update treats together: without stress, at 294 K, and with
+ * duration 0, so that the strain rate has no effect. */
 struct law_points laws_points_at_rest(void);
 
-/* Stores the trial stress of a strain increment in all points of p. strain: tensor components [1]; normal ones out of a
- * plane or across a bar are not used where the space leaves them free. */
+/* Adds the elastic stress of a strain increment to the stress of all points of p, and keeps the previous stress in
+ * p->before. strain[SYM_MAX]: tensor components of the increment [1]; normal components out of a plane or across a bar
+ * are not used if `space` leaves them free. */
 void laws_add_trial_stress(const struct law *m, struct law_points *p, const real *strain, enum space space);
 
-/* Returns the elastic energy density of the first of the points [J/m^3]. */
+/* Returns the elastic energy density of the first of the eight points of p with the law m [J/m^3]. */
 real laws_elastic_energy(const struct law *m, const struct law_points *p);
 
-/* Strains an element by 500 random increments of up to 0.2 %, with an explicit law update after each. Returns the work
- * of the strains less elastic energy and plastic work, over the sum of the absolute values of the work of all
- * increments [1]. NAN if the element has hardly yielded. */
+/* Strains an element with the law m by 500 random increments of up to 0.2 %, with an explicit law update after each.
+ * Returns the work of the strains minus elastic energy and plastic work, which should be 0, over the sum of the
+ * absolute values of the work of all increments [1]. Returns NAN if the element has hardly yielded. */
 double laws_cycled_energy(const struct law *m, enum space space);
 
-/* Cases: an element in tension, cycled, or heated, in explicit steps. */
+/* Measure the quantities of a case with a single element in tension, cycled or heated, in explicit steps.
+ * found[LAWS_FIGURES]: receives the quantities in the order and units of c->asked; given: meaning of c->given. */
 status laws_hardening(const struct laws_case *c, double *found); /* given: enum flow, with the constants of laws_steel;
     found: stress at the strains 0.01 and 0.05 [MPa], plastic work up to 0.05 [MJ/m^3] */
 status laws_table(const struct laws_case *c, double *found);
@@ -72,8 +77,9 @@ status laws_energy(const struct laws_case *c, double *found);
 
 /* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */
 
-/* Cases: bars that hit a wall (given: 0 gimp, 1 linear shapes; 0 mean dilatations of cells, 1 own ones of the points),
- * and bodies under static loads. */
+/* Measure the quantities of a case with a body: bars that hit a wall, and bodies under static loads.
+ * found[LAWS_FIGURES]: receives the quantities in the order and units of c->asked. c->given of bars: [0] shape
+ * functions, 0 gimp or 1 linear; [1] dilatation, 0 the mean of a cell or 1 that of each point. */
 status laws_bar_wilkins(const struct laws_case *c, double *found);
 status laws_bar_copper(const struct laws_case *c, double *found);
 status laws_bar_johnson_cook(const struct laws_case *c, double *found);

@@ -16,15 +16,16 @@ struct bar_rest {
     double top, radius, strain, temperature, pressure, balance;
 };
 
-/* Gives each material point of a run its own dilatation in place of the mean of its cell, as in codes without a
- * treatment of locking. */
+/* Gives each material point of the run e its own dilatation in place of the mean over its grid cell, as in codes
+ * without a treatment of volumetric locking. */
 static void points_have_own_dilatations(struct run *e)
 {
     for (int m = 0; m < e->scene->materials; m++) e->tables.elastic[m].mean_dilatation = false;
     e->grid->transfer.mean_dilatation = false;
 }
 
-/* Computes the state *r of the particles of a bar. spacing: of the particles [m]. */
+/* Computes length, radius, largest strain and temperature, and pressure of a bar from its particles p, and stores them
+ * in *r, whose maxima must be 0 before. spacing: of the particles [m]. */
 static void bar_measure(struct bar_rest *r, const struct particles *p, double spacing)
 {
     double length = 0, sum = 0, count = 0, squares = 0;
@@ -40,8 +41,9 @@ static void bar_measure(struct bar_rest *r, const struct particles *p, double sp
     r->top = sum / count, r->pressure = sqrt(squares / (double)p->n);
 }
 
-/* Runs the scene `path` of a bar that hits a wall, with the overrides o, and stores its state at the end in *r. c:
- * case; c->given: shape functions, and whether points have their own dilatation. Returns FAILED if a step fails. */
+/* Runs the scene file `path` of a bar that hits a wall, with the overrides o, and stores its state at the end in *r.
+ * c->given[0]: 1 for linear shape functions, else gimp; c->given[1]: 1 if points have their own dilatation in place of
+ * the mean of their cell. Returns FAILED if a step fails. */
 static status bar_strike(struct bar_rest *r, const char *path, const struct laws_case *c, struct bench_overrides *o)
 {
     struct run e;
@@ -96,9 +98,9 @@ status laws_bar_johnson_cook(const struct laws_case *c, double *found)
 #define YOUNG 200e9 /* [Pa] */
 #define POISSON 0.3
 
-/* Runs load steps of a body of ideally plastic steel in the reference frame to the full load, and updates the stresses
- * of its particles. text: the keys of the scene besides method, material and output. Returns FAILED if a load step
- * does. Release e and s with bench_engine_free after OK only. */
+/* Runs a body of ideally plastic steel in the reference frame in load steps to the full load, and updates the stresses
+ * of its particles. text: scene keys besides method, material and output; e, s: receive the run and its scene. Returns
+ * FAILED or REFUSED if the run does; release e and s with bench_engine_free after OK only. */
 static status body_run(struct run *e, struct scene *s, const char *text)
 {
     char whole[2048];
@@ -176,7 +178,9 @@ struct shell_state {
     double outer;            /* mean displacement of the outer layer [m] */
 };
 
-/* Returns the c in 1 .. 2 at which the integral of k ((c/r)^D - 1) r^(D - 1) from 1 to c equals `sum`, by bisection. */
+/* Returns the radius c of the plastic front, between 1 and 2, at which the integral of the plastic strain k ((c/r)^D -
+ * 1) times r^(D - 1) over r from 1 to c equals `sum`, by bisection. k: constant of the plastic strain [1]; D:
+ * dimension, 3 for a sphere, 2 for a cylinder. */
 static double plastic_front(double sum, double k, int D)
 {
     double low = 1, high = 2;
@@ -190,9 +194,9 @@ static double plastic_front(double sum, double k, int D)
     return low;
 }
 
-/* Computes the state *r of a hollow sphere (D 3) or cylinder (D 2) of radii a and 2 a [m]. guess: estimated radius
- * of the plastic front over a [1]; the stress is evaluated in the outer half of the elastic part. spacing [m];
- * depth: of the cylinder [m]. */
+/* Computes the state *r of a hollow sphere (p->dim 3) or cylinder (p->dim 2) of radii a and 2 a [m] from its particles.
+ * guess: estimated radius of the plastic front over a [1]; the stress is evaluated in the outer half of the elastic
+ * part. spacing: of the particles [m]; depth: length of the cylinder [m]. */
 static void shell_measure(struct shell_state *r, const struct particles *p, double a, double guess, double spacing,
                           double depth)
 {
@@ -217,9 +221,9 @@ static void shell_measure(struct shell_state *r, const struct particles *p, doub
     r->plastic = plastic_front(strains / (full * pow(a, D)), k, D);
 }
 
-/* Runs a hollow sphere (an octant) or a hollow cylinder (a quarter, in plane strain) of radii 10 and 20 mm under the
- * inner pressure `pressure` [Pa], and stores its state in *r. spacing: of the particles [m]; guess: estimated radius
- * of the plastic front over the inner radius [1]. Returns FAILED if a load step fails. */
+/* Runs a hollow sphere of radii 10 and 20 mm (an octant) or, if `sphere` is false, a hollow cylinder (a quarter, in
+ * plane strain) under the inner pressure `pressure` [Pa], and stores its state in *r. spacing: of the particles [m];
+ * guess: estimated radius of the plastic front over the inner radius [1]. Returns FAILED if a load step fails. */
 static status shell_run(bool sphere, double spacing, double pressure, double guess, struct shell_state *r)
 {
     struct run e;

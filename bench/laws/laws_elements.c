@@ -23,8 +23,8 @@ struct law laws_steel(enum flow flow)
     return laws_material(law, 200e9, 0.3, 200 * MPA, 7800);
 }
 
-/* Returns a law of steel with kinematic hardening only. modulus, recall: constants C [Pa] and gamma [1] of the back
- * stress. */
+/* Returns a law of steel with kinematic hardening only. modulus, recall: constants C [Pa] and gamma [1] of the
+ * evolution of the back stress by Armstrong & Frederick. */
 static struct law steel_kinematic(real modulus, real recall)
 {
     struct law m = laws_steel(FLOW_LINEAR);
@@ -59,7 +59,8 @@ void laws_add_trial_stress(const struct law *m, struct law_points *p, const real
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the elastic energy density of the first point of p [J/m^3], ((1 + nu) s:s - nu (tr s)^2)/(2 E). */
+/* Returns the elastic energy density of the first point of p with the law m [J/m^3], ((1 + nu) s:s - nu (tr s)^2)/(2
+ * E), where s is the stress. */
 real laws_elastic_energy(const struct law *m, const struct law_points *p)
 {
     real squares = 0, trace = 0;
@@ -101,8 +102,8 @@ status laws_energy(const struct laws_case *c, double *found)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Loads a bar in `steps` equal steps from the strain *strain to the strain `to`, and updates *strain. m: law; p: state
- * of the bar. */
+/* Loads a bar in `steps` equal steps from the strain *strain to the strain `to`, and sets *strain to `to`. m: its law;
+ * p: its state, which is updated. */
 static void bar_load(const struct law *m, struct law_points *p, real *strain, real to, int steps)
 {
     const real step[SYM_MAX] = {(to - *strain) / steps};
@@ -113,8 +114,8 @@ static void bar_load(const struct law *m, struct law_points *p, real *strain, re
     *strain = to;
 }
 
-/* Loads a bar in strain steps of 1e-6 until its stress is `to` [Pa], and updates *strain. The last step is shortened by
- * bisection. m: law; p: state of the bar. */
+/* Loads a bar in strain steps of 1e-6 until its stress is `to` [Pa], and updates *strain. The last steps are shortened
+ * by halving. m: its law; p: its state, which is updated. */
 static void bar_pull(const struct law *m, struct law_points *p, real *strain, real to)
 {
     const real sign = to > p->s[0][0] ? 1 : -1;
@@ -195,9 +196,9 @@ status laws_armstrong_frederick(const struct laws_case *c, double *found)
 
 /* ---- sheets and points ------------------------------------------------------------------------------------------- */
 
-/* Stretches a sheet in plane strain with a free face by steps of 1e-5 to the strain `at` along xx. The strain yy
- * follows from the condition that no stress yy remains. m: law; p: state of the sheet. Returns the largest stress xx
- * without plastic strain [Pa]. */
+/* Stretches a sheet in plane strain, whose faces normal to y are free of stress, by steps of 1e-5 to the strain `at`
+ * along xx. In each step the strain yy follows from the condition that the stress yy is 0, by bisection. m: its law; p:
+ * its state, which is updated. Returns the largest stress xx before the first plastic strain [Pa]. */
 static real sheet_pull(const struct law *m, struct law_points *p, real at)
 {
     const real step = 1e-5;
@@ -231,8 +232,9 @@ status laws_plane_strain(const struct laws_case *c, double *found)
     return OK;
 }
 
-/* Stretches a point without change of volume to the plastic strain `to`, in steps of 1e-4 with a rate of the plastic
- * strain of 1000/s. Stores its equivalent stress [Pa] and temperature [K] at this strain, by interpolation. m: law. */
+/* Stretches a point with the law m without change of volume to the plastic strain `to`, in steps of 1e-4 at a plastic
+ * strain rate of 1000/s. Stores its equivalent stress [Pa] and temperature [K] at this strain, by interpolation between
+ * two steps, in *stress and *temperature. */
 static void point_heat(const struct law *m, real to, real *stress, real *temperature)
 {
     const real step = 1e-4, strain[SYM_MAX] = {step, -0.5 * step, -0.5 * step};
@@ -269,7 +271,7 @@ status laws_johnson_cook(const struct laws_case *c, double *found)
 
 /* ---- rate -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the law of copper of Johnson and Cook without heating. hardening: its constant B [Pa]. */
+/* Returns the Johnson-Cook law of copper without heating by plastic work. hardening: its constant B [Pa]. */
 static struct law copper_cold(real hardening)
 {
     const struct law m = {.flow = FLOW_JOHNSON_COOK,
@@ -310,8 +312,8 @@ status laws_held(const struct laws_case *c, double *found)
 /* ---- flow that turns --------------------------------------------------------------------------------------------- */
 
 /* Loads a point of ideally plastic steel to its yield stress in tension, then shears it at constant rate, in `steps`
- * equal steps of the mode `mode`, by twice the deviatoric strain at yield. Returns the tensile stress that remains,
- * over the yield stress [1]. */
+ * equal steps, by twice the deviatoric strain at yield. mode: how the law is integrated in a step. Returns the tensile
+ * stress that remains, over the yield stress [1]. */
 static real tension_left(int steps, enum law_mode mode)
 {
     struct law m = laws_steel(FLOW_LINEAR);
