@@ -10,7 +10,8 @@ static const double exact = 11.93;             /* K_I for a/W = 0.5, H = W (Bowi
 static const double unit = 31622.776601683793; /* 1 MPa mm^0.5                               [Pa m^0.5] */
 static const double width = 10;                /* width of the plate [mm] */
 
-/* Models that are compared, with the constants of `local` and `bulk` bonds. */
+/* Models that are compared. LOCAL, BULK: the constants of bonds follow from the family of each particle, or from that
+ * of a particle in the bulk. style: of its line, for gnuplot. */
 enum { MOSPD, MOSPD_LOCAL, OSPD, OSPD_BULK, BOND, MODELS };
 static const struct edge_model {
     const char *name, *model, *normalisation, *poisson, *style;
@@ -49,7 +50,8 @@ static double speed_of(const struct edge_row *r) { return r->steps * r->side * r
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Prints the result of a run of the edge crack, beside the cost that the paper states for it, if there is one. */
+/* Prints the result of a run of the edge crack, beside the steps and time that Table 2 of doi
+ * 10.1007/s11804-026-00791-z states for it, if it does. */
 static void sif_edge_print_row(const struct edge_row *r)
 {
     const int paper = paper_of(r->model), side = paper_side(r->side);
@@ -79,8 +81,9 @@ static status sif_edge_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Appends an override with probes on rings of 30, 50 and 70 spacings, as in Table 1 of the paper, unless the largest
- * ring does not fit into the plate. side: number of particles along an edge. */
+/* Appends an override with probes on rings of 30, 50 and 70 spacings to *o, as in Table 1 of doi
+ * 10.1007/s11804-026-00791-z, unless the largest ring does not fit into the plate. side: number of particles along an
+ * edge. */
 static void override_probes(struct bench_overrides *o, int side)
 {
     if (paper_radius[EDGE_RINGS - 1] * width / side > 0.4 * width) return;
@@ -134,7 +137,7 @@ static void print_rings(const struct edge_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with all runs of the edge crack. */
+/* Fills `rows`, an uninitialised table for files, with all runs of the edge crack in t. */
 static void fill(struct bench_table *rows, const struct edge_table *t)
 {
     bench_table_make(rows, "",
@@ -187,8 +190,8 @@ static void panel(FILE *to, int column, const char *title)
             left, left + 0.28, title, left + 0.29);
 }
 
-/* Plots column `y` of the data of the edge crack over the spacing, one line per model. y: a column of gnuplot; t:
- * not used. */
+/* Sends the gnuplot command that plots column `y` of the data of the edge crack over the spacing, one line per model.
+ * t: not used. */
 static void plot_models(FILE *to, const struct edge_table *t, const char *y)
 {
     for (int m = 0; m < MODELS; m++)
@@ -246,8 +249,8 @@ static status sif_edge_write_tables(const struct edge_table *t)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for the edge crack to *asked: largest deviations of K_I of the runs with at least 100 particles
- * along an edge. */
+/* Adds the goals for the edge crack to *asked: largest errors of K_I of the runs in t with at least 100 particles along
+ * an edge. */
 static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {
     for (int k = 0; k < t->n; k++) {

@@ -23,8 +23,8 @@ struct reaction_table {
     struct reaction_row row[RELEASES];
 };
 
-/* Returns the value at point `at` of the parabola that is fitted to the equidistant points at - reach .. at + reach
- * of the reaction (Savitzky & Golay 1964). */
+/* Returns a smoothed value of the reaction force of r at point `at` [N]: that of the parabola fitted to the equidistant
+ * points at - reach to at + reach (Savitzky & Golay 1964). */
 static double smooth_at(const struct reaction_row *r, int at, int reach)
 {
     double s[5] = {0}, b[3] = {0};
@@ -136,8 +136,8 @@ static const struct path_row path_row[PATHS] = {
     {.name = "0.5 mm", .key = "particles.spacing", .value = "0.5 mm"},
 };
 
-/* Returns the root mean square of K_II/K_I in the history of a run while the crack grows, without its first 2 mm of
- * growth. */
+/* Returns the root mean square of K_II/K_I over the rows of a history in which the crack grows, without its first 2 mm
+ * of growth. */
 static double modes_ratio(const struct history *h)
 {
     const int length = history_find_column(h, "growth.length"), speed = history_find_column(h, "growth.speed");

@@ -36,8 +36,8 @@ struct inclined_table {
     struct inclined_row row[INCLINED_ANGLES * VARIANTS];
 };
 
-/* Returns the deviation of the factor F[mode] from the exact one, relative to the magnitude of both exact factors
- * [1]. */
+/* Returns the deviation of the factor F[mode] from the exact one, relative to the magnitude (K_I^2 + K_II^2)^(1/2) of
+ * both exact factors of case c [1]. mode: 0 for K_I, 1 for K_II. */
 static double sif_inclined_off(const struct inclined_case *c, const double F[INCLINED_MODES], int mode)
 {
     return (F[mode] - c->exact[mode]) / hypot(c->exact[0], c->exact[1]);
@@ -61,8 +61,9 @@ static status sif_inclined_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Runs the inclined crack of case c, of half length 3 mm around the point (10, 5) mm, with variant v and a probe at
- * its upper tip, and appends the result to the table. quick: coarse spacing. Returns FAILED if the run fails. */
+/* Runs the inclined crack of case c, of half length 3 mm around the point (10, 5) mm, with the rule variant[v] for the
+ * constants of bonds and a probe at its upper tip, and appends the result to the table. quick: coarse spacing. Returns
+ * FAILED if the run fails. */
 static status inclined_add(struct inclined_table *t, const struct inclined_case *c, int v, bool quick)
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);
@@ -81,8 +82,8 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Draws the deviations of K_I and K_II from collocation over the angle of the crack, with those of the paper. context:
- * struct inclined_table. */
+/* Draws the deviations of K_I and K_II from boundary collocation over the angle of the crack, with those in Table 3 of
+ * doi 10.1007/s11804-026-00791-z. context: a struct inclined_table. */
 static void sif_inclined_draw(FILE *to, const void *context)
 {
     const struct inclined_table *t = context;

@@ -19,7 +19,7 @@ static const double stress = 2e6, path_length = 20e-3; /* stress on the crack pl
 static const double window[2] = {5e-6, 9e-6};          /* times between which ripple is evaluated [s] */
 static const double is_current = 5.5e-6;               /* time from which a moving crack is compared [s] */
 
-/* Figures of the paper of Imachi et al. (2019) to which a case belongs, as bits. */
+/* Figures of Imachi et al. (2019) to which a case belongs, as bits. */
 enum { LENGTH = 1, EXPONENT = 2, STEP = 4, HORIZON = 8, SPACING = 16, IRREGULAR = 32, OTHER = 64, EACH = 63 };
 static const struct {
     int bit;
@@ -92,8 +92,9 @@ struct moving_table {
 
 /* ---- the closed form --------------------------------------------------------------------------------------------- */
 
-/* Computes the material constants and the speed factors k(v), K(v) = k(v) K(0), of Freund's closed form: exact, and
- * as printed in the paper. Returns FAILED or REFUSED if the scene cannot be read. */
+/* Computes the material constants of the scene and the factor k(v) of Freund's closed form, K(v) = k(v) K(0) at the
+ * crack speed v: t->factor exactly, t->printed by the approximation that is usually printed. Returns FAILED or REFUSED
+ * if the scene cannot be read. */
 static status closed_form(struct moving_table *t)
 {
     struct scene s = {0};
@@ -112,8 +113,8 @@ static double sif_moving_at_rest(const struct moving_table *t, double time)
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the ripple of n points y(x): their root-mean-square deviation from the parabola fitted to them, over their
- * mean. */
+/* Returns the ripple of a curve with n points (x, y): the root-mean-square deviation of y from the parabola fitted to
+ * the points, over the mean of y. */
 static double ripple_of(const double *x, const double *y, int n)
 {
     double basis[3][SAMPLES + 2], rest[SAMPLES + 2], mean = 0, square_sum = 0;
@@ -135,8 +136,8 @@ static double ripple_of(const double *x, const double *y, int n)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Reads K_I over time from the history of a run into *r: by the probe, which excludes the process zone, and by the
- * sum over the whole disc. folder: of the run. Returns FAILED if it cannot be read. */
+/* Reads K_I over time from the history of a run into *r: K[0] by the probe that excludes the process zone, K[1] by the
+ * sum over the whole disc around the tip. folder: of the run. Returns FAILED if the history cannot be read. */
 static status read_curves(struct moving_row *r, const char *folder)
 {
     struct history h = {0};
@@ -203,7 +204,8 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills a table with K_I over time of all runs, and with the exact values at the same times. */
+/* Fills `rows`, an uninitialised table for files, with K_I over time of all runs in t, and with the exact values at the
+ * same times. */
 static void fill_curves(struct bench_table *rows, const struct moving_table *t)
 {
     bench_table_make(rows, "curves", "name,time,K_I,K_I_disc,K_I_exact,K_I_printed");
@@ -247,8 +249,8 @@ static bool is_sudden(const struct moving_case *c)
     return false;
 }
 
-/* Sends K_I over sigma (pi a)^(1/2) with a = 12 mm, as in the paper, for all runs of the figures `groups`, and the
- * exact curves, to gnuplot. sigma: stress on the crack plane; groups: figures of the paper, as bits. */
+/* Sends K_I over sigma (pi a)^(1/2) for all runs of the figures `groups` and the exact curves to gnuplot. sigma: stress
+ * on the crack plane; a = 12 mm, as in Imachi et al. (2019); groups: figures of that paper, as bits. */
 static void put_curves(FILE *to, const struct moving_table *t, int groups)
 {
     const double size = stress * sqrt(3.14159265358979 * 12e-3);
@@ -270,16 +272,17 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
 
 static bool release_methods(int groups) { return groups == LENGTH || groups == EXPONENT; }
 
-/* Returns true if case c is drawn in panel `column` of a picture for the figures `groups` of the paper. If the
- * picture compares methods of releasing bonds, both panels (column 1 and 2) show all cases; else panel 2 shows the
- * cases with immediate release and panel 1 the others. */
+/* Returns true if case c is drawn in panel `column` (1 or 2) of the picture for the figures `groups` of Imachi et al.
+ * (2019), as bits. If the picture compares methods of releasing bonds, both panels show all cases; else panel 2 shows
+ * the cases with immediate release and panel 1 the others. */
 static bool is_shown(const struct moving_case *c, int groups, int column)
 {
     return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
 }
 
-/* Draws one of two panels. column 1, above: factor by the probe; column 2, below: factor by the sum over the whole
- * disc, as in the paper. groups: figures of the paper, as bits; what: title. */
+/* Draws one of two panels with K_I over time. column: 1 for the upper panel, K_I by the probe without the process zone;
+ * 2 for the lower panel, K_I by the sum over the whole disc around the tip, as in Imachi et al. (2019). groups: figures
+ * of that paper whose cases are drawn, as bits; what: title. */
 static void sif_moving_draw_panel(FILE *to, const struct moving_table *t, int groups, int column, const char *what)
 {
     const double above = column < 2 ? 0.93 : 0.45;
@@ -332,7 +335,7 @@ static status draw_groups(const struct moving_table *t)
 
 /* ---- targets ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative deviation of K_I from the exact value in a run [1]. */
+/* Returns the largest relative deviation of K_I from the exact value in the run r [1]. */
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
 /* Adds the goals for stationary and moving cracks to *asked. Those for moving cracks apply to spacings of 0.25 mm

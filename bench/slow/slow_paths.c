@@ -18,8 +18,9 @@ struct path_row {
     double found, expected, apart; /* angles found and expected, and their difference [degree] */
 };
 
-/* Finds the next row of the history, from row *from on, in which the farthest crack tip has moved from place[2] [m].
- * Stores its new position in place[2] and the row in *from. Returns false if there is none. */
+/* Finds the next row of the history, from row *from on, in which the columns path_x and path_y, the position of the
+ * farthest crack tip, differ from place[2] [m]. Stores this position in place[2] and the row in *from. Returns false if
+ * there is none; place[2] is then the last position. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
 {
     const int x = history_find_column(h, "path_x"), y = history_find_column(h, "path_y");
@@ -33,16 +34,17 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 
 /* ---- kinks ------------------------------------------------------------------------------------------------------- */
 
-/* Stores the initial position of the crack tip in place[2] [m]. */
+/* Stores the position of the crack tip in row 1 of the history, before the crack grows, in place[2] [m]. */
 static void path_start(const struct history *h, double place[2])
 {
     place[0] = history_value_at(h, 1, history_find_column(h, "path_x"));
     place[1] = history_value_at(h, 1, history_find_column(h, "path_y"));
 }
 
-/* Reads the first kink of an inclined crack from the results of a run, and compares its angle with the direction of
- * the largest hoop stress. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is
- * long, to 1 %. row: a struct path_row; folder: of the run. Returns FAILED if the history cannot be read. */
+/* Reads the first kink of an inclined crack from the results of a run, and compares its angle with the direction of the
+ * largest hoop stress for K_II/K_I = tan(angle). This ratio holds in an infinite plate; in the plate of the scene, five
+ * times as wide as the crack is long, it holds to 1 %. row: a struct path_row; folder: of the run. Returns FAILED if
+ * the history cannot be read. */
 static status kink_take(void *row, const char *folder)
 {
     struct path_row *r = row;
@@ -66,8 +68,8 @@ static status kink_take(void *row, const char *folder)
     return OK;
 }
 
-/* Adds a row called `name` with the results r to the table. Raises *worst to the deviation of r, or sets it to NAN
- * if that is NAN. */
+/* Adds a row called `name` with the results r to the table. Raises *worst to r->apart, the deviation of the angle
+ * [degree], or sets it to NAN if that is NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
     bench_text(t, name);
@@ -100,9 +102,9 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
 
 /* ---- eccentric notch of a beam ----------------------------------------------------------------------------------- */
 
-/* Reads the path of a crack in a beam from the results of a run. Stores the largest difference between the angle of
- * the line from the initial to the present tip and the finite-element results, up to the largest length of these.
- * row: a struct path_row; folder: of the run. Returns FAILED if the history cannot be read. */
+/* Reads the path of a crack in a beam from the results of a run. Compares the angle of the straight line from the
+ * initial to the current tip with finite-element results, as far as these go, and stores the largest difference. row: a
+ * struct path_row; folder: of the run. Returns FAILED if the history cannot be read. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;

@@ -84,15 +84,15 @@ struct slow_table {
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the crack length up to which loads of a case are compared with the formulas [m]; INFINITY for double
+/* Returns the crack length up to which the loads of case c are compared with the formulas [m]; INFINITY for double
  * cantilevers. */
 static double longest_crack(const struct slow_case *c)
 {
     return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
 }
 
-/* Returns the load `load` [N] over that of a double cantilever with the opening `opening` [m] by beam theory.
- * Reference load and opening are related through the crack length. */
+/* Returns `load` [N] over the load that a double cantilever s has at the opening `opening` [m] by beam theory while its
+ * crack grows. By that theory both follow from the crack length, which is eliminated. */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
     const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
@@ -100,8 +100,8 @@ static double cantilever_at_opening(const struct specimen *s, double load, doubl
     return load / (unit / sqrt(squared));
 }
 
-/* Returns the distance of the load from the end of the specimen of a run [m]: half a spacing for a double cantilever,
- * which is loaded on its first column of particles, else 0. */
+/* Returns the distance between the load and the end of the specimen in the run r [m]: half a spacing for a double
+ * cantilever, which is loaded on its first column of particles, else 0. */
 static double load_offset(const struct slow_row *r)
 {
     return r->of->specimen.kind == DOUBLE_CANTILEVER ? 0.5 * r->of->spacing / r->fine : 0;
@@ -194,8 +194,9 @@ static status slow_rows_write(const struct slow_table *t)
     return s;
 }
 
-/* Draws load over crack length for all specimens, with lines for linear elastic fracture mechanics. Crack lengths of
- * double cantilevers are over the arm height instead of the width. context: struct slow_table. */
+/* Sends the gnuplot commands that draw load over crack length for all specimens, with lines for linear elastic fracture
+ * mechanics. Crack lengths are relative to the width, for double cantilevers to the height of an arm. context: a struct
+ * slow_table. */
 static void slow_curves_draw(FILE *to, const void *context)
 {
     const struct slow_table *t = context;
@@ -231,7 +232,7 @@ static void slow_curves_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Adds the goals for the run of a specimen to *asked: each of its errors must be within 3 %. */
+/* Adds the goals for the run r of a specimen to *asked: each of its errors must be at most 3 %. */
 static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {
     const char *name = r->of->name, *model = slow_model[r->model];

@@ -42,8 +42,8 @@ static status hundred_steps(struct bench_table *t, struct bench_goals *asked, bo
     return OK;
 }
 
-/* Computes one equilibrium of a notched plate with each solver to the tolerance of the scene, and adds their times
- * to the table. quick: the coarse plate only. Returns FAILED if a run fails. */
+/* Computes one equilibrium of a notched plate with each solver to the tolerance of the scene, and adds particles, steps
+ * and times to the table t. quick: the coarse plate only. Returns FAILED if a run fails. */
 static status solvers(struct bench_table *t, bool quick)
 {
     static const char *const solver[] = {"static", "cg", "relaxation"};

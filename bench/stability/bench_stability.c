@@ -17,15 +17,15 @@ struct measuring {
     int steps, long_steps;
 };
 
-/* Returns true if the automatic time step of a case is outside the required range of its observed limit. */
+/* Returns true if the automatic time step of the case r, over its observed limit, is outside the required range. */
 static bool outside(const struct stability_row *r)
 {
     const double share = r->l.automatic / r->l.observed;
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-/* Prints the limits of a case. The line goes to standard output if they differ from the prediction; else to standard
- * error, where it shows progress. */
+/* Prints the limits of the case r. The line goes to standard output if the automatic time step is outside its required
+ * range; else to standard error, where it shows progress. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
@@ -74,7 +74,7 @@ static status stability_measure(void *context, const struct stability_case *c)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Fills the table t with all cases of the map, their limits and the outcome of their runs. */
+/* Fills the table t with all cases of the map, their limits and whether their full runs stay bounded. */
 static void stability_put_table(struct bench_table *t, const struct stability_map *map)
 {
     static const char *const run[] = {"", "stays", "grows"};

@@ -55,30 +55,33 @@ enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 /* Growth rate that changes the energy by 0.5 % over the steps of the map. */
 #define LASTING_RATE (LASTING_ENERGY / LASTING_STEPS)
 
-/* Runs a case for `steps` steps on one thread. FAILED if the bench itself fails; an unstable run is a result. */
+/* Runs the case l for `steps` steps on one thread and stores energy, growth rate and angular momentum in *to. Returns
+ * FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
 status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to);
 
-/* Returns true if the result meets the requirements of the case. */
+/* Returns true if the result r meets the requirements of the case l. */
 bool drift_holds(const struct drift_case *l, const struct lasting *r);
 
-/* Composes the label of a case. text: capacity `size` [byte]. */
+/* Composes the label of the case l in text[size]. */
 void drift_label(const struct drift_case *l, char *text, size_t size);
 
-/* Receives a case. context: argument of drift_cases. */
+/* A function that drift_cases calls for each case l. context: its argument. A status that is not OK ends the calls. */
 typedef status drift_take(void *context, const struct drift_case *l);
 
-/* Calls `take` for all cases, with `quick` for every fourth (energy_drift_cases.c). */
+/* Calls take(context, case) for all cases, with `quick` for every fourth (energy_drift_cases.c). Returns the first
+ * status that is not OK. */
 status drift_cases(bool quick, drift_take *take, void *context);
 
 /* Cases of the group LASTING_NAMED (energy_drift_named.c). */
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 
-/* Runs all cases, or those whose name contains `only` (NULL: all). Prints the table and adds it to t for
- * results/bench/stability_lasting.csv (energy_drift.c). */
+/* Runs all cases, or those whose name contains `only` if it is not NULL, prints their results, and fills t, the table
+ * of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns FAILED if the bench
+ * itself fails. */
 status drift_map(struct bench_table *t, const char *only, bool quick);
 
-/* Draws the picture of the table (energy_drift_draw.c). */
+/* Draws the picture of the table t of these results (energy_drift_draw.c). Returns FAILED if it cannot be drawn. */
 status drift_draw(const struct bench_table *t);
 
 #endif

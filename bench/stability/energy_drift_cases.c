@@ -59,8 +59,8 @@ static const enum stability_region region[] = {HALF, SQUARE, DISC, CORNER, NOTCH
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Passes the cases of bodies with one method to the receiver t: bonds with all laws, models and horizons, and cells
- * of the reference frame with several Poisson's ratios. Returns the first status that is not OK. */
+/* Passes the cases of bodies with one method to the receiver t: only bonds, with all laws and models, and only cells of
+ * the reference frame, with several Poisson's ratios. Returns the first status that is not OK. */
 static status bodies(struct taker *t)
 {
     const struct stability_case plate = {.dim = 2, .edge = 14, .method = "pd"},

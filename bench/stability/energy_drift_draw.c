@@ -34,16 +34,16 @@ static bool of_group(const struct bench_table *t, int64_t row, int g)
     return !strcmp(energy_drift_draw_text_of(t, row, GROUP), drift_group_name[g]);
 }
 
-/* Returns a growth rate per step on a logarithmic scale: the number of decades above LEAST_RATE, with the sign of the
- * rate. Rates that are not finite are drawn as the largest one, MOST_RATE. */
+/* Returns a growth rate per step on a logarithmic scale: log10(|rate|/LEAST_RATE) with the sign of the rate, where
+ * |rate| is limited to LEAST_RATE .. MOST_RATE. Rates that are not finite are drawn as MOST_RATE. */
 static double decades(double rate)
 {
     if (!isfinite(rate)) return log10(MOST_RATE / LEAST_RATE);
     return copysign(log10(fmin(MOST_RATE, fmax(fabs(rate), LEAST_RATE)) / LEAST_RATE), rate);
 }
 
-/* Sends the cases of group g to gnuplot as data blocks, one each for cases that hold, fail and have stopped. at:
- * position of the first case on the axis. Returns the position of the next group. */
+/* Sends the growth rates of the cases of group g to gnuplot as data blocks, one each for cases that hold, fail and have
+ * stopped. at: position of the first case on the axis. Returns the position of the next group. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};

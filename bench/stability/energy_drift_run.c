@@ -53,8 +53,8 @@ static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 /* Stores the axes a and b of the plane of rotation number t = 0, 1, 2 (xy, yz, zx). */
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
-/* Computes the angular momentum L[DIM_MAX] of all masses about `centre` [m], one entry per plane of rotation
- * (turn_axes), and as its scale *size, the sum of m |x - centre| |v| [kg m^2/s]. */
+/* Computes the angular momentum L[DIM_MAX] of all masses of the run e about centre[DIM_MAX] [m], one entry per plane of
+ * rotation xy, yz, zx [kg m^2/s]. *size: its scale, the sum of m |x - centre| |v| [kg m^2/s]. */
 static void angular_momentum(const struct run *e, const real *centre, real *L, real *size)
 {
     for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
@@ -85,8 +85,8 @@ static void centre_of(const struct run *e, real *centre)
     for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
 }
 
-/* Removes the mean rotation of a body about `centre` [m] from its velocities, because small-strain laws change the
- * energy of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
+/* Removes the mean rotation of the body of run e about centre[DIM_MAX] [m] from its velocities, because small-strain
+ * laws change the energy of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
 static void stop_turning(struct run *e, const real *centre)
 {
     real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
@@ -106,8 +106,8 @@ static void stop_turning(struct run *e, const real *centre)
         }
 }
 
-/* Sets random velocities of all masses with zero mean translation and rotation about `centre` [m]. They are up to LOUD
- * wave speeds before the means are removed. */
+/* Sets random velocities of all masses of the run e, without mean translation, and without mean rotation about
+ * centre[DIM_MAX] [m]. Their components are up to LOUD wave speeds before the means are removed. */
 static void energy_drift_run_shake(struct run *e, const real *centre)
 {
     uint64_t seed = 1;
@@ -155,9 +155,9 @@ static void earlier_take(struct earlier *b, const struct run *e)
     }
 }
 
-/* Returns the sum of 1/2 m v_before . v_after over all masses for the last step [J], and stores the sum of 1/2 m
- * v_after^2 in *after. b: velocities before the step. Leap-frog integration conserves the first sum together with the
- * energy of positions. */
+/* Returns the sum of 1/2 m v_before . v_after over all masses [J], where b holds the velocities before the last step
+ * and e those after it, and stores the sum of 1/2 m v_after^2 in *after. Leap-frog integration conserves the first sum
+ * plus the potential energy. */
 static real kinetic_between(const struct earlier *b, const struct run *e, real *after)
 {
     real sum = 0;
@@ -175,8 +175,8 @@ static real kinetic_between(const struct earlier *b, const struct run *e, real *
 
 /* ---- the run ----------------------------------------------------------------------------------------------------- */
 
-/* Creates the run of the case l with `steps` automatic time steps and SAMPLES evenly spaced samples. Returns REFUSED
- * or FAILED if the scene is invalid. Release with bench_engine_free. */
+/* Creates the run e of the case l with `steps` automatic time steps and SAMPLES evenly spaced samples, with its scene
+ * in *s. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
 static status energy_drift_body_make(struct run *e, struct scene *s, const struct drift_case *l, int64_t steps)
 {
     struct bench_overrides o = {0};
@@ -211,8 +211,8 @@ static void course_add(struct course *c, const struct run *e, const struct earli
     c->work[c->n++] = now->external_work;
 }
 
-/* Returns the growth rate of energy[c->n] per step: the slope of its logarithm over the second half of the samples of
- * the run c, by least squares. Returns NAN for too few samples. */
+/* Returns the growth rate of energy[c->n] per step [1]: the slope of its logarithm over the second half of the samples
+ * c of a run, by least squares. Returns NAN for too few samples. */
 static double rate_of(const struct course *c, const double *energy)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -241,8 +241,8 @@ static void judge(const struct course *c, struct lasting *to)
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
 }
 
-/* Returns true if a run must conserve angular momentum: the body has no boundary conditions, is not one-dimensional,
- * and has no grid cells with a small-strain law, which does not describe rotations. */
+/* Returns true if the run e must conserve angular momentum: the body has no boundary conditions, is not
+ * one-dimensional, and has no grid cells with a small-strain law, whose forces depend on rotations. */
 static bool energy_drift_run_is_free(const struct run *e)
 {
     return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);

@@ -7,9 +7,9 @@
 
 /* ---- single particles -------------------------------------------------------------------------------------------- */
 
-/* Runs a plate from which a corner particle is torn off. to[0]: 1 if the particle does not fly away, else 0; to[1]:
- * momentum error; to[2]: energy error. With a time step of 0.2 of the critical one, breaking bonds leave an energy
- * error of some percent. Returns FAILED if a step fails. */
+/* Runs a plate from which a corner particle is torn off, with the method of row r. Stores in to[0] 1 if the particle
+ * does not fly away, else 0; in to[1] the momentum error and in to[2] the energy error [1]. With a time step of 0.2
+ * times the critical one, breaking bonds leave an energy error of some percent. Returns FAILED if a step fails. */
 static status single(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -56,7 +56,8 @@ const struct limits_scene limits_single = {
 
 /* ---- compression beyond inversion -------------------------------------------------------------------------------- */
 
-/* Returns the number of pairs of consecutive particles along x whose order has reversed. */
+/* Returns the number of pairs of consecutive particles along x whose order has reversed between reference and current
+ * positions. */
 static int inverted(const struct particles *p)
 {
     int pairs = 0;
@@ -64,8 +65,8 @@ static int inverted(const struct particles *p)
     return pairs;
 }
 
-/* Runs two halves of a plate that collide at +-r->given times the wave speed of a bar. to[0]: number of neighbours
- * whose order has reversed; to[1]: energy error. Returns FAILED if a step fails. */
+/* Runs two halves of a plate that collide at +-r->given times the wave speed of a bar. Stores in to[0] the number of
+ * pairs of neighbours whose order has reversed, in to[1] the energy error [1]. Returns FAILED if a step fails. */
 static status inversion(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -117,7 +118,7 @@ const struct limits_scene limits_inversion = {"compression past inversion",
 
 /* ---- crack faces that close -------------------------------------------------------------------------------------- */
 
-/* Returns the largest overlap of the two columns of particles beside the crack [spacings]. */
+/* Returns the largest overlap of the two columns of particles beside the crack at x = 12 in the run e [spacings]. */
 static double overlap(const struct run *e)
 {
     const struct particles *p = &e->part;
@@ -132,8 +133,9 @@ static double overlap(const struct run *e)
     return left - right + 1;
 }
 
-/* Runs two halves of a cut plate that collide at +-0.04 of the wave speed. to[0]: largest overlap of the crack faces
- * [spacings]; to[1]: share of their momentum that the halves keep. Returns FAILED if a step fails. */
+/* Runs two halves of a cut plate that collide at +-0.04 of the wave speed, with the method of row r. Stores in to[0]
+ * the largest overlap of the crack faces [spacings], in to[1] the share of their momentum that the halves have not
+ * exchanged [1]. Returns FAILED if a step fails. */
 static status closing(const struct limits_row *r, double *to)
 {
     struct run e;

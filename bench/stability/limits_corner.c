@@ -14,10 +14,10 @@
 #define WIDTH 32e-3 /* length of the wave [m] */
 #define SPEED 0.1   /* peak velocity of the wave [m/s] */
 
-/* Runs a plane wave past the corner of an interface between bonds and material points. r->given: end of the initial
- * bonds along y [mm]; at 40 the interface is flat. to[0]: largest transverse velocity over the velocity of the wave,
- * INFINITY if an adaptive run converts no particle; to[1]: energy error; to[2]: momentum error. Returns FAILED if a
- * step fails. */
+/* Runs a plane wave past the corner of an interface between bonds and material points. r->given: y up to which the
+ * initial bonds extend [mm]; at 40, the height of the plate, the interface is flat. Stores in to[0] the largest
+ * transverse velocity over the velocity of the wave, INFINITY if an adaptive run converts no particle; in to[1] the
+ * energy error and in to[2] the momentum error [1]. Returns FAILED if a step fails. */
 static status corner(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -31,7 +31,7 @@ static void limits_invariance_put_box(FILE *to, const struct twin *t, double x0,
     fputs("}}", to);
 }
 
-/* Number of particles along the axes, 1 mm apart; the plate has a hole. */
+/* Numbers of particles of the plate along x and y, 1 mm apart; and whether the point (x, y) [mm] is in its hole. */
 enum { PLATE_X = 38, PLATE_Y = 26 };
 static bool in_hole(double x, double y) { return hypot(x - 9, y - 5) <= 3.3; }
 
@@ -93,7 +93,8 @@ static void put_loads(FILE *to, const struct twin *t)
 }
 
 /* Writes the scene of the transformed plate t with the method of row r: a notched plate with a hole and without
- * symmetry, under tension at two faces while a pulse crosses it. list: file of the list of particles. */
+ * symmetry, under tension at two faces while a pulse crosses it. list: file with the list of its particles, used if
+ * t->listed. */
 static void put_plate(FILE *to, const struct twin *t, const struct limits_row *r, const char *list)
 {
     const double mm = 1e-3 * t->scale;
@@ -124,8 +125,8 @@ static status plate_run(struct run *e, struct scene *s, const struct twin *t, co
     return engine_run(e);
 }
 
-/* Returns the index of the particle of the transformed scene, with particles q, that corresponds to particle i of p; -1
- * if there is none. */
+/* Returns the index of that particle of q, the particles of the plate transformed by t, which corresponds to particle i
+ * of p, the particles of the original plate; -1 if there is none. */
 static int64_t twin_of(const struct particles *p, int64_t i, const struct particles *q, const struct twin *t)
 {
     const double x = t->scale * (t->mirrored ? -p->X[0][i] : p->X[0][i]), y = t->scale * p->X[1][i];
@@ -134,9 +135,9 @@ static int64_t twin_of(const struct particles *p, int64_t i, const struct partic
     return -1;
 }
 
-/* Returns the largest difference of velocities and of displacements between the runs a and b, each relative to its
- * largest value [1]. t: transformation of b. Returns INFINITY if bonds broke, particles are missing or nothing
- * moves. */
+/* Returns the largest difference of velocities and of displacements between the run a of the original plate and the run
+ * b of the plate transformed by t, each relative to its largest value [1]. Returns INFINITY if bonds broke, particles
+ * are missing or nothing moves. */
 static double difference(const struct run *a, const struct run *b, const struct twin *t)
 {
     double speed = 0, shift = 0, most_speed = 0, most_shift = 0;
@@ -181,8 +182,8 @@ static const struct twin plate[] = {{.scale = 1},
 /* Indices of the transformations `plate`. */
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
-/* Computes *to, the difference between the results of the plate and of a transformed plate. r->given: index of the
- * transformation. Returns REFUSED or FAILED if a run does. */
+/* Runs the plate and a transformed plate with the method of row r and stores the difference of their results in *to
+ * [1]. r->given: index of the transformation in plate[]. Returns REFUSED or FAILED if a run does. */
 static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
@@ -206,8 +207,9 @@ static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adapt
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
-/* Computes *to, the difference between the results for a list of particles and for its permutation. Particles are
- * sorted by position, so that it must be exactly 0. Returns REFUSED or FAILED if a run does. */
+/* Runs the plate from a list of particles and from its permutation, with the method of row r, and stores the difference
+ * of their results in *to [1]. Particles are sorted by position, so that it must be exactly 0. Returns REFUSED or
+ * FAILED if a run does. */
 static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);

@@ -10,8 +10,9 @@ struct matrix {
     real *at;
 };
 
-/* Returns the matrix M^(-1/2) K M^(-1/2) of a body of bonds, with stiffness K and masses M. It is computed from finite
- * differences of the forces, column by column, and made symmetric. The caller releases m.at with memory_free. */
+/* Returns the matrix M^(-1/2) K M^(-1/2) of the body of run e, which consists of bonds, with stiffness K and masses M.
+ * It is computed column by column from finite differences of the forces and made symmetric. The caller releases its
+ * member `at` with memory_free. */
 static struct matrix matrix_of(struct run *e)
 {
     struct bond_operator body = bond_operator_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
@@ -31,8 +32,8 @@ static struct matrix matrix_of(struct run *e)
     return m;
 }
 
-/* Returns the number of eigenvalues of the matrix A = *m below x: the number of negative pivots of A - x I
- * (Sylvester 1852). */
+/* Returns the number of eigenvalues of the symmetric matrix m below x: the number of negative pivots in the elimination
+ * of m - x I (Sylvester 1852). */
 static int64_t limits_modes_below(const struct matrix *m, real x)
 {
     const int64_t n = m->n;
@@ -50,8 +51,8 @@ static int64_t limits_modes_below(const struct matrix *m, real x)
     return count;
 }
 
-/* Returns the eigenvalue of the matrix m that has exactly `lower` smaller ones, by bisection between 0 and `high`,
- * with a relative error of 1e-4. */
+/* Returns the eigenvalue of the matrix m that has `lower` smaller ones, by bisection between 0 and `high` to a relative
+ * error of 1e-4. high: an upper bound of the eigenvalues. */
 static real eigenvalue(const struct matrix *m, int64_t lower, real high)
 {
     real low = 0;
@@ -65,7 +66,7 @@ static real eigenvalue(const struct matrix *m, int64_t lower, real high)
     return high;
 }
 
-/* Returns an upper bound of the eigenvalues of a matrix: its largest absolute row sum (Gershgorin). */
+/* Returns an upper bound of the eigenvalues of the matrix m: its largest absolute row sum (Gershgorin). */
 static real bound(const struct matrix *m)
 {
     real most = 0;
@@ -93,8 +94,8 @@ static status square_make(struct run *e, struct scene *s, const struct limits_ro
 
 /* ---- zero-energy modes ------------------------------------------------------------------------------------------- */
 
-/* Computes *to, the number of zero-energy modes of a free square beyond its three rigid motions. r: method of the
- * run. Returns FAILED if the run cannot be created. */
+/* Counts the zero-energy modes of a free square beyond its three rigid motions, with the method of row r, and stores
+ * their number in *to. Returns REFUSED or FAILED if the run cannot be created. */
 static status modes(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -15,7 +15,7 @@ struct turning {
     double momentum, kinetic;
 };
 
-/* Returns the angular momentum about the origin and the kinetic energy of all particles, in the plane xy. */
+/* Returns the angular momentum about the origin and the kinetic energy of the particles p in the plane xy. */
 static struct turning turning_of(const struct particles *p)
 {
     struct turning t = {0};
@@ -26,8 +26,9 @@ static struct turning turning_of(const struct particles *p)
     return t;
 }
 
-/* Runs a rotating body to the end of its scene. to[0]: largest shear stress [MPa], of material points only if there
- * are any; to[1], to[2]: relative changes of angular momentum and of kinetic energy. Returns FAILED if a step fails. */
+/* Runs e, a rotating body, to the end of its scene. Stores in to[0] the largest shear stress [MPa], of material points
+ * only if there are any; in to[1] and to[2] the relative changes of angular momentum and kinetic energy. Returns FAILED
+ * if a step fails. */
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
@@ -47,9 +48,9 @@ static status limits_motion_turn(struct run *e, double *to)
         {"shear stress [MPa]", 15}, {"change of angular momentum", 1e-4}, { "change of kinetic energy", threshold }    \
     }
 
-/* Runs a square that rotates rigidly, with its corners at r->given m/s: a tenth of a revolution at 10 m/s, a whole
- * one at 100 m/s. to[0]: largest shear stress [MPa]; to[1], to[2]: relative changes of angular momentum and of
- * kinetic energy. Returns FAILED if a step fails. */
+/* Runs a square that rotates rigidly, with its corners at r->given m/s: a tenth of a revolution at 10 m/s, a whole one
+ * at 100 m/s. Stores in to[0] the largest shear stress [MPa], in to[1] and to[2] the relative changes of angular
+ * momentum and kinetic energy. Returns FAILED if a step fails. */
 static status spin(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -91,9 +92,9 @@ static const struct limits_row spins[] = {
 };
 const struct limits_scene limits_spin = {"rigid spin of a square", "%g m/s", TURNING(5e-3), ROWS(spins), spin};
 
-/* Runs a rotating disc of radius 10 mm for one revolution, with its rim at 100 m/s and peridynamic particles within
- * 4 mm of its centre. to[0]: largest shear stress of material points [MPa]; to[1], to[2]: relative changes of
- * angular momentum and of kinetic energy. Returns FAILED if a step fails. */
+/* Runs a rotating disc of radius 10 mm for one revolution, with its rim at 100 m/s and peridynamic particles within 4
+ * mm of its centre, with the method of row r. Stores in to[0] the largest shear stress of material points [MPa], in
+ * to[1] and to[2] the relative changes of angular momentum and kinetic energy. Returns FAILED if a step fails. */
 static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -136,7 +137,8 @@ static void lame(const void *context, const real *X, real *v)
     v[1] = -1e-3 * sin(k * X[0]) * cos(k * X[1]);
 }
 
-/* Returns the momentum of the particles projected on Lame's mode of a square (the velocities computed by `lame`). */
+/* Returns the projection of the particle velocities of run e on Lame's mode of a square: the sum of v . v_mode, with
+ * the velocities v_mode computed by `lame` [m^2/s^2]. */
 static double projection(struct run *e)
 {
     double sum = 0;
@@ -154,8 +156,9 @@ static double projection(struct run *e)
  * lag by half a step. */
 enum { STANDS = 9 };
 
-/* Runs until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of steps
- * until then, interpolated, or NAN if this does not happen. Returns FAILED if a step fails. */
+/* Runs e until the velocity of Lame's mode has changed its sign STANDS times. steps: receives the number of steps until
+ * then, interpolated, or of the last sign change before the end; NAN if there is none. Returns FAILED if a step
+ * fails. */
 static status periods(struct run *e, double *steps)
 {
     double before = projection(e);
@@ -172,8 +175,8 @@ static status periods(struct run *e, double *steps)
     return OK;
 }
 
-/* Runs a free square in Lame's mode and stores the relative error of its frequency in *to. r->given: Poisson's
- * ratio. Returns FAILED if a step fails. */
+/* Runs a free square in Lame's mode with the method of row r and stores the relative error of its frequency in *to [1].
+ * r->given: Poisson's ratio. Returns FAILED if a step fails. */
 static status shear(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -195,7 +198,7 @@ static status shear(const struct limits_row *r, double *to)
 /* Methods and expected results of the square in Lame's mode (see shear), with 32 spacings per edge. given: Poisson's
  * ratio nu. Near nu = 1/2 linear cells, and shapes with one strain per cell, would lock without the mean dilatation of
  * a cell (mpm/dilatation.h, mesh/mesh_law.h): 6 to 14 % too fast. On a lattice, bonds with horizon 1 have C12 = 0 and
- * C11 = E/(1 - nu): too fast by sqrt(2); with 1.5 and 2.015 the few bonds are anisotropic. / */
+ * C11 = E/(1 - nu): too fast by sqrt(2); with 1.5 and 2.015 the few bonds are anisotropic. */
 #define STATE(model) .method = model, .set = {"method", "pd", "model", model}
 #define BOND(horizon, more, ...)                                                                                       \
     .method = "bonds, horizon " horizon more, .given = 1.0 / 3,                                                        \
@@ -236,7 +239,7 @@ const struct limits_scene limits_shear = {
 
 /* ---- long runs --------------------------------------------------------------------------------------------------- */
 
-/* Returns the kinetic and strain energy of the particles and the mesh of a run [J]. */
+/* Returns the kinetic plus strain energy of bonds, material points and grid cells of the run e [J]. */
 static double energy_of(struct run *e)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) +
@@ -245,8 +248,8 @@ static double energy_of(struct run *e)
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
 }
 
-/* Runs a million steps of a free vibrating plate. Stores in *to the relative change of its energy between the means
- * over the first and the last fiftieth of the steps. Returns FAILED if a step fails. */
+/* Runs e, a free vibrating plate, for a million steps. Stores in *to the relative change of its energy from the mean
+ * over the first 2 % of the steps to the mean over the last 2 % [1]. Returns FAILED if a step fails. */
 static status million_steps(struct run *e, double *to)
 {
     double mean[2] = {0};
@@ -285,17 +288,17 @@ static const struct limits_row millions[] = {
 const struct limits_scene limits_million = {
     "a million steps of a free plate", NULL, {{"change of energy", 1e-3}}, ROWS(millions), million};
 
-/* Computes the velocity v[0] at X of the first free mode of a bar of 0.64 m, v = 0.01 cos(pi x/0.64 m). context is not
- * used. */
+/* Computes the velocity v[0] [m/s] at X[0] [m] of the first free mode of a bar of 0.64 m, v = 0.01 cos(pi x/0.64).
+ * context: not used. */
 static void first_mode(const void *context, const real *X, real *v)
 {
     (void)context;
     v[0] = 0.01 * cos(M_PI * X[0] / 0.64);
 }
 
-/* Runs a bar that vibrates freely for ten periods. Stores in *to the relative loss of its largest kinetic energy
- * between the first and the last period. The accuracy is 1e-3, since peaks are between steps. Returns FAILED if a
- * step fails. */
+/* Runs a bar that vibrates freely for ten periods with the method of row r. Stores in *to the relative change of its
+ * largest kinetic energy from the first to the last period [1]. The accuracy is 1e-3, since peaks are between steps.
+ * Returns FAILED if a step fails. */
 static status vibration(const struct limits_row *r, double *to)
 {
     struct run e;

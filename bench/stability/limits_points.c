@@ -12,8 +12,8 @@
 
 /* ---- uniform stress in an extended body -------------------------------------------------------------------------- */
 
-/* Sets unit stress in all material points and moves them to their positions in a bar that is extended by the factor
- * lambda and shifted by `shift` [m]. */
+/* Sets unit stress [Pa] in all material points p and moves them to their positions in a bar that is extended by the
+ * factor lambda and shifted by `shift` [m]. */
 static void stretch(struct particles *p, double lambda, double shift)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -23,9 +23,9 @@ static void stretch(struct particles *p, double lambda, double shift)
     }
 }
 
-/* Computes *to, the largest force on an inner node of a uniformly stressed bar, extended by the factor r->given,
- * over stress times cross section. It should be 0. The largest one over 64 positions of the points in their cells
- * counts. Returns FAILED if the grid cannot be extended. */
+/* Computes the force on inner nodes of a uniformly stressed bar that is extended by the factor r->given, over stress
+ * times cross section, with the shape functions of row r. It should be 0. Stores in *to the largest one for 64
+ * positions of the points in their cells [1]. Returns FAILED if the grid cannot be extended. */
 static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
@@ -89,9 +89,9 @@ const struct limits_scene limits_crossing = {"uniform stress, stretched",
 
 /* ---- homogeneous extension --------------------------------------------------------------------------------------- */
 
-/* Runs a bar that expands with v = a X to the strain r->given. Stores in *to the largest relative error of the
- * stress in its middle, which waves from the ends do not reach. The exact stress is E ln(lambda), or E (lambda - 1)
- * in the reference frame, with lambda = 1 + strain. Returns FAILED if a step fails. */
+/* Runs a bar that expands with v = a X to the strain r->given, with the method of row r. Stores in *to the largest
+ * relative error of the stress in its middle, which waves from the ends do not reach [1]. The exact stress is E
+ * ln(lambda), or E (lambda - 1) in the reference frame, with lambda = 1 + strain. Returns FAILED if a step fails. */
 static status homologous(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -131,8 +131,8 @@ const struct limits_scene limits_homologous = {
 
 /* ---- modes invisible to the grid --------------------------------------------------------------------------------- */
 
-/* Runs a bar with two points per cell and alternating velocities, such that all node velocities are 0, for r->given
- * steps. to: receives the share of the kinetic energy that remains [1]. Returns FAILED if a step fails. */
+/* Runs a bar with two points per cell and alternating velocities, so that all node velocities are 0, for r->given
+ * steps. Stores the share of the kinetic energy that remains in *to [1]. Returns FAILED if a step fails. */
 static status null_mode(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -164,9 +164,9 @@ const struct limits_scene limits_null_mode = {"null mode +-v",
 
 /* ---- positions in the cells -------------------------------------------------------------------------------------- */
 
-/* Runs a body in rigid translation for 300 s, with points on faces of cells or close to them. Stores in *to the
- * largest spurious stress over rho c v. r->given: shift of the grid, which determines the position of the points in
- * their cells. Returns FAILED if a step fails. */
+/* Runs a body in rigid translation for 300 s, with points on faces of grid cells or close to them. Stores in *to the
+ * largest spurious stress over rho c v [1]. r->given: shift of the grid [spacings], which determines the positions of
+ * the points in their cells. Returns FAILED if a step fails. */
 static status on_faces(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -47,8 +47,9 @@ static const struct stability_case beyond[] = {
     {.dim = 2, .method = "mpm", .frame = "reference"},
 };
 
-/* Runs a case with 1.2 times its stable time step and stores in *to the number of steps until the run stops;
- * INFINITY if it does not. r->given: index of the case. Returns REFUSED or FAILED if the limit cannot be determined. */
+/* Runs a case with 1.2 times its observed stability limit and stores in *to the number of steps until the run stops
+ * with a complete message; INFINITY if it does not. r->given: index of the case in beyond[]. Returns REFUSED or FAILED
+ * if the limit cannot be determined. */
 static status caught(const struct limits_row *r, double *to)
 {
     return stability_caught(&beyond[(int)r->given], 1.2, to);

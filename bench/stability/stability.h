@@ -54,34 +54,40 @@ struct stability_limits {
     enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above;
 };
 
-/* Determines the limits of a case. steps: length of a growth run; long_steps: length of the three full runs, 0: none.
- * REFUSED, with the reason, if the scene is. */
+/* Determines the stability limits of the case c and stores them in *to. steps: number of steps of each trial run;
+ * long_steps: number of steps of three further runs at and near the limit, 0 for none. Returns REFUSED, with the reason
+ * as message, if the scene is refused. */
 status stability_observe(const struct stability_case *c, int steps, int long_steps, struct stability_limits *to);
 
-/* Initial motion: random velocities `speed` and translation `drift`, both over the wave speed; number of steps. */
+/* Initial motion and length of a run. speed: largest random velocity over the wave speed; drift: velocity of a
+ * translation along each axis over the wave speed; steps: number of steps. */
 struct stability_shake {
     double speed, drift;
     int steps;
 };
 
-/* Determines whether a body at rest with this initial motion remains bounded with the time step dt [s]; 0: the
- * automatic step. */
+/* Runs the case c with the initial motion `how` and the time step dt [s], or the automatic one if dt is 0, and sets
+ * *stays to true if the motion remains bounded. Returns REFUSED or FAILED if the run cannot be created. */
 status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
 
-/* Determines the number of steps after which a run with `times` the observed limit stops with position, step and
- * remedy; infinite if it runs 1000 steps or the message is incomplete (limits_time_step.c). */
+/* Runs the case c with `times` the observed limit of its time step, and stores in *step the number of steps after which
+ * the run stops with a message that states position, step and remedy; INFINITY if it runs 1000 steps or the message is
+ * incomplete (limits_time_step.c). Returns REFUSED or FAILED if the limit cannot be determined. */
 status stability_caught(const struct stability_case *c, double times, double *step);
 
-/* Writes the scene of a case: its own text, or that of its block (stability_scene.c). text: capacity `size` [byte]. */
+/* Writes the scene of the case c into text[size]: its own text c->text if it has one, else that of a block
+ * (stability_scene.c). */
 void stability_text(const struct stability_case *c, char *text, size_t size);
 
-/* Composes the label of a case. text: capacity `size` [byte]. */
+/* Composes the label of the case c in text[size]. */
 void stability_label(const struct stability_case *c, char *text, size_t size);
 
-/* Receives a case. context: argument of stability_cases. */
+/* A function that stability_cases calls for each case c. context: its argument. A status that is not OK ends the
+ * calls. */
 typedef status stability_take(void *context, const struct stability_case *c);
 
-/* Calls `take` for all cases (stability_cases.c). quick: fewer of them. */
+/* Calls take(context, case) for all cases of the map (stability_cases.c). quick: fewer of them. Returns the first
+ * status that is not OK. */
 status stability_cases(bool quick, stability_take *take, void *context);
 
 /* A row of the map. */
@@ -102,13 +108,15 @@ struct stability_map {
 #define STABILITY_LEAST 0.6
 #define STABILITY_MOST 0.95
 
-/* Draws the map. map: struct stability_map (stability_draw.c). */
+/* Sends the gnuplot commands of the picture of the map. map: a struct stability_map (stability_draw.c). */
 void stability_draw(FILE *to, const void *map);
 
-/* Measures and prints the scenes in which methods fail (limits.h) and adds them to a table (stability_scenes.c). */
+/* Measures and prints the scenes in which methods fail (limits.h), and fills the table t with them
+ * (stability_scenes.c). Returns REFUSED or FAILED if a scene cannot be run. */
 status stability_scenes(struct bench_table *t);
 
-/* Draws the picture of this table (stability_scenes.c). */
+/* Draws the picture of the table t of the scenes in which methods fail (stability_scenes.c). Returns FAILED if it
+ * cannot be drawn. */
 status stability_scenes_draw(const struct bench_table *t);
 
 #endif

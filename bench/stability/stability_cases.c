@@ -22,7 +22,7 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Passes the peridynamic cases with all horizons, by dimension and model, to the receiver t. Returns the first
+/* Passes the peridynamic cases to the receiver t: several horizons for each dimension and model. Returns the first
  * status that is not OK. */
 static status horizons(const struct taker *t)
 {
@@ -83,8 +83,8 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Sets the published range of the stability limit of a case, if there is one. In one dimension ranges are published
- * for whole numbers of points per cell. */
+/* Sets quoted_low and quoted_high of a case to the published range of its stability limit, if there is one. In one
+ * dimension ranges are published for whole numbers of points per cell. */
 static void quote(struct stability_case *c)
 {
     static const struct {
@@ -101,9 +101,9 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Returns the number of offsets of the grid that are tried for `cell` points per cell: multiples of an eighth of a
- * cell, or of a twelfth for 1.5, 3 and 6 points per cell. Points then coincide with nodes, the worst position for
- * linear shapes. */
+/* Returns the number of positions of the grid that are tried for `cell` points per cell: multiples of an eighth of a
+ * cell, or of a twelfth for 1.5, 3 and 6 points per cell. Then some positions put points on nodes, the worst position
+ * for linear shapes. t: receiver, fewer positions if t->quick; dim: dimension. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -146,7 +146,7 @@ static status stability_cases_points(const struct taker *t)
 
 /* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
-/* Passes the cases of bodies that are half peridynamic, in the current frame, to the receiver t: all couplings,
+/* Passes the cases of bodies of which one half is peridynamic, in the current frame, to the receiver t: all couplings,
  * transfers and cell sizes. Returns the first status that is not OK. */
 static status coupled(const struct taker *t)
 {
@@ -200,8 +200,8 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Passes the cases of the reference frame to the receiver t: borders of the peridynamic region inside cells, and
- * scattered peridynamic particles and material points, as conversion can leave them. Returns the first status that
+/* Passes the coupled cases in the reference frame to the receiver t: borders of the peridynamic region inside cells,
+ * and scattered peridynamic particles and material points, as conversion can leave them. Returns the first status that
  * is not OK. */
 static status stability_cases_reference(const struct taker *t)
 {

@@ -27,8 +27,8 @@ static const struct {
            {"ospd", 2, "ospd, plate"}, {"mospd", 2, "mospd, plate"}, {"mospd", 3, "mospd, solid"}};
 enum { LAWS = COUNT_OF(law) };
 
-/* Returns true if row r of the map belongs to line k of the panel: a plain peridynamic case with its model and
- * dimension. */
+/* Returns true if row r of the map belongs to line k of the panel with limits over the horizon: a peridynamic case
+ * without special property, with the model and dimension of law[k]. */
 static bool of_law(const struct stability_row *r, int k)
 {
     return r->c.group == GROUP_PD && !r->c.note && r->c.dim == law[k].dim && !strcmp(r->c.model, law[k].model);

@@ -23,8 +23,8 @@
 
 /* ---- initial motion ---------------------------------------------------------------------------------------------- */
 
-/* Sets random velocities with zero mean and up to `speed` [m/s], plus a uniform translation with the velocity `drift`
- * along each axis [m/s]. */
+/* Sets random velocities of particles and grid nodes of the run e, with components up to `speed` [m/s], those of
+ * particles with zero mean plus the velocity `drift` along each axis [m/s]. */
 static void stability_limit_shake(struct run *e, double speed, double drift)
 {
     struct particles *p = &e->part;
@@ -40,17 +40,17 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     }
 }
 
-/* Returns the kinetic energy of a run minus that of a uniform translation with the velocity `drift` along each axis
- * [J]. */
+/* Returns the kinetic energy of the run e minus that of a uniform translation with the velocity `drift` [m/s] along
+ * each axis [J]. */
 static double motion(const struct run *e, double drift)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
            0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. With dt > 0 the run is
- * so long that only its first step is a sample. Returns FAILED or REFUSED if the scene cannot be read. Release with
- * bench_engine_free. */
+/* Creates the run e of the case c with the time step dt [s], or with the automatic one if dt is 0, and its scene in *s.
+ * With dt > 0 the run is so long that only its first step is a sample. Returns FAILED or REFUSED if the scene cannot be
+ * read. Release with bench_engine_free. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
@@ -84,9 +84,9 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 
 /* ---- limits ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the critical time step *limit of a case [s] by bisection between a step for which the motion stays bounded
- * and one for which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. Returns
- * REFUSED if there is no limit near the prediction, FAILED if a trial cannot be run. */
+/* Finds the critical time step of the case c by bisection between a step for which the motion remains bounded and one
+ * for which it grows, and stores it in *limit [s]. critical: the step that Cleave predicts [s]; steps: number of steps
+ * of each trial run. Returns REFUSED if there is no limit near the prediction, FAILED if a trial cannot be run. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
     const struct stability_shake quietly = {QUIET, 0, steps};
@@ -106,8 +106,8 @@ static status limit_of(const struct stability_case *c, double critical, int step
     return OK;
 }
 
-/* Returns the critical time step of the stiffest row of bonds [s], sqrt(2 rho/sum(c V/|xi|)) (Silling & Askari
- * 2005). */
+/* Returns the critical time step of the particle with the stiffest bonds in the run e [s], sqrt(2 rho/sum(c V/|xi|))
+ * with the sum over its bonds (Silling & Askari 2005). */
 static double silling_step(const struct run *e)
 {
     const struct bonds *b = &e->bonds;

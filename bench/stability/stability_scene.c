@@ -68,8 +68,8 @@ static void stability_scene_put_box(FILE *to, int dim, double from, double until
 
 #define SPACING 1e-3 /* of the particles [m] */
 
-/* Returns the edge of the block of a case [m]: its number of particles times the spacing. Without a given number the
- * block is large enough for the horizon and for the cells. */
+/* Returns the length of an edge of the block of the case c [m], its number of particles times the spacing. If c->edge
+ * is 0, the block is large enough for the horizon and for the cells. */
 static double edge_of(const struct stability_case *c)
 {
     static const int edge[DIM_MAX + 1] = {0, 48, 16, 8};
@@ -79,7 +79,8 @@ static double edge_of(const struct stability_case *c)
     return n * SPACING;
 }
 
-/* Writes the materials and bodies of a case: one block of the given edge [m], or two halves of different density. */
+/* Writes the materials and bodies of the case c as keys of a scene: one block of the given edge [m], or two halves of
+ * different density if c->heavier is not 0. */
 static void put_bodies(FILE *to, const struct stability_case *c, double edge)
 {
     char poisson[40] = "";
@@ -101,8 +102,8 @@ static void put_bodies(FILE *to, const struct stability_case *c, double edge)
     }
 }
 
-/* Writes five balls of one or more particles at irregular positions of the block of a case. before, after: texts
- * around each ball; edge: of the block [m]. */
+/* Writes five balls, each of which contains one or more particles, at irregular positions of the block of the case c.
+ * before, after: texts written before and after each ball; edge: of the block [m]. */
 static void put_balls(FILE *to, const struct stability_case *c, double edge, const char *before, const char *after)
 {
     static const double place[][DIM_MAX] = {
@@ -118,8 +119,8 @@ static void put_balls(FILE *to, const struct stability_case *c, double edge, con
     }
 }
 
-/* Writes a box whose ends are shares of the edge of the block of a case: share[0] along x, share[1] along the other
- * axes. edge: of the block [m]. */
+/* Writes a box inside the block of the case c. share[0], share[1]: its lower and upper end along x and along the other
+ * axes, over the edge of the block [1]; edge: of the block [m]. */
 static void put_shares(FILE *to, const struct stability_case *c, double edge, const double (*share)[2])
 {
     for (int end = 0; end < 2; end++) {
@@ -157,7 +158,8 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
 
 /* ---- supports ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the boundary conditions of a case; nothing for a free body. edge: of the block [m]. */
+/* Writes the supports of the case c as boundary conditions of a scene; nothing for a free body. edge: of the block
+ * [m]. */
 static void put_support(FILE *to, const struct stability_case *c, double edge)
 {
     static const char *const text[] = {

@@ -14,8 +14,8 @@
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
-/* Measures all quantities of a scene with one method, prints them, and adds a row for each to the table. Quantities
- * beyond their threshold are listed with a remedy. Returns FAILED if the scene cannot be run. */
+/* Measures all quantities of scene s with the method of row r, prints them, and adds a row with verdict and remedy for
+ * each to the table. Returns FAILED or REFUSED if the scene cannot be run. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -91,8 +91,8 @@ static double share(const struct bench_table *t, int64_t row)
     return threshold > 0 ? fmax(LEAST, measured / threshold) : LEAST;
 }
 
-/* Returns the number of lines of the picture: one for each scene, and one for each quantity that exceeds its
- * threshold. */
+/* Returns the number of lines of text in the picture of the table t: one for each scene, and one for each quantity that
+ * exceeds its threshold. */
 static int lines_of(const struct bench_table *t)
 {
     int n = 0;

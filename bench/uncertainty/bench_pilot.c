@@ -22,8 +22,8 @@ struct pilot_tally {
 
 /* ---- one scene --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene k with `method: auto` to the file `path`. It requests the known quantity of the scene to the
- * relative error `within` [1]. Returns FAILED if the file cannot be written. */
+/* Writes the scene k with `method: auto` to the file `path`. It requests that the known quantity of the scene has a
+ * relative error of at most `within` [1]. Returns FAILED if the file cannot be written. */
 static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
 {
     char text[TEXT_ROOM];
@@ -35,9 +35,9 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
     return file_write_whole(path, text, (size_t)length);
 }
 
-/* Runs a scene with the method and spacing that pilot runs have chosen, p, as a study with a single case in
- * `folder`. Reads the quantity called `figure` from its summary into *value. Returns REFUSED or FAILED if the run
- * does. */
+/* Runs a scene with the method and spacing that the pilot runs p have chosen, as a study with a single case in
+ * `folder`. scene: file of the scene; figure: name of a number in summary.json, which is stored in *value. Returns
+ * REFUSED or FAILED if the run does. */
 static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
@@ -58,8 +58,8 @@ static const char *chosen_value(const struct pilot *p, const char *key)
     return "";
 }
 
-/* Makes the pilot runs and the chosen run of the scene k in `folder`, prints a line with its error, and counts the
- * outcome in *t. within: requested accuracy [1]. */
+/* Makes the pilot runs of the scene k and then the run that they choose, in `folder`, prints a line with its error, and
+ * counts in *t whether the accuracy is reached. within: requested relative accuracy [1]. */
 static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
 {
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");

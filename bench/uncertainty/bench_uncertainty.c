@@ -36,8 +36,8 @@ enum { SHARES = COUNT_OF(share) };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Writes the scene k with the keys of a variant and the given spacing to the file `path`. A number after @ in the
- * variant is the horizon [spacings]. Returns FAILED if the file cannot be written. */
+/* Writes the scene k with additional keys and the given spacing to the file `path`. variant: the keys as lines, and
+ * optionally @ and the horizon [spacings]; spacing: number with unit. Returns FAILED if the file cannot be written. */
 static status scene_text_write(const char *path, const struct known_scene *k, const char *variant, const char *spacing)
 {
     char text[TEXT_ROOM];
@@ -81,10 +81,11 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the absolute difference between the mean of the finest level and the exact value of a figure. */
+/* Returns the absolute difference between the mean of a figure at the finest spacing and its exact value. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Returns the share of the figures whose interval with the probability `nominal` contains the exact value [1]. */
+/* Returns the share of the figures in rows whose error interval with the probability `nominal` contains the exact value
+ * [1]. */
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
@@ -95,7 +96,7 @@ static double covered(const struct known_rows *rows, double nominal)
     return (double)held / rows->n;
 }
 
-/* Returns the median over all figures of half the width of the 95 % interval, relative to the true error [1]. */
+/* Returns the median over all figures in rows of half the width of their 95 % interval over their true error [1]. */
 static double width_median(const struct known_rows *rows)
 {
     double ratio[ROWS_MOST];
@@ -146,8 +147,8 @@ static status rows_write(const struct known_rows *rows)
     return s;
 }
 
-/* Draws two panels: the observed over the nominal probability of intervals, and the half-width of the 95 % interval
- * over the true error, both relative to the figure. context: struct known_rows. */
+/* Sends the gnuplot commands of two panels: the observed over the nominal probability of intervals, and the half width
+ * of the 95 % interval over the true error, both relative to the figure. context: a struct known_rows. */
 static void uncertainty_draw(FILE *to, const void *context)
 {
     const struct known_rows *rows = context;
@@ -175,8 +176,8 @@ static void uncertainty_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
-/* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their figures and
- * adds them to *rows. quick: one spacing only. Returns FAILED or REFUSED if a study is. */
+/* Makes the convergence studies of the scene k with all variants and spacings in `folder`, prints their figures with
+ * errors and intervals, and adds them to *rows. quick: one spacing only. Returns FAILED or REFUSED if a study does. */
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {
     for (int v = 0; v < KNOWN_VARIANTS_MOST && k->variant[v][0]; v++)
