@@ -30,8 +30,8 @@ void active_set_make(struct active_set *r, int64_t blocks);
 /* Releases all arrays of the active set r. */
 void active_set_free(struct active_set *r);
 
-/* Rebuilds r->list and r->active, the blocks that computations visit (level above 0) in ascending order and their
- * number, after r->level has changed. */
+/* Rebuilds r->list, the ascending list of the blocks that computations visit (activity level above 0), and r->active,
+ * their number. Call it after r->level has changed. */
 void active_set_rebuild_list(struct active_set *r);
 
 /* Saves the activity levels of the blocks to the archive under `name` if a->saving, else restores them. After

@@ -19,8 +19,8 @@ struct box_tree {
     } * node;
 };
 
-/* Creates a search tree over copies of the n boxes in the array `box`, in dim dimensions, with which box_search_start
- * and box_search_next find the boxes near a point. Release with box_tree_free. */
+/* Creates a tree over copies of the n boxes box[n] in dim dimensions. box_search_start and box_search_next then find
+ * the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim);
 
 /* Releases the nodes of the tree. */

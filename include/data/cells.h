@@ -29,8 +29,9 @@ void cells_free(struct cells *c);
 int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                     int32_t *found, int capacity);
 
-/* Returns an upper bound of the number of particles and images within `radius` [m] of any particle, itself included:
- * the largest number of particles in the search cells around any cell. Fast, because no distances are computed. */
+/* Returns an upper bound of the number of particles and mirror images within `radius` [m] of any particle, itself
+ * included: the largest number of particles in the search cells around any cell. It is fast, because no distances are
+ * computed. */
 int cells_neighbour_count_bound(const struct cells *c, real radius);
 
 /* List of particle indices at[0 .. n - 1] that grows as needed. Initialise it with {0} and release `at` with

@@ -73,8 +73,8 @@ void expression_free(struct expression *e);
  * the expression does not contain x, y or z. The value may be infinite or NaN, for example after a division by 0. */
 real expression_evaluate(const struct expression *e, const real *X, int dim, real t);
 
-/* Returns the result of the operation op on the operands a and b [SI]; b is ignored by functions of one argument. Not
- * for operations that push a value on the stack. */
+/* Returns the result of the operation op on the operands a and b [SI]; b is ignored by functions of one argument. op
+ * must not be an operation that pushes a value on the stack (a number, a coordinate, the time). */
 real expression_op_apply(enum expression_op op, real a, real b);
 
 /* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */

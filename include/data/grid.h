@@ -51,8 +51,8 @@ struct follower {
     int32_t node, leader, behind;
 };
 
-/* A node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side, which receives the
- * contributions of points to both. */
+/* A node beyond a plane of symmetry. It moves as the mirror image of a node on the body's side. What material points
+ * contribute to it is added to that node. */
 struct mirror_node {
     int32_t node, image;            /* node beyond the plane; node on the body's side */
     int8_t sign[DIM_MAX];           /* sign of each component of the image: -1 or 1 */
@@ -81,13 +81,14 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
 /* Releases all arrays of g. */
 void grid_free(struct grid *g);
 
-/* Appends a wall, a prescribed velocity component of a node, to those of this step (copied). */
+/* Appends a copy of `wall`, a prescribed velocity component of a node, to the list of this step. */
 void grid_add_wall(struct grid *g, const struct wall *wall);
 
-/* Appends a mirror node, a node beyond a plane of symmetry that moves as the image of another one (copied). */
+/* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another one, to the
+ * list of g. */
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node);
 
-/* Appends the dashpots of one node to those of this step (copied). */
+/* Appends a copy of `dashpot`, the dashpots of one node on an absorbing face, to the list of this step. */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
 /* Sets the numbers of walls (prescribed nodal velocities) and dashpots of this step, and the reactions of mirror nodes,

@@ -18,8 +18,8 @@ struct cells_without_particles {
 /* Releases the arrays of h. */
 void cells_without_particles_free(struct cells_without_particles *h);
 
-/* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarse
- * cell (mesh/levels.h) and needs no particles. h: these cells; NULL: all particles are created. */
+/* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarser
+ * cell (mesh/levels.h), which needs no particles. h: the cells without particles; NULL: all particles are created. */
 static inline bool cells_without_particles_contain(const struct cells_without_particles *h, const real *X)
 {
     int64_t cell = 0;

@@ -63,8 +63,8 @@ real hull_winding_number(const struct hull *s, const real *X);
  * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
 
-/* Returns true if hull_distance of the point X is at most `max_distance` [m]; faster, because faces farther away than
- * that are not examined. */
+/* Returns true if the signed distance of the point X (s->dim components [m]) from the surface, negative inside, is at
+ * most `max_distance` [m]. It is faster than hull_distance, because faces farther away than that are not examined. */
 bool hull_is_within(const struct hull *s, const real *X, real max_distance);
 
 /* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).

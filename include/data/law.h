@@ -79,9 +79,8 @@ struct law {
     real rate_sensitivity, reference_rate;
 };
 
-/* Computes the derived members of a law. yield_stress: of the material, unless the flow law has its own [Pa]; young,
- * poisson, shear: its elastic constants [Pa] [1] [Pa], shear 0 in 1D; density [kg/m^3]. Does nothing if the law is not
- * given. */
+/* Computes the derived members of a law from constants of its material. yield_stress: used unless the flow law has its
+ * own [Pa]; young, shear [Pa] (shear 0 in 1D); poisson [1]; density [kg/m^3]. Does nothing if law->given is false. */
 void law_compute_derived_constants(struct law *law, real yield_stress, real young, real poisson, real shear,
                                    real density);
 

@@ -113,8 +113,9 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
-/* Returns the stress in monotonic uniaxial loading at the given strain [1] [Pa]: Young's modulus times strain up to the
- * yield stress, then with the slope m->yield_tangent; for materials without another hardening law. */
+/* Returns the stress in monotonic uniaxial loading at the given strain [Pa]: Young's modulus times strain up to the
+ * yield stress, then with the slope m->yield_tangent. strain: total strain [1]. Only for materials whose law m->law is
+ * not given. */
 real material_uniaxial_stress(const struct material *m, real strain);
 
 /* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
@@ -131,23 +132,25 @@ struct surface_strengths {
  * strain, solid). */
 struct surface_strengths material_surface_strengths(const struct material *m, enum space space);
 
-/* Returns the smallest stretch of the most stretched bond, over all stress states on the strength surface of material m
- * [1], i.e. the minimum of the largest principal strain. Returns 0 if some state stretches no bond. */
+/* Returns the smallest strain at which the strength surface of material m can be reached [1]: the minimum, over all
+ * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond.
+ * Returns 0 if some state stretches no bond. */
 real material_least_strain(const struct material *m, enum space space);
 
 /* Sets the strength surface of material m, and computes m->surface_least_strain for it. */
 void material_set_surface(struct material *m, enum space space, struct strength_surface surface);
 
-/* Returns the share of the strength surface of material m that a stress has reached [1]: 1 on the surface, 0 without
- * stress. stress: symmetric components [Pa]. */
+/* Returns the share U of the strength surface of material m that a stress has reached [1]: 1 on the surface, 0 without
+ * stress. stress: symmetric components, 3 in the plane, 6 in space [Pa]. */
 real material_stress_share(const struct material *m, enum space space, const real *stress);
 
-/* Computes the elastic stiffness as a matrix over symmetric components, symmetric_component_count(dim) squared, row
- * major [Pa] (tensor shear strain: shear rows contain 2G). */
+/* Computes the elastic stiffness as a row-major n x n matrix over the n = symmetric_component_count(dim) components of
+ * stress and strain [Pa]. Strains are tensor components, so that shear rows contain 2G. */
 void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of the elastic stiffness of material_stiffness_matrix [1/Pa], as a row-major matrix of
- * symmetric_component_count(dim) squared entries. */
+/* Computes the inverse of the elastic stiffness [1/Pa], as a row-major n x n matrix over the n =
+ * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
+ * contain 1/(2G). */
 void material_compliance_matrix(const struct material *m, int dim, real *matrix);
 
 #endif

@@ -187,8 +187,8 @@ static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
     return (mesh->partial_cells + LANES - 1) / LANES;
 }
 
-/* Returns true if the stress of a point in any cell may have exceeded the limit at which points convert, according to
- * the last computation of forces. */
+/* Returns true if, according to the last computation of forces, the stress of a material point in any cell may have
+ * exceeded the limit at which points are converted to peridynamic particles. */
 static inline bool mesh_exceeds_conversion_stress(const struct mesh *mesh)
 {
     bool any = false;
@@ -204,8 +204,8 @@ static inline int64_t mesh_block_of_node(const struct mesh *mesh, int64_t node)
     return node / mesh->grid.count[0] * mesh->segments + node % mesh->grid.count[0] / LANES;
 }
 
-/* Returns a pointer to the activity levels (active_set.h) of the blocks of eight nodes in row number `row`, a row of
- * nodes along x. Level 0: the block is at rest and skipped. */
+/* Returns a pointer to the activity levels of the blocks of eight nodes in row number `row` of nodes along x, one per
+ * block. Level 0: the block is at rest and skipped (active_set.h). */
 static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
@@ -224,7 +224,8 @@ struct mesh_row_blocks {
     int64_t first, end;
 };
 
-/* Returns the blocks of row number `row` of nodes that contain all its nodes with mass. */
+/* Returns the range of blocks of eight nodes, in row number `row` of nodes, that contains all nodes of the row with
+ * mass; an empty range if there is none. */
 static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh, int64_t row)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
@@ -254,7 +255,8 @@ static inline real mesh_shape_function_value(int dim, int corner, int point)
 }
 
 /* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
- * direction `axis`, in units of 1/h with h the edge of the cell. corner, point: as for mesh_shape_function_value. */
+ * direction `axis`, in units of 1/h with h the edge of the cell. corner, point: number of the corner, and of the corner
+ * next to the point; bit d is set on the upper side in direction d. */
 static inline real mesh_shape_function_derivative(int dim, int corner, int point, int axis)
 {
     real slope = corner >> axis & 1 ? 1 : -1;

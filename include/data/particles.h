@@ -133,14 +133,14 @@ static inline void bit_clear(uint64_t *marks, int64_t i) { marks[i / 64] &= ~((u
 /* Returns true if bit i of the bit array `marks` is set. */
 static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i / 64] >> i % 64 & 1; }
 
-/* Returns how many of the eight indices from `first` on are below `limit`. */
+/* Returns how many of the eight indices first .. first + 7 are below `limit`. */
 static inline int count_of_eight_indices_below(int64_t first, int64_t limit)
 {
     return limit - first < LANES ? (int)(limit - first) : LANES;
 }
 
-/* Returns the particle of the body of which entry i is a mirror image, possibly through images of images; i itself if
- * it is no image. image: sources of the images, image[0] that of entry p->n. */
+/* Returns the particle of the body of which entry i of p is a mirror image, possibly through images of images; i itself
+ * if it is no image. image[k]: source of entry p->n + k. */
 static inline int64_t image_source_particle(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
@@ -211,7 +211,7 @@ static inline real bond_strength_factor(const struct particles *p, int64_t i, in
 }
 
 /* Returns the share of the strength surface of its material that the stored stress of particle i has reached [1]: 1 on
- * the surface, 0 if the material has no such surface. material: array of the materials. */
+ * the surface; 0 if the material has no such surface. material: materials of the scene, indexed by p->material[i]. */
 static inline real particle_stress_share(const struct particles *p, const struct material *material, enum space space,
                                          int64_t i)
 {

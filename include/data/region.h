@@ -94,8 +94,8 @@ struct crack {
  * exactly through the crack's end is cut. */
 bool crack_cuts_bond(const struct crack *c, const real *a, const real *b, int dim);
 
-/* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X; true if it
- * may cut one. A fast test, by which particles far from the crack are skipped. */
+/* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X (dim
+ * components [m]); true if it may cut one. A fast test, by which particles far from the crack are skipped. */
 bool crack_may_cut_bonds_near(const struct crack *c, const real *X, real bond_length, int dim);
 
 /* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of

@@ -53,7 +53,8 @@ struct softening_strength {
     real tension, biaxial, shear;
 };
 
-/* Returns the softening curve G(x) of one of the softening laws. */
+/* Returns the softening curve G(x) of a softening law: force of a bond over its force when softening begins, where x
+ * grows from 0 at that stretch to 1 at the stretch at which the bond breaks. */
 struct softening_curve softening_curve_of(enum softening law);
 
 /* Returns the stretch s_f at which a softening bond breaks that dissipates the same energy as a brittle bond of
@@ -73,7 +74,8 @@ static inline struct softening_range softening_range_of(const struct softening_c
     return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
 }
 
-/* Returns the value G(x) of a softening curve, x >= 0 [1]. */
+/* Returns the value G(x) of the softening curve c, the force of a bond over its force when softening begins [1]. x >=
+ * 0: stretch beyond that at which softening begins, over the stretch range up to the break [1]. */
 static inline real softening_curve_value(const struct softening_curve *c, real x)
 {
     real level = 0;
@@ -89,9 +91,9 @@ static inline real softening_remaining_stiffness_fraction(const struct softening
     return onset * softening_curve_value(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length [1]. onset, end:
- * stretches at which it begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset
- * [1]. */
+/* Returns the energy that a softening bond has dissipated, over stiffness, weight and length of the bond [1]. c: its
+ * softening curve; onset, end: stretches at which it begins to soften and breaks; largest_stretch: its largest stretch
+ * so far, at least the onset [1]. */
 real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch);
 
 /* Computes the largest stresses that bonds of all directions with the softening curve c reach under growing uniform
@@ -113,8 +115,8 @@ real softening_onset_from_strength(const struct material *m, enum space space);
  * of a bond [1]. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Interpolates a quantity that is value[k] at the rate r->rate[k] at the strain rate `rate` [1/s]: linear in the
- * logarithm of the rate, constant beyond the table. */
+/* Returns the value at the strain rate `rate` [1/s] of a quantity that is value[k] at the rate r->rate[k]: linear in
+ * the logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate);
 
 /* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */

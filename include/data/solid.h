@@ -118,8 +118,9 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
  * edges. X: dim components [m]. */
 real solid_level_set_value(const struct solid *s, const real *X, int dim);
 
-/* Returns true if solid_level_set_value of the point X (dim components [m]) is at most `max_distance` [m]; faster than
- * computing the level. */
+/* Returns true if the level of the point X (dim components [m]) is at most `max_distance` [m], where the level is
+ * negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). It is faster than computing
+ * the level. */
 bool solid_is_within(const struct solid *s, const real *X, int dim, real max_distance);
 
 /* Computes a box that contains the solid with all its copies, slightly enlarged, as box_tree_make needs it. Sides on

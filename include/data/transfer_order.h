@@ -15,7 +15,8 @@ enum { BLOCK_LENGTH = 64, BLOCK_EDGE = 4, COLOURS_MAX = 8 };
 /* Padding of the order in entries, so that prefetching may read beyond its end. */
 enum { ORDER_AHEAD = 64 };
 
-/* Returns the length of a block in direction `axis` [cells]. */
+/* Returns the length of a block along direction `axis` [cells]. Blocks are boxes of grid cells by which particles are
+ * sorted. */
 static ALWAYS_INLINE int64_t transfer_block_edge_length(int axis) { return axis == 0 ? BLOCK_LENGTH : BLOCK_EDGE; }
 
 /* The order in which particles on the grid are processed. All arrays are owned. */
@@ -30,9 +31,9 @@ struct transfer_order {
     int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
-/* Sorts the n particles in `list` by the cell of grid g that contains their position, the cells by block and the blocks
- * by colour, and stores this order in o, whose arrays grow as needed. The order depends on positions alone, not on the
- * number of threads. */
+/* Sorts the n particles in `list` by the cell of grid g that contains their position, the cells by block (a box of
+ * cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this order in o, whose arrays
+ * grow as needed. The order depends on positions alone, not on the number of threads. */
 void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
                          const struct grid *g);
 

@@ -47,12 +47,11 @@ bool void_separates_points(const struct voids *v, int body, const real *a, const
  * false. Fast for particles without a void nearby. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
 
-/* Returns a lower bound of the distance of particle i, inside the shape of its body, from the surface of the shape
- * [m]. */
+/* Returns a lower bound of the distance of particle i from the surface of the shape of its body, in which it is [m]. */
 real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i);
 
-/* Returns true if a void separates particle i from at least one particle within the reach of voids_mark_particles. v:
- * NULL if no body has voids; the result is then false. */
+/* Returns true if a void separates particle i from at least one particle of its body within the distance for which
+ * voids_mark_particles has marked particles. v: NULL if no body has voids; the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases the arrays of v that it owns; shapes and mirrors stay with their owners. */
