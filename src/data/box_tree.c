@@ -28,7 +28,8 @@ static real middle_of(const struct bounds *box, int d)
     return isfinite(middle) ? middle : 0;
 }
 
-/* Returns the axis along which the middles of n boxes differ most. list[n]: numbers of the boxes in `box`. */
+/* Returns the axis along which the middles of the n boxes list[n] have the widest range. box: all boxes, which the
+ * entries of the list refer to; dim: dimensions. */
 static int widest_spread(const struct boxed *list, int n, const struct bounds *box, int dim)
 {
     int widest = 0;
@@ -85,8 +86,8 @@ void box_tree_free(struct box_tree *t)
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Appends node number `node` of the tree to the list of nodes to be visited, with a lower bound of the distance of
- * the search point q->X from its box. */
+/* Appends node number `node` of the tree to the list of nodes that the search q still has to visit, with a lower bound
+ * of the distance of its box from the search point q->X. */
 static void box_wait(struct box_search *q, int32_t node)
 {
     const struct bounds *box = &q->tree->node[node].box;

@@ -27,8 +27,9 @@ static int64_t cells_cell_of(const struct cells *c, const real *X)
  * than larger cells would. */
 enum { CELLS_ACROSS = 3 };
 
-/* Sets origin, size and number of the cells, with CELLS_ACROSS cells along `edge`, the largest search radius [m]. If
- * there would be more cells than particles, as in a box far larger than its particles, uses larger cells. */
+/* Sets origin, width and number of the search cells of c, with CELLS_ACROSS cells along `edge`, the largest search
+ * radius [m]. If there would be more cells than particles, as in a box far larger than its particles, uses larger
+ * cells. */
 static void cells_shape(struct cells *c, const struct particles *p, real edge)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -97,8 +98,9 @@ struct search {
     bool ascending, any_order;
 };
 
-/* Appends to s->found the particles within the radius that are in the cells first .. last of one row, and counts
- * them in s->n, also beyond the room of the list. dim: number of dimensions, a constant of the compiler. */
+/* Appends to s->found the particles within the search radius in the consecutive cells first .. last of a row along x.
+ * Counts them in s->n, also those that exceed the capacity s->room. dim: number of dimensions, known at compile
+ * time. */
 static inline void near_in_row(struct search *s, const struct particles *p, int64_t first, int64_t last, const int dim)
 {
     const int32_t *order = s->c->order;
@@ -115,15 +117,16 @@ static inline void near_in_row(struct search *s, const struct particles *p, int6
     }
 }
 
-/* Returns the distance of X[dim] from the slice of cells with index k along axis d [m]; 0 if X is in it. Slightly
- * reduced, so that round-off excludes no cell. */
+/* Returns a lower bound of the distance of X[dim] from the layer of cells with index k along axis d [m]; 0 if X is in
+ * it. It is slightly smaller than the distance, so that round-off excludes no cell. */
 static inline real gap(const struct cells *c, const real *X, int d, int64_t k)
 {
     const real low = c->origin[d] + (real)k * c->width;
     return real_max(0, real_max(low - X[d], X[d] - low - c->width) - 1e-9 * c->width - 1e-15 * fabs(X[d]));
 }
 
-/* Sets *low .. *high to the cells along axis d that are within `reach` of X[dim] [m]; low > high if there are none. */
+/* Sets *low and *high to the first and last index along axis d of the cells within `reach` [m] of X[dim]; low > high if
+ * there are none. */
 static inline void cells_within(const struct cells *c, const real *X, int d, real reach, int64_t *low, int64_t *high)
 {
     reach = reach * (1 + 1e-12) + 1e-15 * fabs(X[d]); /* round-off of the distance */
@@ -134,9 +137,9 @@ static inline void cells_within(const struct cells *c, const real *X, int d, rea
     if (*high >= c->count[d]) *high = c->count[d] - 1;
 }
 
-/* Searches all cells within the radius of s->X. Particles are in ascending order unless any order is allowed. dim:
- * number of dimensions, a constant of the compiler. Returns the number of particles found, which may exceed the room
- * of the list. */
+/* Lists the particles in all cells within the radius of s->X in s->found, in ascending order unless s->any_order. dim:
+ * number of dimensions, known at compile time. Returns the number of particles found, which may exceed the capacity
+ * s->room of the list. */
 static inline int near(struct search *s, const struct particles *p, const int dim)
 {
     const struct cells *c = s->c;
@@ -160,8 +163,8 @@ static inline int near(struct search *s, const struct particles *p, const int di
     return s->n;
 }
 
-/* Searches all cells within the radius of s->X by the copy of `near` that is compiled for the number of dimensions.
- * Returns the number of particles found, which may exceed the room of the list. */
+/* Lists the particles within the radius of s->X in s->found: calls the copy of `near` that is compiled for the number
+ * of dimensions. Returns the number of particles found, which may exceed the capacity s->room of the list. */
 static int search(struct search *s, const struct particles *p)
 {
     switch (s->c->dim) {
@@ -182,7 +185,8 @@ int cells_find_near(const struct cells *c, const struct particles *p, const real
     return search(&s, p);
 }
 
-/* Returns the number of particles in the cells at most `reach` cells away from a cell along each axis. */
+/* Returns the number of particles in the cells that are at most `reach` cells away from cell number `cell` along each
+ * axis. */
 static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, sum = 0;

@@ -20,7 +20,7 @@ bool mirrors_continue_crack_end(const struct mirror_plane *mirror, int mirrors, 
     return false;
 }
 
-/* Computes the intersection X of the segment a-b with a plane of symmetry; its coordinate normal to the plane is
+/* Computes X, the intersection of the segment a-b with the plane of symmetry m. Its coordinate normal to the plane is
  * exact. */
 static void plane_intersection(const struct mirror_plane *m, const real *a, const real *b, real *X)
 {
@@ -29,8 +29,8 @@ static void plane_intersection(const struct mirror_plane *m, const real *a, cons
     X[m->axis] = m->at;
 }
 
-/* Clips a crack to the body's side of a plane of symmetry. A polygon may gain one corner, for which c->corner must have
- * room. tolerance: distance below which a corner beyond the plane counts as inside [m]. */
+/* Clips the crack c to the body's side of the plane of symmetry m. A polygon may gain one corner, for which c->corner
+ * must have capacity. tolerance: distance up to which a corner beyond the plane counts as inside [m]. */
 static void crack_clip(struct crack *c, const struct mirror_plane *m, real tolerance)
 {
     real(*corner)[DIM_MAX] = memory_new("crack.clip", c->n + 1, sizeof *corner);
@@ -46,8 +46,8 @@ static void crack_clip(struct crack *c, const struct mirror_plane *m, real toler
     memory_free(corner);
 }
 
-/* Appends a copy of crack c, with room for `more` further corners, to the list `to` and returns it. of: index of the
- * scene's crack from which c originates. */
+/* Appends a copy of crack c, with capacity for `more` further corners, to the list `to` and returns the copy. of: index
+ * of the scene's crack from which c originates. */
 static struct crack *crack_add(struct crack_list *to, const struct crack *c, int of, int more)
 {
     GROW("crack.images", to->crack, to->n + 1);
@@ -60,9 +60,9 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     return new;
 }
 
-/* Appends the mirror image of crack number k of the list. Does nothing if the crack is in the plane of symmetry, to
- * `tolerance`, or farther from the plane than `reach`, the reach of bonds [m]. The corners of the image are in
- * reverse order, so that particles in its plane count as on the same side of both. */
+/* Appends the mirror image of crack number k of the list at the plane m to the list. Does nothing if the crack is in
+ * this plane, up to `tolerance` [m], or farther from it than `reach`, the length of the longest bonds [m]. The corners
+ * of the image are in reverse order, so that particles in its plane count as on the same side of both. */
 static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
 {
     const struct crack c = to->crack[k];

@@ -70,8 +70,8 @@ void tensor_principal_values(const real s[6], real value[3], real direction[9])
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-/* Functions of the table of derived fields: each computes one derived field of a particle from its stress or
- * velocity. from: stress (6 components) or velocity (3); to: receives the value or values. */
+/* Functions that compute one derived field of a particle each, for the table below. from[]: its stress (6 components)
+ * or velocity (3); to: receives the value or values. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
 static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }

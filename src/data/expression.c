@@ -10,7 +10,8 @@ static const real pi = 3.14159265358979323846;
 /* Returns a, limited to 0 .. 1. */
 static real ramp_of(real a) { return a <= 0 ? 0 : a >= 1 ? 1 : a; }
 
-/* Returns sin^2(pi a) for 0 < a < 1, else 0: a load that rises and falls smoothly. */
+/* Returns sin^2(pi a) for 0 < a < 1, else 0: the function `pulse` of expressions, a load that rises and falls
+ * smoothly. */
 static real pulse_at(real a) { return a > 0 && a < 1 ? square(sin(pi * a)) : 0; }
 
 /* Returns the value of the operation `op` with its only operand a. */

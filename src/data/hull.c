@@ -41,7 +41,7 @@ static void piece_sort(struct piece *p, int n)
         }
 }
 
-/* Returns true if a face has two equal corners. face[dim]: indices of its corners. */
+/* Returns true if a face of the surface s has two equal corners. face[dim]: indices of its corners. */
 static bool face_degenerate(const struct hull *s, const int32_t *face)
 {
     return face[0] == face[1] || (s->dim == 3 && (face[1] == face[2] || face[2] == face[0]));
@@ -141,8 +141,8 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
-/* Computes the area vector of face k, normal to it and of the length of its area [m^2]; for a segment in 2D of its
- * length [m]. */
+/* Computes the area vector of face k, its normal times its area [m^2]; in 2D, where a face is a segment, its normal
+ * times its length [m]. */
 void hull_face_area_vector(const struct hull *s, int64_t k, real area[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
@@ -157,8 +157,9 @@ void hull_face_area_vector(const struct hull *s, int64_t k, real area[DIM_MAX])
     }
 }
 
-/* Returns the volume of the body inside the surface by Gauss's theorem: the sum of (X - X0) . area/dim over all faces
- * [m^dim]. X0 is a corner, which preserves digits far from the origin. */
+/* Returns the volume of the body inside the surface s [m^dim] by Gauss's theorem: the sum of (X - X0) . area/dim over
+ * all faces, with a point X of the face and its area vector. X0 is a corner of the surface, which preserves digits far
+ * from the origin. */
 static real volume_of(const struct hull *s)
 {
     real sum = 0;

@@ -28,8 +28,9 @@ static int order_x(const void *a, const void *b) { return leaflet_order(a, b, 0)
 static int order_y(const void *a, const void *b) { return leaflet_order(a, b, 1); }
 static int order_z(const void *a, const void *b) { return leaflet_order(a, b, 2); }
 
-/* Computes box, dipole moment (sum of the area vectors) and area-weighted centre of node n from its faces. leaf: faces
- * of the whole surface in the order of the tree, of which the node has n->count from n->first on. */
+/* Computes the box, the dipole moment (sum of the area vectors) and the area-weighted centre of node n of the tree from
+ * its faces. leaf[]: faces of the whole surface in the order of the tree; those of the node are leaf[n->first] and the
+ * following n->count - 1. */
 static void node_measure(const struct hull *s, struct hull_node *n, const struct leaflet *leaf)
 {
     real weight = 0;
@@ -51,8 +52,9 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < s->dim; d++) n->centre[d] = weight > 0 ? n->centre[d] / weight : 0.5 * (n->low[d] + n->high[d]);
 }
 
-/* Halves node `at` of the tree at the median face along the longest edge of its box, recursively, down to nodes of
- * at most LEAF faces. leaf: faces of the whole surface, which are sorted into the order of the tree. */
+/* Divides node number `at` of the tree at the median face along the longest edge of its box, and recursively its
+ * children, down to nodes of at most LEAF faces. leaf[]: faces of the whole surface, which are sorted into the order of
+ * the tree. */
 static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
 {
     static int (*const order[])(const void *, const void *) = {order_x, order_y, order_z};
@@ -94,9 +96,9 @@ void hull_build_face_tree(struct hull *s)
 
 /* ---- winding number ------------------------------------------------------------------------------------------- */
 
-/* Returns the contribution of a face to the winding number at X: the solid angle of a triangle (van Oosterom &
- * Strackee 1983, eq. 8) divided by 4 pi; in 2D the angle of a segment divided by 2 pi. face[dim]: indices of its
- * corners. */
+/* Returns the contribution of a face to the winding number of the surface at X [1]: in 3D the solid angle of the
+ * triangle divided by 4 pi (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment divided by 2 pi.
+ * face[dim]: indices of its corners. */
 static real face_winding(const struct hull *s, const int32_t *face, const real *X)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
@@ -113,8 +115,8 @@ static real face_winding(const struct hull *s, const int32_t *face, const real *
     return atan2(triple, below) / (2 * pi);
 }
 
-/* If X is farther from the centre of node n than FAR times its radius, adds the winding number at X of the node's
- * dipole to *sum (Barill et al. 2018, first order) and returns true. Else returns false and adds nothing. */
+/* Adds the winding number at X of the dipole of node n to *sum and returns true, if X is farther from the centre of the
+ * node than FAR times the node's radius (Barill et al. 2018, first order). Else returns false and adds nothing. */
 static bool node_winding(const struct hull *s, const struct hull_node *n, const real *X, real *sum)
 {
     real r2 = 0, radius2 = 0, along = 0;
@@ -253,8 +255,8 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
     return found;
 }
 
-/* Returns true if X[dim] is outside the closed surface s: its winding number is below 1/2. If the surface is not
- * closed, every point is outside. */
+/* Returns true if X[dim] is outside the closed surface s: its winding number is below 1/2. Returns true for every point
+ * if the surface is open. */
 static bool hull_outside(const struct hull *s, const real *X)
 {
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;

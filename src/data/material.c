@@ -12,9 +12,9 @@ real bond_based_poisson_ratio(enum space space)
     return poisson[space];
 }
 
-/* Returns the micro-modulus c of bonds such that a uniform expansion s has equal energy densities: 1/4 c s^2
- * family_sum of the bonds, and 1/2 E s^2 (1D), 2 k2 s^2 (2D), 9/2 K s^2 (3D) of the continuum, with the bulk moduli
- * k2 and K. family_sum: sum of length times weight over the bonds of a particle. */
+/* Returns the micro-modulus c at which bonds and continuum have equal energy densities under a uniform expansion s: 1/4
+ * c s^2 family_sum for the bonds; 1/2 E s^2 (1D), 2 k s^2 (2D), 9/2 k s^2 (3D) for the continuum with the bulk modulus
+ * k of the space. family_sum: sum of length times volume over the bonds of a full family [m^4]. */
 real material_micro_modulus(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
@@ -22,9 +22,9 @@ real material_micro_modulus(const struct material *m, enum space space, real fam
     return factor[space_dim(space)] * m->bulk / family_sum;
 }
 
-/* Returns the micro-modulus of bonds for which bonds and continuum have equal energy densities in a uniform
- * expansion, with the integral over the horizon [m] in place of a sum over neighbours. section: cross-section in 1D
- * [m^2], thickness in 2D [m]. */
+/* Returns the micro-modulus c at which bonds and continuum have equal energy densities under a uniform expansion, with
+ * the integral over the horizon in place of a sum over neighbours. horizon [m]; section: cross-section in 1D [m^2],
+ * thickness in 2D [m]. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {

@@ -8,8 +8,8 @@
 
 #include "base/memory.h"
 
-/* Functions that return the number of components of an array of particles, for the table below; 0 if the array does not
- * exist. dim: dimensions; optional: the optional arrays that the scene needs (bits WITH_*). */
+/* Functions that return the number of component arrays of a particle field, for the table below; 0 if the field does
+ * not exist. dim: dimensions; optional: the optional arrays that the scene needs (sum of WITH_*). */
 static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
 static int vector(int dim, int optional) { return (void)optional, dim; }
 static int symmetric(int dim, int optional) { return (void)optional, symmetric_component_count(dim); }
@@ -225,8 +225,8 @@ static void find_places(const struct particles *p, real spacing, struct place *p
     }
 }
 
-/* Permutes an array of n entries of `size` bytes: new array[i] = old array[place[i].index]. scratch: working memory
- * of n entries. */
+/* Permutes array[n], with entries of `size` bytes, so that entry place[i].index moves to entry i. scratch: working
+ * memory of n entries. */
 static void permute(char *array, size_t size, const struct place *place, int64_t n, char *scratch)
 {
 #pragma omp parallel for schedule(static)
@@ -263,7 +263,7 @@ void particles_sort(struct particles *p, real spacing, int optional_arrays)
     particles_update_kind_lists(p);
 }
 
-/* Returns true if the eight particles i .. i + 7 have one kind, and either all or none of them are points of the
+/* Returns true if the eight particles i .. i + 7 have the same kind, and either all or none of them are part of a
  * mesh. */
 static bool eight_alike(const struct particles *p, int64_t i)
 {
@@ -271,7 +271,7 @@ static bool eight_alike(const struct particles *p, int64_t i)
     return eight_bytes_are_equal(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-/* Appends the indices i .. i + more - 1 to the list, and increases *n, its number of entries. */
+/* Appends the `more` indices i .. i + more - 1 to list[*n], and increases *n by their number. */
 static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
     for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;

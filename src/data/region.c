@@ -207,7 +207,8 @@ void crack_area_vector(const struct crack *c, real area[DIM_MAX])
     }
 }
 
-/* Computes normal and size of the plane of a polygonal crack. Returns false if the crack has no area. */
+/* Computes the unit normal of the plane of a polygonal crack in 3D, and the length to which tolerances refer: the
+ * largest distance of a corner from the first one. Returns false if the crack has no area. */
 static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
 {
     real area[DIM_MAX], zero[DIM_MAX] = {0};
@@ -217,8 +218,9 @@ static bool polygon_plane(const struct crack *c, struct crack_plane *plane)
     return direction(zero, area, 3, plane->normal) > 0;
 }
 
-/* Computes the point (1D), line (2D) or plane (3D) of a crack: unit normal, and the length to which tolerances
- * refer. a, b: ends of a bond [dim], whose length is used in 1D. Returns false if the crack has no extent. */
+/* Computes the unit normal of a crack, a point (1D), line (2D) or plane (3D), and the length to which tolerances refer.
+ * a, b: end points of a bond (dim components [m]), whose length is used in 1D. Returns false if the crack has no
+ * extent. */
 static bool crack_plane(const struct crack *c, const real *a, const real *b, int dim, struct crack_plane *plane)
 {
     real along[DIM_MAX];
@@ -237,8 +239,8 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     }
 }
 
-/* Returns true if point P of the crack's plane is inside the polygon of the crack or on its edge, to a tolerance. P
- * must be on the inner side of every edge, so the polygon must be convex. */
+/* Returns true if point P of the crack's plane is inside the polygon of the crack or on its edge, up to a relative
+ * tolerance of 1e-9. The polygon must be convex, since P must be on the inner side of every edge. */
 static bool polygon_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     for (int k = 0; k < c->n; k++) {
@@ -252,8 +254,8 @@ static bool polygon_holds(const struct crack *c, const struct crack_plane *plane
     return true;
 }
 
-/* Returns true if point P of the crack's line is inside the segment of the crack or at one of its ends, to a
- * tolerance. */
+/* Returns true if point P of the crack's line is inside the segment of the crack or at one of its ends, up to a
+ * relative tolerance of 1e-9. */
 static bool segment_holds(const struct crack *c, const struct crack_plane *plane, const real *P)
 {
     real along[DIM_MAX];
@@ -270,8 +272,8 @@ static real region_height(const struct crack *c, const struct crack_plane *plane
     return sum;
 }
 
-/* Returns true if the bounding boxes of a crack and of the bond a-b are apart by far more than the tolerance for
- * touching. */
+/* Returns true if the bounding boxes of a crack and of the bond a-b (dim components [m]) are so far apart that the bond
+ * certainly does not touch the crack. */
 static bool far_apart(const struct crack *c, const real *a, const real *b, int dim)
 {
     real low[DIM_MAX], high[DIM_MAX], size = 0;

@@ -10,9 +10,8 @@
 
 enum { RUN_LEAST = 8 }; /* smallest number of solids for which a tree is faster */
 
-/* Returns how many solids of the region, from number `first` on, have the same operation (added or subtracted).
- * Returns 1 if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if solid `first`
- * intersects. */
+/* Returns how many consecutive solids of the region, from number `first` on, are all added or all subtracted. Returns 1
+ * if they are fewer than RUN_LEAST, too few for a tree of boxes to be faster, or if solid `first` is intersected. */
 static int run_length(const struct region *r, int first)
 {
     const struct solid *s = &r->solid[first];
@@ -39,8 +38,8 @@ void region_build_search_trees(struct region *r, int dim)
     }
 }
 
-/* Returns the number of runs of the region: sequences of solids that are all added or all subtracted. If no trees of
- * boxes have been made, each solid is a run. */
+/* Returns the number of runs of the region, which are sequences of solids that are all added or all subtracted. Without
+ * trees of boxes (region_build_search_trees) each solid is a run. */
 static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
 
 /* Returns run j of the region, a sequence of solids that are all added or all subtracted; 0 <= j < region_runs(r). */
@@ -51,9 +50,9 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a solid of the run (solids that are all added or all subtracted) has a level at X[dim] of at most
- * `most` [m]. The level of a solid is <= 0 inside (solid_level_set_value). Does not add or subtract. s: first solid
- * of the run. */
+/* Returns true if at least one solid of a run has a level of at most `most` [m] at X[dim]. A run is a sequence of
+ * solids that are all added or all subtracted. The level of a solid is <= 0 inside (solid_level_set_value); whether the
+ * run is subtracted makes no difference here. s: first solid of the run. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
@@ -100,7 +99,8 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest number below x; for x = 0 the negative number nearest to 0 that processors do not flush to 0. */
+/* Returns the largest number below x. For x = 0 it is the smallest normal number with a negative sign, because
+ * processors may flush smaller numbers to 0. */
 static real number_before(real x)
 {
     const real before = nextafter(x, -INFINITY);

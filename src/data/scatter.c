@@ -34,8 +34,8 @@ static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real
  * length/2; omitted nodes have weights below exp(-8) of the largest. */
 enum { NODES = 8 };
 
-/* Computes weight[NODES], the Gaussian weights of the lattice nodes around the coordinate `place` [spacings of this
- * lattice, half a correlation length]. Returns the index of the first of these nodes. */
+/* Computes weight[NODES], the Gaussian weights of the NODES lattice nodes nearest to the coordinate `place`, which is
+ * in spacings of the lattice, half a correlation length each. Returns the index of the first of these nodes. */
 static int64_t weights_along(real place, real weight[NODES])
 {
     const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;

@@ -107,10 +107,10 @@ static real direction_along(const struct directions *a, int k)
     return a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at));
 }
 
-/* Returns axial and lateral stress of state-based bonds over E' s_0 [1], at strains over s_0, the stretch at which
- * softening begins: the derivatives by the strain of W = [A <q s>^2 + B <q |e|^2>]/2. < > is the mean over
- * directions n, q the share of its stiffness that a bond keeps, and e the extension s, or the whole displacement eps
- * . n in models with rotations. */
+/* Returns axial and lateral stress of a family of state-based bonds over E' s_0 [1], at the strains `axial` and
+ * `lateral` over s_0, the stretch at which softening begins. They are the derivatives by the strain of W = [A <q s>^2 +
+ * B <q |e|^2>]/2, where < > is the mean over directions n and q the share of its stiffness that a bond keeps. s is the
+ * stretch along n, and e the stretch along n or, in models with rotations, the whole displacement eps . n. */
 static struct stress_pair state_family_stress(const struct directions *a, real axial, real lateral)
 {
     const struct softening_model *m = a->model;
@@ -130,8 +130,9 @@ static struct stress_pair state_family_stress(const struct directions *a, real a
 }
 
 /* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
- * one axis and by `lateral` in all directions normal to it. Strains are in units of s_0, the stretch at which
- * softening begins. Bonds have nu = 1/3 in the plane (plane strain: with E' and nu/(1 - nu)) and 1/4 in a solid. */
+ * one axis and by `lateral` in all directions normal to it. Strains are in units of s_0, the stretch at which softening
+ * begins. Bonds have Poisson's ratio 1/3 in the plane (in plane strain with E' and nu/(1 - nu) in place of E and nu)
+ * and 1/4 in a solid. */
 static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
 {
     struct stress_pair sum = {0, 0};
@@ -146,8 +147,8 @@ static struct stress_pair family_stress(const struct directions *a, real axial, 
     return (struct stress_pair){sum.axial * axial_factor / DIRECTIONS, sum.lateral * lateral_factor / DIRECTIONS};
 }
 
-/* Returns the strain x at which the function stress(a, x, given) is 0, by bisection. The function grows with x and
- * has its root between `low` and 0. given: the other strain. Strains are in units of s_0, the stretch at which
+/* Returns the strain x at which the function stress(a, x, given) is 0, by bisection. The function must grow with x and
+ * have its root between `low` and 0. given: its other strain. Strains are in units of s_0, the stretch at which
  * softening begins. */
 static real strain_without_stress(const struct directions *a, real low, real given,
                                   real (*stress)(const struct directions *, real x, real given))
@@ -203,9 +204,9 @@ static real shear_at(const struct directions *a, real strain)
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
-/* Returns the largest value of stress(a, strain) over growing strain, from the onset of softening until the stress
- * has fallen by a fifth of its maximum or all bonds have failed. Returns NAN if the stress is not defined in this
- * space. */
+/* Returns the largest value of stress(a, strain) over growing strain. The search begins at the onset of softening and
+ * ends when the stress has fallen by a fifth of its maximum or all bonds have failed. Returns NAN if the stress is not
+ * defined in this space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

@@ -42,8 +42,8 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
             R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
 }
 
-/* Returns the placement `from` of a copy of a solid, rotated or reflected by the matrix R about the point `about`
- * [m]. */
+/* Returns the placement of a copy of a solid that results from the placement `from` by rotation or reflection with the
+ * matrix R about the point about[dim] [m]. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -56,7 +56,7 @@ static struct placement image_turned(const struct placement *from, real R[DIM_MA
     return to;
 }
 
-/* Returns the placement of copy number k that the motion m makes of a solid with the placement `from`. */
+/* Returns the placement of copy number k of a solid that the motion m makes from the placement `from`. */
 static struct placement image_made(const struct placement *from, const struct solid_motion *m, int k, int dim)
 {
     struct placement to = *from;
@@ -88,8 +88,8 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b, with the
- * rotation of the placement i. */
+/* Rotates the vector b[dim] back to the coordinates in which the solid was described: to = turn^T b, with the rotation
+ * `turn` of the placement i. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -116,9 +116,9 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns by how much the level of a solid (<= 0 inside) may be below the one that its bounding box implies [m]: 0
- * for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a surface
- * with holes, since points inside it may be far from it. */
+/* Returns by how much the level of a solid s at a point may be below the distance of the point from its bounding box
+ * [m]: 0 for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a
+ * surface with holes, since points inside it may be far from it. The level is <= 0 inside (solid_level_set_value). */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -128,8 +128,8 @@ static real box_slack(const struct solid *s, int dim)
     return slack;
 }
 
-/* Computes the bounding box of the copy of a solid with placement i, or of all copies if i is NULL, enlarged by more
- * than round-off and by box_slack. */
+/* Computes the bounding box of the copy of a solid with placement i, or of all its copies if i is NULL, enlarged by
+ * more than round-off and by box_slack, so that no point with a level <= 0 is outside. */
 static void placement_box(const struct solid *s, const struct placement *i, int dim, struct bounds *box)
 {
     const real slack = box_slack(s, s->kind == SOLID_EXTRUSION ? 2 : dim);

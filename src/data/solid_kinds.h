@@ -5,7 +5,9 @@
 
 #include "data/solid.h"
 
-/* Functions of one kind of solid, for a solid without its copies. */
+/* Functions of one kind of solid, which treat a solid without its copies. The members distance, level, support and
+ * within do for it what solid_distance, solid_level_set_value, solid_support_function and solid_is_within do for a
+ * solid with copies. */
 struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */

@@ -24,8 +24,8 @@ struct nearest {
     bool at_corner;
 };
 
-/* Updates n, the part of the outline nearest to X so far, with the edge a-b if this is nearer. sense: 1 if the corners
- * are in counter-clockwise order, else -1. */
+/* Updates n, the point of the outline nearest to X[2] so far, with the edge a-b of a polygon if this is nearer. sense:
+ * 1 if the corners are in counter-clockwise order, else -1. */
 static void edge_nearest(struct nearest *n, const real *a, const real *b, real sense, const real *X)
 {
     real along[2], arm[2], foot[2];
@@ -63,7 +63,8 @@ static bool bend_contains(const struct bend *b, const real *arm)
     return turn != 0 && turn * cross2(from, arm) >= 0 && turn * cross2(arm, to) >= 0;
 }
 
-/* Updates n, the part of the outline nearest to X so far, with the arc of the polygon's corner k if this is nearer. */
+/* Updates n, the point of the outline nearest to X[2] so far, with the arc that rounds corner k of the polygon p if
+ * this is nearer. */
 static void bend_nearest(struct nearest *n, const struct polygon *p, int k, const real *X)
 {
     real arm[2];
@@ -159,8 +160,8 @@ static bool edges_meet(const real *a, const real *b, const real *c, const real *
     return left * right <= 0 && under * over <= 0;
 }
 
-/* Checks the edges of a polygon: adjacent ones have a length and do not fold back, others do not meet. Returns the
- * fault, or POLYGON_FINE. *corner: receives the corner at which the faulty edge begins. */
+/* Checks the edges of a polygon: adjacent edges must have a length and must not fold back on each other, others must
+ * not meet. Returns the fault, or POLYGON_FINE. *corner: receives the corner at which the faulty edge begins. */
 static enum polygon_fault polygon_check(const struct polygon *p, int *corner)
 {
     real(*c)[2] = p->corner, one[2], two[2];

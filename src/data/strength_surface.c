@@ -45,8 +45,9 @@ static void complete_state(const struct material *m, enum space space, real *str
     if (space == SPACE_PLANE_STRAIN) stress[2] = m->poisson * (stress[0] + stress[1]);
 }
 
-/* Returns the largest principal strain that bonds of the space can have when a stress state reaches the strength
- * surface of the material [1]; INFINITY if it never does. stress[3]: direction of the state, as principal stresses. */
+/* Returns the largest principal strain of a stress state that grows in proportion until it reaches the strength surface
+ * of the material m, for the elasticity of the space [1]; INFINITY if it never does. stress[3]: principal stresses that
+ * give the direction of the state; the one normal to a plane is set. */
 static real largest_strain(const struct material *m, enum space space, real *stress)
 {
     const int dim = space_dim(space);

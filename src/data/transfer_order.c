@@ -59,8 +59,8 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Extends o->cell_start, the list of the first entries of cells, so that it holds `cells` cells with a reserve. Its
- * contents are lost if it is extended. */
+/* Extends o->cell_start, the list of the first entries of cells in the sorted list, to at least `cells` cells, with a
+ * reserve. Its contents are lost if it is extended. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -104,7 +104,8 @@ struct sorting {
     uint16_t *inside, *sorted; /* [n] cell in the block; sorted by rank */
 };
 
-/* Returns the index of the first entry of a chunk of the list, one of s->chunks equal parts. */
+/* Returns the index of the first entry of chunk number `chunk`; the list of points is divided into s->chunks equal
+ * chunks, one per thread. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
 /* Computes s->place, from which the numbers of block and cell of a point follow: the sum over the axes d of
@@ -123,9 +124,9 @@ static void cell_shares_find(struct sorting *s)
     }
 }
 
-/* Returns the rank of the block (a box of cells) that contains point i. inside: receives the index of its cell in
- * the block. g: copy of the grid that the compiler can keep in registers; dim: number of dimensions, a constant of
- * the compiler. */
+/* Returns the rank of the block (a box of cells) that contains point i, in the order of blocks by colour. inside:
+ * receives the index of its cell in the block. g: copy of the grid that the compiler can keep in registers; dim: number
+ * of dimensions, known at compile time. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct grid *g, int32_t i, uint16_t *inside,
                                         const int dim)
 {
@@ -137,8 +138,8 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct gr
 }
 
 /* Finds the blocks (s->key) and cells (s->inside) of the points of a chunk of the list, the part of one thread, and
- * counts the points of each block in s->fill. Consecutive points of one block are counted before they are added.
- * dim: number of dimensions, a constant of the compiler. */
+ * counts the points of each block in s->fill. Consecutive points of one block are counted together and then added. dim:
+ * number of dimensions, known at compile time. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -186,8 +187,8 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
-/* Copies the points of a chunk of the list (the part of one thread) to the indices of their blocks in s->bucket, and
- * their cells to s->sorted. */
+/* Copies the points of a chunk of the list (the part of one thread) to s->bucket, sorted by block, and their cells to
+ * s->sorted. s->fill gives the next free entry of each block. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];

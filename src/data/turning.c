@@ -79,8 +79,8 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Stores in own->near (own: group g) the indices of the 26 groups of points around group g of the same body, -1 for
- * those that do not exist: first those displaced along one axis, then along two, then along three. */
+/* Stores in the member `near` of group g of t the indices of the 26 groups of points around it that belong to the same
+ * body, -1 for those that do not exist: first those displaced along one axis, then along two, then along three. */
 static void groups_near(struct rotation_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
@@ -94,14 +94,14 @@ static void groups_near(struct rotation_groups *t, int32_t g)
     }
 }
 
-/* Returns true if the sorted particles a and b, one after the other, belong to different groups. */
+/* Returns true if the particles a and b, neighbours in the sorted list, belong to different groups. */
 static bool groups_differ(const struct member *a, const struct member *b)
 {
     return order_of_places(a->place, a->body, b->place, b->body) != 0;
 }
 
-/* Divides the n sorted particles into runs of at most LANES that are consecutive in memory, and lists them group by
- * group. */
+/* Divides the n sorted particles all[n] into runs of at most LANES particles that are consecutive in memory and belong
+ * to one group, and lists the runs in t->run, group by group. */
 static void runs_make(struct rotation_groups *t, const struct member *all, int64_t n)
 {
     struct turning_group *g = t->group;

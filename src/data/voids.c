@@ -73,9 +73,9 @@ bool region_has_voids(const struct region *r)
 
 /* ---- along a line ------------------------------------------------------------------------------------------------ */
 
-/* Returns a lower bound of the signed distance of X[dim] from the surface of a body, negative inside [m]; -INFINITY
- * if the body has no shape, since then nothing is outside it. body: its number. A position beyond a plane of
- * symmetry counts as its mirror image. */
+/* Returns a lower bound of the signed distance of X[dim] from the surface of body number `body`, negative inside [m];
+ * -INFINITY if the body has no shape, since then nothing is outside it. A position beyond a plane of symmetry counts as
+ * its mirror image. */
 static real void_level(const struct voids *v, int body, const real *X)
 {
     real at[DIM_MAX] = {0}, level = INFINITY;
@@ -101,9 +101,9 @@ static void line_place(const struct voids *v, const struct void_line *l, real at
     for (int d = 0; d < v->dim; d++) X[d] = l->from[d] + at * l->along[d];
 }
 
-/* Returns the length of the first part of the segment l that is inside the body [m]; l->length if all of it is.
- * Steps along the segment by the lower bound of the distance from the surface, so that no surface is skipped (sphere
- * tracing). body: its number. */
+/* Returns the length of the first part of the segment l that is inside body number `body` [m]; l->length if all of it
+ * is. Steps along the segment by the lower bound of the distance from the surface, so that no surface is skipped
+ * (sphere tracing). */
 static real line_inside(const struct voids *v, int body, const struct void_line *l)
 {
     real at = 0;
@@ -117,8 +117,8 @@ static real line_inside(const struct voids *v, int body, const struct void_line 
     return l->length;
 }
 
-/* Computes normal[dim], the direction in which the distance from the body increases fastest, at the distance `at`
- * from the start of the segment l [m], by central differences. It is not normalised. body: its number. */
+/* Computes normal[dim], the direction in which the distance from body number `body` increases fastest, at the distance
+ * `at` [m] from the start of the segment l, by central differences. It is not normalised. */
 static void line_normal(const struct voids *v, int body, const struct void_line *l, real at, real *normal)
 {
     const real step = 1e-4 * v->spacing;
@@ -187,9 +187,10 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns the set of convex solids of its body that contain particle i, one bit each, or ALONE if a single solid is
- * within `reach` of it [m]. Returns 0 if a subtracted or intersecting solid is near, or if the body has more than
- * SOLIDS_MOST solids. If one of these solids contains two particles at most `reach` apart, no void is between them. */
+/* Returns which convex solids of its body contain particle i, one bit each, or ALONE if a single solid is within
+ * `reach` [m] of the particle and contains it. Returns 0 if a subtracted or intersected solid is near, or if the body
+ * has more than SOLIDS_MOST solids. If one of these solids contains two particles at most `reach` apart, no void is
+ * between them. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};
@@ -212,10 +213,10 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     return within == 1 && inside ? ALONE : inside;
 }
 
-/* Returns VOID_NEAR if a segment from particle i to a particle of its body in `near` leaves the body, else 0. Adds
- * VOID_ACROSS if both surfaces that the segment crosses face each other. depth[n_all]: lower bounds of the distances
- * of particles from the surface [m]; a segment that the balls of these radii around its ends cover is inside.
- * inside[n_all]: sets of convex solids that contain each particle, as bits. */
+/* Returns VOID_NEAR if the segment from particle i to a particle of its body in `near` leaves the body, else 0. Adds
+ * VOID_ACROSS if the two surfaces that such a segment crosses face each other. depth[n_all]: lower bounds of the
+ * distances of particles from the surface [m]; a segment is inside if the balls of these radii around its ends cover
+ * it. inside[n_all]: convex solids that contain each particle, one bit each. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

@@ -15,7 +15,8 @@ void voxels_free(struct voxels *v)
     *v = (struct voxels){0};
 }
 
-/* Returns the index along axis d of the voxel that contains X[dim]; limited to -1 .. n, so that it fits an integer. */
+/* Returns the index along axis d of the voxel that contains X[dim], limited to -1 .. n where n is the number of voxels,
+ * so that it fits an integer. */
 static int64_t voxel_along(const struct voxels *v, const real *X, int d)
 {
     const real at = floor((X[d] - v->from[d]) / v->size[d] + BORDER);
@@ -71,8 +72,8 @@ static int64_t padded(const struct voxels *v, int64_t n[DIM_MAX])
     return all;
 }
 
-/* Computes f, the squared distances of all voxels of the padded grid from the nearest voxel with f = 0 [m^2], axis by
- * axis. On entry f is 0 or infinite. The padded grid has one more voxel on each side. */
+/* Computes the squared distance of each voxel of the padded grid from the nearest voxel with f = 0, in f [m^2], axis by
+ * axis. On entry f is 0 or infinite. The padded grid is the image with one more voxel on each side. */
 static void grid_distances(const struct voxels *v, float *f)
 {
     int64_t n[DIM_MAX], stride = 1, all = padded(v, n);
