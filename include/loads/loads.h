@@ -103,7 +103,7 @@ static inline bool boundary_formula_uses_time(const struct boundary *b)
 }
 
 /* Returns the time at which the formulas of boundary b are evaluated at time t [s]: b->frozen_at in static problems,
- * else t, but not beyond b->end. */
+ * else t, or b->end if that is earlier. */
 static inline real boundary_evaluation_time(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
@@ -115,7 +115,8 @@ static inline bool boundary_applies_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
-/* Returns true if boundary b holds its components at rest. */
+/* Returns true if boundary b holds its components at rest: it prescribes a velocity or displacement of 0. dim:
+ * dimension of the body. */
 static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
@@ -168,17 +169,17 @@ static inline bool particle_is_loaded(const struct loads *l, int64_t i)
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
 }
 
-/* Returns true if boundary b is a mirror that also prevents motion along its plane; false in 1D (dim = 1), where such a
- * mirror is a plane of symmetry. */
+/* Returns true if boundary b is a mirror that also prevents motion along its plane. In 1D (dim = 1) there is no such
+ * motion, and false is returned. */
 static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Finds the particles in the region of boundary b (of a clamped mirror those in its plane) and stores them in l,
- * ascending, with their shares (areas, volumes or masses). Sets FLAG_DRIVEN on particles with prescribed motion.
- * spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region without particles or a
- * traction on particles without a free face. */
+/* Finds the particles on which boundary b acts, those in its region (for a clamped mirror those in its plane), and
+ * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles
+ * with prescribed motion. spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region
+ * without particles or a traction on particles without a free face. */
 status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Sets selected[i] = 1 for the particles i < p->n in the region and body of boundary b, 0 for all others. spacing:
@@ -196,9 +197,10 @@ struct exposed_face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
 
-/* Computes the areas of the particles on the exposed face of boundary b, among those with selected[i] = 1, into f.
- * selected: [p->n]; spacing: lattice spacing [m]. extrapolate: extrapolate tangential tractions to the face from the
- * first two particles of each column, instead of the first one. Release with exposed_face_free. */
+/* Computes the areas of the particles on the face of boundary b, among those with selected[i] = 1 that no particle
+ * covers, and stores them in f. selected: [p->n]; spacing: lattice spacing [m]; extrapolate: true to extrapolate
+ * tangential tractions to the face from the first two particles of each column normal to it, false to apply them to the
+ * first one. Release with exposed_face_free. */
 void exposed_face_make(struct exposed_face *f, const struct boundary *b, const struct particles *p,
                        const uint8_t *selected, real spacing, bool extrapolate);
 
@@ -206,8 +208,8 @@ void exposed_face_make(struct exposed_face *f, const struct boundary *b, const s
 void exposed_face_free(struct exposed_face *f);
 
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
- * leaves other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected,
- * in_layer: [p->n]; spacing: lattice spacing [m]. */
+ * leaves other entries unchanged. In a column of particles normal to the face the layer ends at the first gap.
+ * selected, in_layer: [p->n]; spacing: lattice spacing [m]. */
 void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                      uint8_t *in_layer);
 
@@ -216,7 +218,8 @@ void face_mark_layer(const struct boundary *b, const struct particles *p, const 
 typedef void face_particle_fn(void *context, int32_t particle, real area);
 
 /* Calls visit(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
- * particles along its normal; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
+ * particles along its normal; walls of holes count as such ends, too. selected: [p->n]; spacing: lattice spacing
+ * [m]. */
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, face_particle_fn *visit, void *context);
 
@@ -265,15 +268,17 @@ void load_force_on_particle(const struct load *l, const struct particles *p, int
  * the work; it is not weighted if the forces sum to zero. */
 void load_sum_force_and_mean_displacement(struct load *l, const struct particles *p, real t);
 
-/* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
- * number `entry` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
- * Not defined for prescribed rotations. */
+/* Computes the value that the boundary of load l prescribes at its particle number `entry` at time t [s]:
+ * boundary.value times its function of time and its formula. value: receives dim components in the unit of
+ * boundary.value, for example a traction [Pa]; it is not multiplied by the area, volume or mass of the particle, nor by
+ * the spatial profile of a body force. Not defined for prescribed rotations. */
 void load_value_at_particle(const struct load *l, const struct particles *p, int64_t entry, real t, real *value);
 
-/* Creates the loads of `boundaries` boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends
- * mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Make the bonds afterwards. boundary:
- * borrowed; spacing: lattice spacing [m]; optional_arrays: as in particles_make. Returns REFUSED, with a message, if a
- * boundary has no particles or no free face, or a mirror is misplaced. Release: loads_free. */
+/* Creates the loads of boundary[boundaries]: finds the particles of each, sets FLAG_DRIVEN on particles with prescribed
+ * motion, and appends mirror images of the particles within `mirror_reach` [m] of mirror planes to p. Must be called
+ * before the bonds are made. boundary: kept by reference; spacing: lattice spacing [m]; optional_arrays: optional
+ * arrays of p, sum of WITH_*. Returns REFUSED, with a message, if a boundary has no particles or no free face, or a
+ * mirror is misplaced. Release with loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int boundaries, struct particles *p, real spacing,
                   real mirror_reach, int optional_arrays);
 
@@ -307,9 +312,9 @@ void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
  * mirror plane. */
 status absorbing_boundaries_check(const struct loads *l, const struct particles *p);
 
-/* Creates the dashpots on the particles of all absorbing faces; call after loads_make. impedance[m]: wave impedances of
- * the materials, [materials], for the method m that moves a particle (enum moved_by); borrowed. Release with
- * absorbing_dashpots_free. */
+/* Creates the dashpots on the particles of all absorbing faces. Must be called after loads_make.
+ * impedance[m][material]: wave impedances of the materials for particles that are moved by m (enum moved_by: bonds,
+ * grid or mesh), kept by reference. Release with absorbing_dashpots_free. */
 void absorbing_dashpots_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
 /* Releases the dashpots of all absorbing faces. */
@@ -319,9 +324,9 @@ void absorbing_dashpots_free(struct loads *l);
  * dt_velocity: duration of the velocity update [s]. Part of loads_complete_particle_forces. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
-/* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
- * loads_prescribe_grid_velocities. The rates of particles are distributed to the nodes by the kernel kernels->spread.
- * half_width: half the reference edge of a particle, l_p [m]. */
+/* Appends the absorbing dashpots of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
+ * velocities of nodes are set. The coefficients of the dashpots on particles are distributed to the nodes by the kernel
+ * kernels->spread. half_width: half the reference edge of a particle [m]. */
 void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
@@ -345,16 +350,16 @@ struct prescribed_displacement {
 };
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body; b:
- * borrowed. */
+ * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body; b: kept
+ * by reference. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
 /* Returns component `component` of the prescribed displacement at the reference position X (dim components [m]) [m].
  * The boundary must prescribe this component. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
-/* Computes the displacement that load l prescribes for its particle number `entry` at time t [s]. displacement: dim
- * components [m], 0 where not prescribed. */
+/* Computes the displacement that load l prescribes for its particle number `entry` (an index of l->particle) at time t
+ * [s]. displacement: dim components [m], 0 where not prescribed. */
 void load_displacement_of_particle(const struct load *l, const struct particles *p, int64_t entry, real t,
                                    real *displacement);
 
@@ -371,12 +376,13 @@ struct prescribed_motion {
 };
 
 /* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
- * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: borrowed. */
+ * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: kept by reference. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step (l->ended) a prescribed displacement continues at its previous velocity,
- * so that a change of motion beyond the end enters no work. */
+/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], prepared for
+ * evaluation at many positions by prescribed_velocity_at. After the last step (l->ended) a prescribed displacement
+ * continues at its previous velocity, so that a change of motion beyond the end does no work. dim: dimension of the
+ * body. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
@@ -444,11 +450,12 @@ void loads_clear_forces(struct loads *l, struct particles *p);
  * the step of size dt [s]. */
 void loads_complete_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
- * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
- * mirror plane move as mirror images if the plane is on a node or midway between two, else they are constrained like
- * nodes on the plane. driven_nodes: constrained nodes of this grid, kept between calls, zeroed at first. half_width:
- * half the reference edge of a particle [m]. Call after the first particle-to-grid map. */
+/* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]. These are nodes in
+ * the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to points
+ * with prescribed motion. Nodes beyond a mirror plane move as mirror images if the plane is on a node or midway between
+ * two, else they are constrained like nodes on the plane. driven_nodes: constrained nodes of this grid, kept between
+ * calls, zeroed at first. kernels: maps between points and nodes; half_width: half the reference edge of a particle
+ * [m]. Must be called after the first particle-to-grid map. */
 void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *driven_nodes, struct grid *g,
                                      const struct particles *p, const struct kernels *kernels, real half_width, real t,
                                      real dt);
@@ -457,8 +464,8 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */
 void loads_find_driven_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes found by loads_find_driven_mesh_nodes, for the step dt about t
- * [s]. */
+/* Sets the prescribed velocities (walls) of the mesh nodes that loads_find_driven_mesh_nodes has found, for the step of
+ * size dt about t [s]. */
 void loads_prescribe_mesh_velocities(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
@@ -471,9 +478,9 @@ void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_se
 void loads_prescribe_coarse_velocities(const struct loads *l, const struct constrained_set *driven_nodes,
                                        struct grid *g, real t, real dt);
 
-/* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
- * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
- * Returns true if the position of a point on a grid was changed. */
+/* Imposes prescribed motion after the grid-to-particle transfer of the step of size dt about t [s]. Sets the velocity
+ * of material points, and the position of particles with prescribed displacement, to the exact values. Adds the work of
+ * applied forces to l->work. Returns true if the position of a point on a grid was changed. */
 bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
@@ -486,9 +493,9 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
-/* Converts the `boundaries` boundary conditions in `boundary` to those of a static problem in pseudo-time, copied into
- * `static_boundary`: forces have their value at time `duration` [s], prescribed motion its displacement until then.
- * Both grow linearly from 0 at pseudo-time 0 to full size at `ramp_time` [s] and stay constant. */
+/* Converts boundary[boundaries] to boundary conditions of a static problem in pseudo-time and stores these in
+ * static_boundary[boundaries]. Forces have their value at time `duration` [s], prescribed motion its displacement until
+ * then. Both grow linearly from 0 at pseudo-time 0 to full size at `ramp_time` [s] and then remain constant. */
 void static_boundaries_make(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
                             real duration, real ramp_time);
 
@@ -499,16 +506,16 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
                                         real *const *displacement, uint8_t *driven_components);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
- * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns the moment of
- * the loads over the largest moment that forces of this size could have [1]. */
+ * loads with a moment have an equilibrium, for example loads on scattered particles of an irregular lattice. Returns
+ * the moment of the loads over the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
 /* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to p->f
  * [N]. */
 void loads_add_static_forces(const struct loads *l, struct particles *p);
 
-/* Sets the reaction of each support to minus the sum of the forces p->f on its driven components, then sets these
- * forces to 0 in p. Reactions of other loads become 0. */
+/* Sets the reaction of each support to minus the sum of the forces p->f on those components whose motion it prescribes,
+ * then sets these components of p->f to 0. Reactions of other loads become 0. */
 void loads_collect_static_reactions(struct loads *l, struct particles *p);
 
 /* Computes the work of loads that grow in proportion on a linear body: stores half the sum of applied forces times
