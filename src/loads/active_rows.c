@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-/* Returns the activity level of row blocks in motion, the highest one: 1 + the number of row blocks over which
- * forces spread in a step. Forces reach over two horizons in state-based models (level 3), over one in bond-based
- * models (level 2). b: bonds of the body. */
+/* Returns the highest activity level, that of row blocks in motion: 1 + the number of row blocks (groups of LANES rows
+ * of bonds, one row for each particle) over which forces spread in a step. Forces reach over two horizons in
+ * state-based models (level 3), over one in bond-based models (level 2). b: bonds of the body. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 /* Returns true if a particle of row block `row_block` has left its reference position, i.e. if x and X differ in any
@@ -43,9 +43,9 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
     return row < 0 ? -1 : row / LANES;
 }
 
-/* Raises the activity level of row block `row_block` to `level`, and the levels of the row blocks of its neighbours to
- * level - 1, recursively down to 1. Levels never decrease here. Row blocks of level 0 are inactive: the bond sweep
- * skips them. */
+/* Raises the activity level of row block `row_block` to `level`, and recursively those of the row blocks of its
+ * neighbours to level - 1, down to 1. Levels are never lowered here. Row blocks, groups of LANES rows of bonds, have
+ * level 0 while they are inactive: their bond forces are not computed. */
 static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                                int level)
 {
@@ -78,8 +78,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
 }
 
 /* Recomputes the activity levels b->active.level of all row blocks (LANES rows of bonds each): the highest level for
- * row blocks in motion, one less for each bond on the way to them, 0 for the rest. Must be called after rows were
- * rebuilt. */
+ * row blocks in motion, one less for each bond between a row block and these, at least 0. Must be called after rows
+ * were rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
@@ -95,9 +95,10 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Raises the activity levels of the row blocks that have begun to move since the last call, and of their neighbours,
- * and rebuilds the list of active row blocks. Tests only active row blocks below the highest level, since motion
- * reaches the others through them. Sets b->active.over when no active row block is below the highest level. */
+/* Raises the activity levels of the row blocks (LANES rows of bonds each) that have begun to move since the last call,
+ * and of their neighbours, and rebuilds the list of active row blocks. Tests only active row blocks below the highest
+ * level, since motion reaches others only through these. Sets b->active.over when no active row block is below the
+ * highest level. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

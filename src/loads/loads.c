@@ -10,9 +10,9 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Marks particles in l->loaded[p->n + LANES]: LOADED if a load acts on them, MOVES_LATER if they are within reach of
- * a clamped mirror plane. Lists the marked particles in l->list, in ascending order. Allocates both arrays, unless
- * no particle can be marked. */
+/* Marks particles in l->loaded[p->n + LANES]: LOADED if a load acts on them, MOVES_LATER if bonds across a clamped
+ * mirror plane may act on them. Lists the marked particles in l->list, in ascending order. Allocates both arrays,
+ * unless no particle can be marked. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -91,7 +91,7 @@ void loads_free(struct loads *l)
 
 /* Prescribes the velocity of the peridynamic particles of a load: replaces their force by m (v_prescribed -
  * v)/dt_velocity. The difference from the previous force is the force of the support. Its impulse is added to
- * l->impulse and its work to l->constraint_work; load->reaction becomes the sum of the previous forces. by: the
+ * l->impulse and its work to l->constraint_work; load->reaction becomes minus the sum of the previous forces. by:
  * motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
@@ -159,9 +159,9 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Updates load->displacement [m] by one step: stores a prescribed displacement, or integrates a prescribed velocity
- * over the step. If the values differ between particles, uses their mean. by: motion that the load prescribes in
- * this step. */
+/* Updates load->displacement [m], the displacement of a support, by one step: stores a prescribed displacement, or
+ * integrates a prescribed velocity over the step. If the values differ between particles, uses their mean. by: motion
+ * that the load prescribes in this step. */
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;
@@ -226,9 +226,9 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
  * driven. */
 #define OFF_PLACE 1e-6
 
-/* Moves the particles of a load with prescribed displacement to their positions at the end of the step. Points of a
- * mesh are skipped. A particle that bonds move is moved only if it is within OFF_PLACE spacings of that position.
- * by: motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
+/* Moves the particles of a load with prescribed displacement to their positions at the end of the step, except points
+ * of a mesh. A particle moved by bond forces is set to that position only if it is within OFF_PLACE spacings of it. by:
+ * motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
 static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
                           real spacing)
 {

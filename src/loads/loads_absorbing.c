@@ -12,8 +12,8 @@
 /* Returns true for an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
-/* Returns true if two absorbing loads act on the same face of one particle: they have equal face axis and side, and
- * a common particle with area. */
+/* Returns true if two absorbing loads act on the same face of at least one particle: the faces have equal axis and
+ * side, and the loads have a common particle with an area. */
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
@@ -88,9 +88,9 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the coefficient of the dashpot on particle number q of an absorbing load for motion along axis d [kg/s]:
- * area of the particle times wave impedance of its material, normal or tangential to the face. by: what moves the
- * particle (bonds, grid or mesh); on grids the area extrapolated to the face is used. */
+/* Returns the coefficient of the dashpot on particle number q of an absorbing load for motion along axis d [kg/s]: area
+ * of the particle times wave impedance of its material, normal or tangential to the face. by: what moves the particle
+ * (bonds, grid or mesh); on grids the area extrapolated to the face is used. a: impedances of the materials. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -114,8 +114,8 @@ static int64_t dashpot_of(const struct absorbing *a, int32_t i)
 }
 
 /* Sets the dashpot coefficients of particles moved by bonds to 0 in components that a support or a clamped mirror
- * prescribes, so that the reaction of the support contains no dashpot force. (On grids, dashpots_hold does so at
- * nodes of prescribed velocity.) */
+ * prescribes, so that the reaction of the support contains no dashpot force. On grids, dashpots_hold does this for
+ * nodes of prescribed velocity. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -239,7 +239,7 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
     if (held) held->rate[component] = 0;
 }
 
-/* Returns an array of n numbers, all 0. The memory belongs to a, and the next call reuses it. */
+/* Returns an array of n numbers, all 0. The array belongs to a, and the next call reuses it. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
     GROW("loads.field", a->field, n);
@@ -274,8 +274,9 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
 }
 
 /* Returns the fraction of the face area of a particle that corner `corner` of its mesh cell receives [1]. A cell has
- * 2^dim integration points, one in each of its 2^dim parts of equal size; bit d of `place` and `corner` is 1 for the
- * upper half along axis d. The face is half a spacing in front of the point, along `axis` towards `side` (-1 or 1). */
+ * 2^dim integration points, one in each of its 2^dim parts of equal size. place: number of the part with the particle;
+ * bit d of `place` and `corner` is 1 for the upper half along axis d. The face is half a spacing in front of the point,
+ * along `axis` towards `side` (-1 or 1). */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);

@@ -18,9 +18,9 @@ static bool same_particles(const struct load *a, const struct load *b)
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Looks for an equal array to the shares (area, volume or mass of each particle) of component d of load b, among
- * earlier components and loads on the same particles. If there is one, load b uses it and frees its own. dim: number
- * of components. */
+/* Lets component d of load b use an equal array of shares (area, volume or mass of each particle) of an earlier
+ * component or load on the same particles, and frees its own array. Does nothing if there is no equal array. dim:
+ * number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -34,9 +34,9 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Sets the leader of load b: the first load on the same list of particles, or b itself. Load b then uses arrays of
- * shares (areas, volumes, masses) of earlier loads of that leader if they are equal. Allocates in the leader the
- * previous positions, from which work is computed. dim: number of components. */
+/* Sets the leader of load b: the first load on the same list of particles, or b itself. If earlier loads of that leader
+ * have equal arrays of shares (areas, volumes, masses), load b uses these. Allocates in the leader the previous
+ * positions, from which work is computed. dim: number of components. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -63,8 +63,8 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim)
     }
 }
 
-/* Returns true if component d of load b has its array of shares (areas, volumes, masses) in common with an earlier
- * load or an earlier component, which frees it. */
+/* Returns true if an earlier load or component uses the same array of shares (areas, volumes, masses) as component d of
+ * load b, and frees it. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -94,9 +94,9 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads with leader `leader` in *a, one term for each distinct array of shares (areas,
- * volumes, masses). factor[l->n]: present factor of each load's value [1]. Returns false if no load of this leader
- * has component d. */
+/* Collects component d of all loads with leader `leader`, the first load on a list of particles, in *a: one term for
+ * each distinct array of shares (areas, volumes, masses). factor[l->n]: current factor of each load's value [1].
+ * Returns false if none of these loads has component d. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -113,8 +113,8 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Computes force[end - first], the forces on the particles number first .. end - 1 of a list: force = sum of value *
- * share over the terms of a [N]. */
+/* Computes force[end - first], component d of the applied forces on the particles number first .. end - 1 of the list
+ * of a [N]: the sum of value * share over the terms of a. */
 static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
@@ -123,8 +123,8 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds `force` [N] to the force on particle i, number k of the list, and stores the present coordinate of the
- * particle in a->before[k]. Returns `force`. */
+/* Adds `force` [N] to the force on particle i, which is number k of the list of a, and stores the current coordinate of
+ * the particle in a->before[k]. Returns `force`. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -132,8 +132,8 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
-/* Returns the work of `force` [N] on particle i, number k of the list, over its displacement since a->before[k] was
- * stored [J]. */
+/* Returns the work [J] of `force` [N] on particle i, which is number k of the list of a, over its displacement since
+ * its coordinate was stored in a->before[k]. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);
@@ -147,7 +147,7 @@ static bool follow_each_other(const int32_t *particle, int64_t first, int64_t en
 
 /* Returns the sum of one(a, k, i, force[k - first]) over k = first .. end - 1, with i = a->particle[k], in LANES
  * partial sums. k: number in the list of particles; force[end - first] [N]; dense: true if the indices of these
- * particles are consecutive, a constant of the compiler. */
+ * particles are consecutive, known at compile time. */
 static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a,
                                     int64_t first, int64_t end, const real *force, const bool dense)
 {
@@ -187,9 +187,9 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the mean of time function f over the velocity update (kick) from t - dt_velocity to t [s], by the
- * trapezoidal rule [1]. The value at the end of the kick alone would be half a step late, a first-order error. A
- * load that switches at a whole step keeps its full impulse: half of it is in the kick that contains the switch. */
+/* Returns the mean of the time function f over the velocity update from t - dt_velocity to t [s], by the trapezoidal
+ * rule [1]. The value at the end of the update alone would be half a step late, a first-order error. With the mean, a
+ * load that switches at a whole step keeps its full impulse: half of it is in the update that contains the switch. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
@@ -215,10 +215,10 @@ void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velo
         }
 }
 
-/* Returns the factor of a load for its work over the position update (drift) of the step of size dt about t [s]: the
- * mean of time function f over the velocity updates (kicks) before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4
- * [1]. With kicks F_n and drifts v dt between them, the change of m v- . v+/2 equals sum (F_n + F_n+1)/2 . v dt
- * exactly, however short a load is. */
+/* Returns the factor of a load for its work over the position update of the step of size dt about t [s] [1]. It is the
+ * mean of the time function f over the velocity updates before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4. With
+ * the forces F_n of the velocity updates and position updates v dt between them, the change of m v- . v+/2 equals sum
+ * (F_n + F_n+1)/2 . v dt exactly, however short a load is. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +

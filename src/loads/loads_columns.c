@@ -43,16 +43,18 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the edge of the cube (in 2D the square) of particle i [m]: (volume/section)^(1/dim), or the spacing of the
- * scene if the boundary has no section. For particles of a body with equal volumes the mean width c->width is used. */
+/* Returns the edge of the cube (in 2D the square) that represents particle i [m]: (volume/section)^(1/dim), or the
+ * spacing of the scene if the boundary has no section. For particles of body c->body with equal volumes the mean width
+ * c->width is used. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
-/* Computes c->width, the mean edge of the particles' cubes in body c->body [m], and c->even, true if all of them have
- * one volume within EVEN. A width within EVEN of the lattice spacing is set to the spacing. */
+/* Computes c->width, the mean edge of the cubes that represent the particles of body c->body [m], and c->even, true if
+ * all of them have one volume up to the relative difference EVEN. A width that differs from the lattice spacing by less
+ * than EVEN is set to the spacing. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -68,9 +70,10 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* Finds a lattice site of body c->body along axis d, at or near coordinate `low`, and stores its coordinate in *site
- * [m]. Positions are mapped to angles on a circle of one particle width, and the mean direction gives the site. Uses
- * at most about SITES_SAMPLED particles. Returns false if the particles have no order along d. */
+/* Finds the coordinate of a lattice site of body c->body along axis d, at or near coordinate `low`, and stores it in
+ * *site [m]. Coordinates are mapped to angles on a circle whose circumference is one particle width, and the mean
+ * direction gives the site. Uses at most about SITES_SAMPLED particles. Returns false if the particles have no order
+ * along d. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -86,9 +89,9 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Computes the axes across the columns (parallel to the normal of b's face), the distance c->step of columns, and
- * c->middle, the middle line of column 0 along each of these axes [m]. Columns are at lattice sites if particles are
- * ordered and have one volume, else there are FINE columns per particle width. */
+/* Computes the axes across the columns of particles, which are parallel to the normal of b's face; c->step, the
+ * distance of columns; and c->middle, the middle line of column 0 along each of these axes [m]. Columns are at lattice
+ * sites if particles are ordered and have one volume, else there are FINE columns per particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -137,8 +140,8 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Returns the number of the column with position key `key`. If there is none, appends one if `make` is true, else
- * returns -1. */
+/* Returns the number of the column whose position has the key `key`. If there is none, appends one if `make` is true,
+ * else returns -1. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -153,7 +156,8 @@ struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
 
-/* Returns the range of columns whose middle lines pass through the cube of particle i. width: edge of the cube [m]. */
+/* Returns the range of columns whose middle lines pass through the cube that represents particle i. width: edge of the
+ * cube [m]. */
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
 {
     struct span s = {{0, 0}, {1, 1}};
@@ -164,9 +168,9 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Counts particle i in c->count of each column through its cube (`put` false), or stores it in c->order there (`put`
- * true). While counting, a particle of body c->body creates columns that do not exist; a particle of another body is
- * counted in existing columns only. */
+/* Enters particle i in each column whose middle line passes through its cube: counts it in c->count (`put` false), or
+ * stores it in c->order (`put` true). While counting, a particle of body c->body creates columns that do not exist; a
+ * particle of another body is counted in existing columns only. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -189,8 +193,8 @@ static real loads_columns_height(const struct boundary *b, const struct particle
     return b->side * p->X[b->face][i];
 }
 
-/* Returns true if particle i is lower than particle j along the outward normal of boundary b's face. Equal heights are
- * ordered by index. */
+/* Returns true if particle i is lower than particle j along the outward normal of boundary b's face. Particles of equal
+ * height are ordered by index. */
 static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||
@@ -260,8 +264,8 @@ static real behind(const struct columns *c, const struct boundary *b, const stru
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Returns the index in c->order of the highest exposed particle of column `column` among indices below `from`, or -1
- * if there is none. An exposed particle is selected and has no particle within GAP widths in front of it.
+/* Returns the index in c->order of the highest exposed particle of column `column` among indices below `from`, or -1 if
+ * there is none. A particle is exposed if it is selected and no particle is within GAP particle widths in front of it.
  * selected[p->n]: 1 for particles in the region of boundary b. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
@@ -275,7 +279,7 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
     return -1;
 }
 
-/* Returns the index in c->order of the first exposed particle of column `column`, seen from outside the face of
+/* Returns the index in c->order of the exposed particle of column `column`, the first one seen from outside the face of
  * boundary b. Returns -1 if the column has none, or if that particle belongs to another body. selected[p->n]: 1 for
  * particles in the region of b. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
@@ -285,8 +289,8 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the next particle of body c->body behind the one at index k of column `column`, at
- * least BENEATH widths behind it. Returns -1 if the column ends, or has a hole of more than GAP widths there. */
+/* Returns the index in c->order of the next particle of body c->body in column `column`, at least BENEATH particle
+ * widths behind the one at index k. Returns -1 if the column ends, or has a hole of more than GAP widths there. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -298,13 +302,13 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` to the areas f [m^2] of its first exposed particle and, for tangential
- * components, of the next one. Tangential traction acts on the face, half a spacing outside the first particle, and
- * this offset would cause a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the stress. So
- * the first particle gets 3/2 of the tangential area and the next one -1/2, a linear extrapolation that keeps force
- * and first moment. Without a next particle, or if `two` is false, the first one gets all of it. selected[p->n]: 1
- * for particles in the region of b; area: of the column [m^2], or 0 for the volume of its first particle over its
- * width. */
+/* Adds the area of column `column` to the areas f [m^2] of its exposed particle (the first one from outside) and, for
+ * tangential components, of the next one. Tangential traction acts on the face, half a spacing outside the first
+ * particle, and this offset would cause a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the
+ * stress. So the first particle gets 3/2 of the tangential area and the next one -1/2, a linear extrapolation that
+ * preserves force and first moment. Without a next particle, or if `two` is false, the first one gets all of it.
+ * selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 for the volume of its first
+ * particle over its width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {
@@ -318,8 +322,8 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Returns the cross-section of a column [m^2]: volume of a cubic particle over its height. It is less if columns are
- * finer than particles. Returns 0 if boundary b has no section. dim: number of dimensions. */
+/* Returns the cross-section of a column of particles [m^2]: volume of a cubic particle over its height, or less if
+ * there are several columns per particle width. Returns 0 if boundary b has no section. dim: number of dimensions. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;

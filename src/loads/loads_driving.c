@@ -24,7 +24,7 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
 /* ---- displacements ----------------------------------------------------------------------------------------------- */
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * prescribed_displacement_at: evaluates the function of time and the rotation once. */
+ * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
 {
     struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_evaluation_time(b, t)};
@@ -69,7 +69,7 @@ status boundary_check_displacement_known(const struct boundary *b)
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
 /* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
- * evaluation at many positions by prescribed_velocity_at. */
+ * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt)
 {
     struct prescribed_motion s = {
@@ -152,8 +152,8 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
     return most;
 }
 
-/* Returns the difference between the velocity that load l prescribes for its particle number k and the present
- * velocity of the particle [m/s]; for rotations, the difference of their speeds. by: motion that l prescribes now. */
+/* Returns the difference between the velocity that load l prescribes for its particle number k and the current velocity
+ * of the particle [m/s]; for rotations, the difference of their speeds. by: motion that l prescribes in this step. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {

@@ -6,10 +6,11 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Returns the step to which coordinates along `axis` of particles with images are rounded [m], or 0 if all mirrors
- * of this axis are at 0. It is the last bit of twice the farthest coordinate plus `reach` [m], so that reflection
- * causes no rounding. The force of particle i on the image of j then cancels that of j on the image of i to the last
- * bit; otherwise round-off of bond lengths would move slow bodies. boundary[n]: boundaries of the scene. */
+/* Returns the step to which coordinates along `axis` of particles with mirror images are rounded [m], or 0 if all
+ * mirrors of this axis are at 0. It is the last bit of twice the farthest coordinate plus `reach` [m], so that
+ * reflection causes no rounding. The force of particle i on the image of j then cancels that of j on the image of i to
+ * the last bit. Otherwise round-off of bond lengths would move slow bodies. boundary[n]: boundaries of the scene;
+ * reach: length of the longest bonds. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
@@ -28,9 +29,9 @@ static real stepped(const struct loads *l, int axis, real place)
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Appends the images of mirror number `which` to p and l->image: of all particles and earlier images (for corners)
- * of its body that are within `reach` of the plane [m]. Particles on the plane have no image. Positions of the
- * sources are rounded to multiples of l->place_step. optional: which optional particle arrays to allocate. */
+/* Appends the mirror images that mirror number `which` makes of its body to p and l->image: of all particles, and of
+ * images made before (for corners), within `reach` of the plane [m]. Particles on the plane have no image. Positions of
+ * the sources are rounded to multiples of l->place_step. optional: optional arrays of p, sum of WITH_*. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -80,8 +81,8 @@ void loads_update_mirror_images(const struct loads *l, struct particles *p)
     }
 }
 
-/* Returns REFUSED, with a message, if particles of the mirror's body are on both sides of its plane: images would
- * coincide with particles. b: the mirror; spacing: lattice spacing [m]. */
+/* Returns REFUSED, with a message, if particles of the body of mirror b are on both sides of its plane, because images
+ * would coincide with particles. spacing: lattice spacing [m]. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -106,9 +107,9 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than `reach`, the reach
- * of bonds [m]. A particle between close mirrors would have bonds to images of images on both sides, of which only
- * one exists; the forces would have no potential, and no time step would be stable. b[n]: boundaries of the scene;
+/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than `reach`, the length of
+ * the longest bonds [m]. A particle between such mirrors would have bonds to images of images on both sides, of which
+ * only one exists. The forces would have no potential, and no time step would be stable. b[n]: boundaries of the scene;
  * spacing: lattice spacing [m]. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {

@@ -26,8 +26,8 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Checks that the formulas of load l have finite values at all of its particles at time t [s]. Returns status `fault`,
- * with a message, if one has not. */
+/* Checks that the formulas of load l have finite values at all of its particles at time t [s]. Returns `fault`, with a
+ * message, if one has not, else OK. */
 static status formula_finite(const struct load *l, const struct particles *p, real t, status fault)
 {
     const struct boundary *b = l->boundary;
@@ -52,9 +52,9 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
     return OK;
 }
 
-/* Allocates an array of shares (area, volume or mass of each particle) for each component of load l, in place of
- * arrays that components have in common. If `with` is true, multiplies the new shares by the formula of the
- * component at time t [s]. */
+/* Allocates an array of shares (area, volume or mass of each particle) for each component of load l, in place of arrays
+ * that several components use together. with: true to multiply the new shares by the formula of the component at time t
+ * [s]. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -90,9 +90,9 @@ void load_varying_shares_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Updates the shares of component d of load l for the velocity update (kick) from t - dt to t [s]: share = half *
- * new + (1 - half) * share. The new one is the area, volume or mass times the mean of (function of time)*(formula)
- * at both times. */
+/* Updates the shares of component d of load l for the velocity update from t - dt to t [s]: share = half * new + (1 -
+ * half) * share. The new share of a particle is its area, volume or mass times the mean of (function of time) *
+ * (formula) at both times. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -105,9 +105,9 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
-/* Updates the shares (factors of each particle) of all loads that change in time, for the velocity update (kick)
- * from t - dt to t [s]. half: weight of the new shares; the previous ones have the weight 1 - half. Areas of
- * pressures that follow the surface are recomputed first. */
+/* Updates the shares (area, volume or mass of each particle, times formula) of all loads that change in time, for the
+ * velocity update from t - dt to t [s]. half: weight of the new shares [1]; the previous ones have the weight 1 - half.
+ * Areas of pressures that follow the surface are recomputed first. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -124,10 +124,10 @@ void loads_update_shares_for_velocity_update(struct loads *l, const struct parti
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Replaces the shares (factors of each particle) of loads that change in time by the mean of two: those of the
- * velocity updates before and after the position update of the step of size dt about t [s]. Must be called after the
- * position update, so that the second ones have the new positions. The work of loads over the step can then be
- * summed. */
+/* Replaces the shares (area, volume or mass of each particle, times formula) of loads that change in time by the mean
+ * of two: those of the velocity updates before and after the position update of the step of size dt about t [s]. Must
+ * be called after the position update, so that the latter have the new positions. The work of loads over the step can
+ * then be summed. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);

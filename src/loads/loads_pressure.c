@@ -25,8 +25,8 @@ struct ends {
     void *context;
 };
 
-/* Returns true if the free end of a column at particle i is in the plane of a mirror, behind which the body
- * continues. */
+/* Returns true if the free end, at particle i, of a column of particles along the axis of e->boundary is in the plane
+ * of a mirror, behind which the body continues. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;
@@ -38,8 +38,8 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Calls the function `found` of a struct ends for the free face of particle i at an end of a column, unless the face is
- * in a mirror plane. context: the struct ends; area: area of the face [m^2]. */
+/* Reports the free face of particle i at an end of a column of particles: calls the function `found` of context, a
+ * struct ends, unless the face is in a mirror plane. area: of the face [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -77,8 +77,8 @@ struct pressed {
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
-/* Adds a free face of particle i, with its outward normal along `axis` towards `side` (-1 or 1), to the summed areas
- * and, if there is one, to the list of faces. context: a struct pressed that holds both; area: area of the face
+/* Adds a free face of particle i, with its outward normal along `axis` towards `side` (-1 or 1), to the sum of areas of
+ * the particle and, if there is one, to the list of faces. context: a struct pressed that holds both; area: of the face
  * [m^2]. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {

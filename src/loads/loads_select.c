@@ -35,8 +35,8 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
 
-/* Computes the shares of body force l: volume of each particle, or its mass for gravity, times the profile of the
- * boundary at the particle. */
+/* Computes the shares of a body force l: volume of each particle [m^3], or its mass for gravity [kg], times the spatial
+ * profile of the boundary at the particle. */
 static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
@@ -45,8 +45,8 @@ static void body_shares(struct load *l, const struct particles *p)
                          profile_at(&l->boundary->profile, p, l->particle[k]);
 }
 
-/* Allocates the shares of load l (factors of its particles), [l->n] for each of dim components. A body force has one
- * array for all components. */
+/* Allocates the shares of load l, a number per particle and component by which its value is multiplied: [l->n] for each
+ * of dim components. A body force has one array for all components. */
 static void shares_allocate(struct load *l, int dim)
 {
     const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
@@ -73,9 +73,9 @@ void load_set_particles(struct load *l, const uint8_t *selected, struct particle
     if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
-/* Sets the particles of traction l to those on its exposed face, and their shares to their areas: normal area for
- * the normal component, tangential area for the others [m^2]. selected[p->n]: 1 for particles in its region;
- * spacing: lattice spacing [m]. */
+/* Sets the particles of the traction l to those on its exposed face, which no particle covers, and their shares to
+ * their areas: normal area for the normal component, tangential area for the others [m^2]. selected[p->n]: 1 for
+ * particles in its region; spacing: lattice spacing [m]. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -90,8 +90,8 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     exposed_face_free(&face);
 }
 
-/* Sets the particles of absorbing boundary l to those on its exposed face and behind it, and stores their areas
- * l->outer and l->edge (extrapolated to the face) [m^2]. selected[p->n]: 1 for particles in its region; spacing:
+/* Sets the particles of the absorbing boundary l to those on its exposed face and behind it, and stores their areas
+ * [m^2]: l->outer, and l->edge extrapolated to the face. selected[p->n]: 1 for particles in its region; spacing:
  * lattice spacing [m]. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {

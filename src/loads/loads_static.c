@@ -29,7 +29,7 @@ void static_boundaries_make(struct boundary *static_boundary, const struct bound
 static bool works_by_place(const struct boundary *b) { return b->frozen && boundary_motion_varies_in_space(b); }
 
 /* Returns component d of the final prescribed displacement of particle number k of load l [m]; for k < 0 the
- * displacement at X = 0, for loads without particles. by: displacement that the load prescribes at the end. */
+ * displacement at X = 0, which serves loads without particles. by: displacement that the load prescribes at the end. */
 static real static_displacement(const struct prescribed_displacement *by, const struct load *l,
                                 const struct particles *p, int64_t k, int d)
 {

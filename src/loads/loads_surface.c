@@ -68,8 +68,8 @@ static int by_key(const void *a, const void *b)
     return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
 }
 
-/* Returns the key of a lattice site: number `body` of its body and the indices k[dim] of the site, steps from the first
- * particle of the body, in one integer. Returns -1 if an index needs more than SITE_BITS bits. */
+/* Returns the key of a lattice site, which combines the number `body` of its body and the indices k[dim] of the site,
+ * steps from the first particle of the body, in one integer. Returns -1 if an index needs more than SITE_BITS bits. */
 static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
@@ -81,7 +81,8 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes the site k[dim] of particle i, from its body's first particle. Returns false if it is off the lattice. */
+/* Computes the lattice site k[dim] of particle i, counted in spacings from the first particle of its body. Returns
+ * false if the particle is off the lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -108,7 +109,8 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Makes the sorted list s->site of sites of all bodies with faces in f. Returns REFUSED if one is off the lattice. */
+/* Makes the sorted list s->site of the lattice sites of all bodies that have faces in f. Returns REFUSED, with a
+ * message, if a particle of these bodies is off the lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -134,7 +136,8 @@ static real mirror_steps(const struct sites *s, const struct boundary *m, int bo
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* Returns REFUSED if a mirror plane within BESIDE spacings of a face of f is not midway between lattice sites. */
+/* Returns REFUSED, with a message, if a mirror plane within BESIDE spacings of a face of f is not midway between
+ * lattice sites. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -183,8 +186,9 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of all faces of f without duplicates: sets a->corners and a->corner. Returns the corners of all
- * faces, sorted by site, with value = 4 face + position in the face; release with memory_free. */
+/* Numbers the corners of all faces of f without duplicates and sets a->corners, their number, and a->corner, the
+ * corners of each face. Returns an allocated array with the corners of all faces sorted by site, in which `value` is 4
+ * face + position in the face. Release it with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -224,8 +228,9 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds to *t the particle (or source of an image) at lattice site `site` with weight `counts`, unless it is in *t or *t
- * is full. off[dim]: steps from the site above the corner to this site. Returns false if the site is empty. */
+/* Adds the particle at lattice site `site` (or the source of an image there) to the list *t with the weight `counts`,
+ * unless *t contains it or is full. body: of the site; off[dim]: steps from the site above the corner to this site.
+ * Returns false if the site is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -242,8 +247,8 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
     return true;
 }
 
-/* Fills *t with the particles that determine the corner below lattice site `site` of body `body`. They are those whose
- * cubes meet in the corner, with weight 1, and those behind them along each axis, with weight SECOND_LAYER. */
+/* Fills *t with the particles that determine the position of the corner below lattice site `site` of body `body`: those
+ * whose cubes meet in the corner, with weight 1, and those behind them along each axis, with weight SECOND_LAYER. */
 static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
@@ -278,8 +283,9 @@ static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
     }
 }
 
-/* Computes weights w[t->n] of a corner's particles, w = counts (1 - (r - mean) . C^-1 mean)/sum counts: sum w = 1, sum
- * w r = 0. C: weighted variance of r; SINGULAR is added to its diagonal, which for thin bodies has zeros. */
+/* Computes weights w[t->n] of the particles of a corner with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) .
+ * C^-1 mean)/sum counts. r: position of a particle relative to the corner; counts: its weight in t; mean, C: weighted
+ * mean and variance of r. SINGULAR is added to the diagonal of C, which for thin bodies has zeros. */
 static void corner_weights(const struct around *t, int dim, real *w)
 {
     real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;
@@ -315,7 +321,8 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes the stencil and the reference position of every corner. all: corners of all faces f, sorted by site. */
+/* Computes the stencil of every corner, the particles and weights from which its displacement follows, and its
+ * reference position. all: corners of all faces f, sorted by site. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -359,8 +366,8 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     memory_free(place);
 }
 
-/* Fills surface a of load l from its free faces f: corners, weights, working memory. The particles that move the
- * corners become those of l, with their inward reference areas [m^2] as shares. s: sorted lattice sites. */
+/* Fills surface a of load l from its free faces f: corners, weights and working memory. The particles that move the
+ * corners become the particles of l, with their inward reference areas [m^2] as shares. s: sorted lattice sites. */
 static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
                          struct particles *p)
 {
@@ -419,7 +426,8 @@ void surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if an edge of a face is longer than s->longest: its corners x[corners] belong to different fragments. */
+/* Returns true if an edge between consecutive corners of a face is longer than s->longest: its corners then belong to
+ * different fragments. x[corners]: positions of the corners [m]. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;
@@ -431,7 +439,8 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes half the area vector of a 2D segment at each end, to[2][2] [m^2]. x: ends [m]; sign: orientation, +-1. */
+/* Computes to[2][2], half the area vector of a 2D segment for each of its ends [m^2]. x: positions of both ends [m];
+ * sign: orientation, 1 or -1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -440,8 +449,9 @@ static void segment_area(const struct surface *s, const real *const *x, real sig
     }
 }
 
-/* Adds a sixth of the area vector of triangle a, b, c to each of its corners in to[4][3] [m^2]: a third, halved because
- * the triangles of both diagonals count. x: corners of the face [m]; sign: orientation, +-1. */
+/* Adds a sixth of the area vector of the triangle of the corners a, b, c to the entry of each corner in to[4][3] [m^2].
+ * Each corner has a third of the area, halved because the triangles of both diagonals count. x: corners of the face
+ * [m]; sign: orientation, 1 or -1. */
 static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
 {
     real u[DIM_MAX], v[DIM_MAX];
@@ -463,7 +473,8 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
-/* Computes s->face_area of face q: area vector of each corner at present positions [m^2]; zero if it is torn. */
+/* Computes s->face_area of face q, an area vector for each of its corners at current positions [m^2]; zero if the face
+ * is torn, because its corners belong to different fragments. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
@@ -502,7 +513,8 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners near it. */
+/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners whose positions
+ * depend on it. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;

@@ -36,9 +36,10 @@ bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spaci
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* If the node with box indices k[dim] is beyond the mirror plane of `load`, replaces k by the indices of its mirror
- * image, and reverses the signs in *f of components that the mirror reverses. Returns false if the image is not in
- * the box. spacing: lattice spacing, to which tolerances refer [m]. */
+/* Replaces k[dim], the box indices of a node beyond the mirror plane of `load`, by the indices of its mirror image, and
+ * reverses the signs in *f of components that the mirror reverses. Does nothing if the node is not beyond the plane.
+ * Returns false if the image is not in the box, or at no node because the plane is neither on a node nor midway between
+ * two. spacing: lattice spacing, to which tolerances refer [m]. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
@@ -53,8 +54,8 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Returns true if node I is beyond mirror planes and moves as the mirror image of another node. Image, signs and mirror
- * are stored in *f. */
+/* Returns true if node I is beyond mirror planes and moves as the mirror image of another node, and stores image, signs
+ * and mirror in *f. */
 static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
@@ -93,9 +94,9 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if `load` must not constrain node I of the mesh because of its position. This concerns nodes doubled
- * by slits: the material of their cells decides whether they are driven, and on a mirror a slit may separate their
- * material from its image. Returns false without mesh or slits. */
+/* Returns true if `load` must not constrain node I of the mesh because of its position. This is so for nodes doubled by
+ * slits, gaps between cells: the material of their cells decides whether they are driven, and on a mirror a slit may
+ * separate their material from its image. Returns false without mesh or slits. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -191,8 +192,9 @@ struct driven_by {
 };
 
 /* Returns the wall (prescribed velocity) for component d of node I at x[dim] [m], with its change since the previous
- * step, which is that of the material at the node. which: number of the load; reference: true if nodes move with the
- * material, as on a mesh; a displacement then also prescribes the displacement of the node at the end of the step. */
+ * step for the material at the node. by: motion that the load prescribes; which: number of the load; reference: true if
+ * nodes move with the material, as on a mesh. A displacement then also prescribes the displacement of the node at the
+ * end of the step. */
 static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x, int d, int which, bool reference)
 {
     const struct boundary *b = by->now.boundary;
@@ -207,9 +209,9 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
     return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
 }
 
-/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from
- * its points, by l->share. Skips nodes that the region of the load constrains already: a second wall would count the
- * inertia of the node as a reaction. by: motion that this load prescribes. */
+/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from its
+ * points; their mass is in l->share. Skips nodes that the region of the load constrains already, since a second wall
+ * would count the inertia of the node as a reaction. by: motion that this load prescribes. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
                          const struct particles *p)
 {
@@ -282,9 +284,9 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds the mass that the points of `load` contribute to each node I of the mesh to share[I] [kg], and sets mark[I] =
- * 1 for these nodes. At the first contribution share[I] is overwritten, so that it need not be cleared; all marks
- * must be 0. */
+/* Adds the mass that the points of `load` contribute to each node I of the mesh to share[I] [kg], and sets mark[I] = 1
+ * for these nodes. All marks must be 0 before. At the first contribution to a node share[I] is overwritten, so that it
+ * need not be cleared. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
