@@ -115,8 +115,7 @@ static inline bool boundary_applies_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
-/* Returns true if boundary b holds its components at rest: it prescribes a velocity or displacement of 0. dim:
- * dimension of the body. */
+/* Returns true if boundary b holds its components at rest. */
 static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
@@ -218,8 +217,7 @@ void face_mark_layer(const struct boundary *b, const struct particles *p, const 
 typedef void face_particle_fn(void *context, int32_t particle, real area);
 
 /* Calls visit(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
- * particles along its normal; walls of holes count as such ends, too. selected: [p->n]; spacing: lattice spacing
- * [m]. */
+ * particles along its normal; also at walls of holes. selected: [p->n]; spacing: lattice spacing [m]. */
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, face_particle_fn *visit, void *context);
 
@@ -334,8 +332,7 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
  * loads_find_driven_mesh_nodes. */
 void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Adds the energy and impulse in `absorbed`, the effect of the dashpots of one grid or mesh in a step, to the sums in
- * l. */
+/* Adds the energy and impulse in `absorbed`, the effect of all dashpots of a grid or mesh in a step, to l. */
 void loads_add_absorbed_energy(struct loads *l, const struct absorbed *absorbed);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
@@ -379,10 +376,9 @@ struct prescribed_motion {
  * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: kept by reference. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], prepared for
- * evaluation at many positions by prescribed_velocity_at. After the last step (l->ended) a prescribed displacement
- * continues at its previous velocity, so that a change of motion beyond the end does no work. dim: dimension of the
- * body. */
+/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
+ * prescribed_motion_make. After the last step (l->ended) a prescribed displacement continues at its previous velocity,
+ * so that a change of motion beyond the end enters no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
@@ -391,8 +387,7 @@ struct prescribed_motion loads_prescribed_motion(const struct loads *l, int numb
 real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,
                             bool at_present_position);
 
-/* Returns true if the motion that boundary b prescribes differs between positions: it rotates or depends on x, y or
- * z. */
+/* Returns true if the motion that boundary b prescribes differs between positions: it rotates or depends on X. */
 static inline bool boundary_motion_varies_in_space(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
@@ -487,8 +482,7 @@ bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
-/* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing
- * [m]. */
+/* Returns true if the plane of mirror b is on a node of grid g or midway between two. spacing: lattice spacing [m]. */
 bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
@@ -510,8 +504,7 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
  * the moment of the loads over the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to p->f
- * [N]. */
+/* Adds the applied forces of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */
 void loads_add_static_forces(const struct loads *l, struct particles *p);
 
 /* Sets the reaction of each support to minus the sum of the forces p->f on those components whose motion it prescribes,

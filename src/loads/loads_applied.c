@@ -18,7 +18,7 @@ static bool same_particles(const struct load *a, const struct load *b)
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Lets component d of load b use an equal array of shares (area, volume or mass of each particle) of an earlier
+/* Makes component d of load b use an equal array of shares (area, volume or mass of each particle) of an earlier
  * component or load on the same particles, and frees its own array. Does nothing if there is no equal array. dim:
  * number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)

@@ -81,8 +81,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes the lattice site k[dim] of particle i, counted in spacings from the first particle of its body. Returns
- * false if the particle is off the lattice. */
+/* Computes the site k[dim] of particle i, from its body's first particle. Returns false if it is off the lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -109,8 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Makes the sorted list s->site of the lattice sites of all bodies that have faces in f. Returns REFUSED, with a
- * message, if a particle of these bodies is off the lattice. */
+/* Makes the sorted list s->site of sites of all bodies with faces in f. Returns REFUSED if one is off the lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -136,8 +134,7 @@ static real mirror_steps(const struct sites *s, const struct boundary *m, int bo
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* Returns REFUSED, with a message, if a mirror plane within BESIDE spacings of a face of f is not midway between
- * lattice sites. */
+/* Returns REFUSED if a mirror plane within BESIDE spacings of a face of f is not midway between lattice sites. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -186,9 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of all faces of f without duplicates and sets a->corners, their number, and a->corner, the
- * corners of each face. Returns an allocated array with the corners of all faces sorted by site, in which `value` is 4
- * face + position in the face. Release it with memory_free. */
+/* Numbers the corners of all faces of f without duplicates: sets a->corners and a->corner. Returns the corners of all
+ * faces, sorted by site, with value = 4 face + position in the face; release with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -228,9 +224,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle at lattice site `site` (or the source of an image there) to the list *t with the weight `counts`,
- * unless *t contains it or is full. body: of the site; off[dim]: steps from the site above the corner to this site.
- * Returns false if the site is empty. */
+/* Adds to *t the particle (or source of an image) at lattice site `site` with weight `counts`, unless it is in *t or *t
+ * is full. off[dim]: steps from the site above the corner to this site. Returns false if the site is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -321,8 +316,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes the stencil of every corner, the particles and weights from which its displacement follows, and its
- * reference position. all: corners of all faces f, sorted by site. */
+/* Computes the stencil and the reference position of every corner. all: corners of all faces f, sorted by site. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -426,8 +420,7 @@ void surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if an edge between consecutive corners of a face is longer than s->longest: its corners then belong to
- * different fragments. x[corners]: positions of the corners [m]. */
+/* Returns true if an edge of a face is longer than s->longest: its corners x[corners] belong to different fragments. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;
@@ -439,8 +432,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes to[2][2], half the area vector of a 2D segment for each of its ends [m^2]. x: positions of both ends [m];
- * sign: orientation, 1 or -1. */
+/* Computes half the area vector of a 2D segment at each end, to[2][2] [m^2]. x: ends [m]; sign: orientation, +-1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -449,9 +441,8 @@ static void segment_area(const struct surface *s, const real *const *x, real sig
     }
 }
 
-/* Adds a sixth of the area vector of the triangle of the corners a, b, c to the entry of each corner in to[4][3] [m^2].
- * Each corner has a third of the area, halved because the triangles of both diagonals count. x: corners of the face
- * [m]; sign: orientation, 1 or -1. */
+/* Adds a sixth of the area vector of triangle a, b, c to each of its corners in to[4][3] [m^2]: a third, halved because
+ * the triangles of both diagonals count. x: corners of the face [m]; sign: orientation, +-1. */
 static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
 {
     real u[DIM_MAX], v[DIM_MAX];
@@ -473,8 +464,7 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
-/* Computes s->face_area of face q, an area vector for each of its corners at current positions [m^2]; zero if the face
- * is torn, because its corners belong to different fragments. */
+/* Computes s->face_area of face q: area vector of each corner at present positions [m^2]; zero if it is torn. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
@@ -513,8 +503,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners whose positions
- * depend on it. */
+/* Returns the inward area along axis d of particle number k of the load [m^2], a sum over the corners near it. */
 static real particle_surface_area(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
@@ -524,8 +513,7 @@ static real particle_surface_area(const struct surface *s, int64_t k, int d)
     return area;
 }
 
-/* Computes the inward areas of all particles of the load, area[dim][s->particles] [m^2], equal on any number of
- * threads. */
+/* Computes the inward areas of all particles of the load, area[dim][s->particles] [m^2], in any number of threads. */
 void surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;
