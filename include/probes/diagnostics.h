@@ -36,8 +36,8 @@ struct diagnostics {
     int64_t bonds_broken;         /* directed bonds broken by load */
 };
 
-/* Initialises the diagnostics *w before the first time step: sums are 0, the times and positions of breaks NAN (no
- * break yet). */
+/* Initialises the diagnostics *w before the first time step: sums are 0; times and positions of breaks are NAN, since
+ * no bond has broken yet. */
 void diagnostics_make(struct diagnostics *w);
 
 /* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates
@@ -63,10 +63,10 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
  * E_0 is not positive. */
 real diagnostics_energy_change(const struct diagnostics *w);
 
-/* Finds the cuts of the present step: groups of particles whose flag FLAG_CRACKED is set and that are at most
- * `horizon` apart (fracture/places.h). list[n]: numbers of the particles that are searched; NULL for particles 0 .. n
- * - 1. horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cut, dim
- * components [m]. Returns the number of separate cuts; if it is 0, `centre` is unchanged. */
+/* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
+ * are at most `horizon` apart. list[n]: numbers of the particles that are searched; NULL for particles 0 .. n - 1.
+ * horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cluster, dim
+ * components [m]. Returns the number of clusters; if it is 0, `centre` is unchanged. */
 int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of

@@ -49,10 +49,10 @@ struct exact_front {
 };
 enum { EXACT_FRONTS = 2 };
 
-/* Computes the stress jumps of the closed-form solution at time t [s] and stores them in front[]. STEP BAR has one
- * front, the one that was reflected last; PLASTIC BAR has the elastic precursor and, if the load exceeds the yield
- * stress, the plastic front. Returns the number of fronts; 0 for solutions without jumps and for times at which the
- * closed form does not apply. */
+/* Computes the stress fronts (jumps) of the closed-form solution at time t [s] and stores them in front[]. An elastic
+ * bar under a step load (EXACT_STEP_BAR) has one front, which is reflected at both ends. A plastic bar
+ * (EXACT_PLASTIC_BAR) has the elastic precursor and, if the load exceeds the yield stress, the plastic front. Returns
+ * the number of fronts; 0 for solutions without jumps and for times at which the closed form does not apply. */
 int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
 /* Parts of a bar in which the stress of the closed-form solution is constant, at a distance from fronts and ends.

@@ -90,13 +90,14 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
 /* Frees the arrays of all probes and clears *s. Does nothing to a cleared *s. */
 void probes_free(struct probes *s);
 
-/* Computes the values of a sample of history.csv at the present positions, time o->t, and stores them in s->value.
- * Values that depend on velocities at the time of the sample or on the forces of the time step are replaced by
- * probes_sample_end. */
+/* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
+ * s->value. Values that depend on velocities at the time of the sample or on the forces of the time step are replaced
+ * later by probes_sample_end. */
 void probes_sample_begin(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
- * *s, before the time step. probes_sample_end interpolates between them and the velocities after the step. */
+ * *s. Must be called before the time step; probes_sample_end interpolates between these velocities and those after the
+ * step. */
 void probes_store_motion(struct probes *s, const struct observed_run *o);
 
 /* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
@@ -105,9 +106,9 @@ void probes_store_motion(struct probes *s, const struct observed_run *o);
  * velocities. If probes_store_motion was not called before, the body is assumed to be in equilibrium. */
 void probes_sample_end(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
-/* Updates the probes that observe every time step: BREAK and SPALL probes search for bonds that broke in the step
- * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared
- * forces. Call this function before the flags of the step are cleared. */
+/* Updates the probes that observe every time step. BREAK and SPALL probes search for bonds that broke in the step
+ * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared forces.
+ * Must be called before these flags are cleared. */
 void probes_update_every_step(struct probes *s, const struct observed_run *o);
 
 /* Updates the BREAK and SPALL probes, which search for bonds that just broke, and no other probes. Load steps call
@@ -120,8 +121,8 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
                           void (*emit)(void *context, const char *probe, const char *quantity, real value),
                           void *context);
 
-/* Type of a function that writes the `length` bytes of `text` to a file called `name`. context: argument of the same
- * name of probes_write_profiles. Returns the status of the write. */
+/* Type of a function that writes the `length` bytes of `text` to a file called `name`. context: argument that
+ * probes_write_profiles passes on. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
 /* Prints the profile of each LINE and EXACT probe as CSV text, and calls write(context, `<probe>_<frame>.csv`, text,
@@ -140,12 +141,12 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
  * without a name, if there are at most `profile` profiles. */
 bool probes_write_profile_name(const struct probes *s, int profile, int frame, char *name);
 
-/* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
+/* Copies the stress-intensity factors that the SIF probe called `name` had at its last sample, and the direction of its
  * crack tip, to *found. Returns false if the probe has no values yet. */
 bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *found);
 
-/* Computes the present position of the crack tip of the probe, two components [m], and the outer radius of its
- * contours, *radius [m]. Returns false if the probe is not a SIF probe. */
+/* Computes the current position of the crack tip of probe number `probe`, two components [m], and the outer radius of
+ * its contours, *radius [m]. Returns false if the probe is not a SIF probe. */
 bool probes_get_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real position[2],
                             real *radius);
 

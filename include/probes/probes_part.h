@@ -24,24 +24,23 @@ real particles_largest_stress(const struct particles *p);
  * probing->pulses. */
 void scene_list_pulses(const struct scene *s, struct probing *probing);
 
-/* Extends the cracks with prescribed growth by the growth of one time step, and cuts the bonds that they cross. The
- * speed and direction of cracks that a SIF probe controls follow from its stress-intensity factors. Returns the number
- * of directed bonds cut. */
+/* Extends the cracks with prescribed or controlled growth by the growth of one time step, and cuts the bonds that they
+ * cross. The speed and direction of a crack controlled by a SIF probe follow from its stress-intensity factors. Returns
+ * the number of directed bonds cut. */
 int64_t cracks_grow_one_step(struct run *e);
 
-/* Stores the largest force component on the nodes of grids and on peridynamic particles in the regions of PATCH
- * probes, in q->residual_step0 [N]. Call this function in the first step, after the forces have been computed and
- * before particles are moved. */
+/* Stores in q->residual_step0 the largest force component on nodes of the grids and on peridynamic particles in the
+ * regions of PATCH probes [N]. Must be called in the first step, after the forces have been computed and before
+ * particles are moved. */
 void patch_residual_store(struct probing *q, const struct scene *s, const struct particles *p,
                           const struct grid_method *grid);
 
-/* Updates q->residual_step0 [N] with the largest force component on nodes of a mesh of the reference frame in the
- * regions of PATCH probes. Call this function in the first step, after the forces have been computed and before nodes
- * are moved. */
+/* Raises q->residual_step0 [N] to the largest force component on nodes of a mesh of the reference frame in the regions
+ * of PATCH probes. Must be called in the first step, after the forces have been computed and before nodes are moved. */
 void patch_residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
-/* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, named after the last frame written
- * to it. o: present view of the run. Returns FAILED if a file cannot be written. */
+/* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, with the number of the last frame
+ * written to it in their names. o: view of the current state of the run. Returns FAILED if a file cannot be written. */
 status profiles_write(const struct probes *s, const struct output *out, const struct observed_run *o);
 
 /* Adds a warning to *to if profiles that belong to the frames of a resumed run are missing in the folder of `out`. */

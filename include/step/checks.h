@@ -9,9 +9,9 @@
  * speeds with it. */
 void stability_store_start_speed(struct stability *s, const struct particles *p);
 
-/* Checks a run after each time step. Returns FAILED if a particle is faster than the fastest wave or its position is
- * not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a formula of a
- * load has no finite value; the message names position, step, cause and remedy. */
+/* Checks the state of the run after a time step. Returns FAILED if a particle is faster than the fastest wave or its
+ * position is not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a
+ * formula of a load has no finite value; the message states position, step, cause and remedy. */
 status stability_check(struct run *e);
 
 /* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
@@ -35,10 +35,10 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
 
 enum { REMEDY_LENGTH = 640 };
 
-/* Writes to `text`, which holds `capacity` bytes, what the user should change in the scene: the loads, if they explain
- * the motion of the body; the time step, if `value` has grown as fast as in a run whose time step exceeds the stability
- * limit (base/rise.h); else the method or model. value: present value of the quantity that grows (square of a speed, or
- * an energy); earlier: its values before. */
+/* Writes to text[capacity] what the user should change in the scene: the loads, if they explain the motion of the body;
+ * the time step, if `value` has grown as fast as in a run whose time step exceeds the stability limit (base/rise.h);
+ * else the method or model. value: current value of the quantity that grows (square of a speed, or an energy); earlier:
+ * its previous values. */
 void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real value, char *text,
                                size_t capacity);
 

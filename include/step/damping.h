@@ -16,8 +16,8 @@ struct damping_state {
 real damping_increment_factor(real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
- * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. Returns the
- * kinetic energy that is lost [J]. */
+ * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1], with the
+ * damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
 real damping_apply_first_half_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
@@ -29,12 +29,13 @@ void damping_store_velocities(struct damping_state *s, const struct particles *p
 real damping_energy_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
- * momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. */
+ * momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1], with the damping rate c and the
+ * time step dt. */
 void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. decay: c dt
- * [1]. kinetic_before: kinetic energy before that update [J]; kinetic: 1/2 m v- . v+, with v- and v+ the velocities
- * before and after it [J]. */
+ * [1], with the damping rate c and the time step dt. kinetic_before: kinetic energy before that update [J]; kinetic:
+ * 1/2 m v- . v+, with v- and v+ the velocities before and after it [J]. */
 real damping_final_energy_loss(real decay, real kinetic_before, real kinetic);
 
 #endif

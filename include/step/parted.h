@@ -20,7 +20,8 @@ struct weak_shape {
     const char *too_little; /* by how much the force is too small [%] */
 };
 
-/* Returns the row of a shape function that is too weak for metal that is pulled; NULL for one that is not. */
+/* Returns the row of the table of shape functions that transmit too little force in metal under tension; NULL if
+ * `shape` is not among them. */
 const struct weak_shape *weak_shape_of(enum shape shape);
 
 /* Two neighbouring material points, by particle index. */
@@ -37,11 +38,12 @@ struct point_pairs {
     struct point_pair *pair; /* [n] owned */
 };
 
-/* Warns of neighbouring material points of metal, on the grid of the current frame, between which the cells are empty:
- * they share no nodes, and nothing holds them together; with linear shapes and gimp of those that are pulled so far
- * that they bear too little. Does nothing if the scene accepts large strains, and before the plastic strain of a point
- * exceeds 0.02. cells: of the particles p; t: present time [s]. Returns true if the warning that points have come apart
- * has been printed. */
+/* Warns of neighbouring material points of metal, on the grid of the current frame, that have come apart: the cells
+ * between them are empty, so that they share no nodes and no force acts between them. With linear shapes and gimp, also
+ * warns of points that are stretched apart so far that they transmit too little force. Does nothing if the scene
+ * accepts large strains, and before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p;
+ * t: current time [s]; pairs: found at the first call. Returns true if the warning that points have come apart has been
+ * printed. */
 bool parted_points_say(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                        const struct scene *s, real t, struct warnings *to);
 

@@ -64,8 +64,8 @@ struct run_report {
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };
 
-/* Returns the number of frames of the whole body that the run writes after the frame at t = 0. clock: time step and
- * number of steps of the run. */
+/* Returns the number of frames of the whole body that the run writes in addition to the frame at t = 0. clock: time
+ * step and number of steps of the run. */
 int64_t report_count_frames(const struct scene *s, const struct run_clock *clock);
 
 /* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written

@@ -10,20 +10,20 @@
  * interrupted run instead. Returns FAILED if the file cannot be written. */
 status sample_open_history(struct run *e, bool resume);
 
-/* Begins a sample, if one is due, before the time step moves particles: computes momentum, crack tips and
- * position-dependent values of probes at time t_n, and stores the velocities, which are those at t_n - dt/2 (at t = 0
- * in the first step). */
+/* Begins a sample of the state at time t_n, the start of this time step, if one is due. Must be called before the step
+ * moves particles. Computes momentum, crack tips and the values of probes that depend on positions, and stores the
+ * velocities, which are those at t_n - dt/2 (at t = 0 in the first step). */
 void sample_begin(struct run *e);
 
-/* Computes the energies of a sample, if one is due, at the positions of time t_n, except the kinetic energy. Call it
- * after the forces have been computed and before particles move. */
+/* Computes the energies of a sample, if one is due, at the positions of time t_n, the start of this time step, except
+ * the kinetic energy. Must be called after the forces have been computed and before particles move. */
 void sample_compute_energies(struct run *e);
 
-/* Completes a sample, if one is due, after particles have moved: interpolates velocities to time t_n, computes the
- * kinetic energy and the work up to t_n, and writes the line of history.csv. */
+/* Completes a sample, if one is due, after particles have moved: interpolates velocities to time t_n, the start of this
+ * time step, computes the kinetic energy and the work up to t_n, and writes the line of history.csv. */
 void sample_end(struct run *e);
 
-/* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Call it at the start of a
+/* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Must be called at the start of a
  * static run and after each load step. */
 void sample_take_in_equilibrium(struct run *e);
 
@@ -34,8 +34,8 @@ void sample_take_final(struct run *e);
 /* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */
 real sample_strain_energy(struct run *e);
 
-/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_update_every_step). In a static run, call
- * it in equilibrium states only. */
+/* Updates the probes that observe every step: BREAK, SPALL and REACTION probes. In a static run, must be called in
+ * equilibrium states only. */
 void sample_update_probes(struct run *e);
 
 /* Records the bonds that broke in this step: updates the first break of the run and the BREAK and SPALL probes, and

@@ -12,9 +12,10 @@ struct shock {
     const char *remedy; /* what the scene can do against oscillations behind the front; NULL if share is 0 */
 };
 
-/* Returns the collision with the largest `share` between two bodies, or between a body and a rigid body, within the
- * duration of a scene. The velocity of a body is that of `bodies.velocity` and of `initial` at the centre of its
- * bounding box; bodies from particle lists are left out. Returns zeros if there is none, or if its share would be 0. */
+/* Returns the collision between two bodies, or between a body and a rigid body, within the duration of a scene whose
+ * front is nearest to breaking or yielding a body (largest `share`). The velocity of a body is that of
+ * `bodies.velocity` and of `initial` at the centre of its bounding box; bodies from particle lists are left out.
+ * Returns zeros if there is no collision, or if its share would be 0. */
 struct shock scene_fastest_collision(const struct scene *s);
 
 #endif

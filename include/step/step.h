@@ -14,10 +14,10 @@ status step(struct run *e);
  * broken_bonds: number of directed bonds broken since the last call. Returns true if points have been converted. */
 bool step_convert(struct run *e, int64_t broken_bonds);
 
-/* Computes the internal forces at the present positions without moving anything: bond forces into e->part.f, and
- * forces of cells and of bonds to mesh points into the nodal forces of the mesh. Material points of the mesh that have
- * bonds, and mirror images of particles, are first brought to their present positions. Bonds stretched beyond their
- * limit break. */
+/* Computes the internal forces at the current positions without moving anything: forces of bonds in e->part.f, and
+ * forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh. Material points
+ * of the mesh that have bonds, and mirror images of particles, are first brought to their current positions. Bonds
+ * stretched beyond their limit break. */
 void run_compute_forces(struct run *e);
 
 /* Brings positions, velocities and stresses of all particles up to date, as frames need them: points of a mesh from

@@ -27,13 +27,13 @@ struct viscosity {
 };
 
 /* Adds the viscous forces of bonds to the forces of particles, computes the viscous pressure q of points on the grid,
- * and adds the energy dissipated since the previous step to viscosity.taken. Call it after the bond forces and before
- * the loads. Does nothing if no material is viscous. */
+ * and adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called after the bond
+ * forces and before the loads are added. Does nothing if no material is viscous. */
 void viscosity_add_forces(struct run *e);
 
-/* Subtracts the viscous pressure q from the normal stresses of points on the grid if `subtract` is true, before their
- * stresses are mapped to nodes. If `subtract` is false, restores the stresses without q. Does nothing if no material is
- * viscous. */
+/* Changes the normal stresses of points on the grid by the viscous pressure q: subtracts it if `subtract` is true,
+ * before stresses are mapped to nodes; restores the stresses without q if `subtract` is false. Does nothing if no
+ * material is viscous. */
 void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct particles *p, bool subtract);
 
 /* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
@@ -41,8 +41,8 @@ void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct pa
 void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
- * of viscous pressure to rho c^2 that the speeds of bodies, supports and loads lead to expect. speed: the largest of
- * particles at t = 0 [m/s]. */
+ * of viscous pressure to rho c^2 to be expected from the speeds of bodies, supports and loads. speed: the largest speed
+ * of particles at t = 0 [m/s]. */
 real viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
                                 real speed);
 
