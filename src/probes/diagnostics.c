@@ -18,9 +18,9 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes the momentum of all particles and of the nodes of the grids nodes[grids], and the momentum error
- * |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]: impulse that loads and
- * supports have supplied since the start [N s]. */
+/* Computes the momentum of all particles and of the nodes of the grids nodes[grids], w->now.momentum, and raises
+ * w->now.momentum_error to |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]:
+ * impulse of loads and supports since the start [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
                                  int grids, const real *impulse)
 {
@@ -41,8 +41,8 @@ real diagnostics_energy_change(const struct diagnostics *w)
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
-/* Computes w->now.balance_error = (energy - initial energy - external work)/(largest energy or work so far) [1]; 0
- * if the denominator is 0. */
+/* Computes the error of the energy balance w->now.balance_error = (energy - initial energy - external work)/(largest
+ * energy or work so far) [1]; 0 if the denominator is 0. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;

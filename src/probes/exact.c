@@ -19,10 +19,10 @@ static real exact_position(const struct exact *e, real s) { return e->loaded > 0
 /* Returns the reflection factor of the end opposite to the loaded one: 1 at a fixed end, -1 at a free one. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds the jumps of a stress front to *v, the values at a position. jump: stress behind minus stress ahead [Pa];
- * modulus: stress over strain in the front [Pa]; speed: of the front [m/s]; sign: 1 or -1, direction of travel along
- * x; age: time since the front passed the position [s]. If age < 0, nothing is added. The jump of velocity v follows
- * from the balance of momentum, rho speed v = -sign sigma. */
+/* Adds the jumps across a stress front to *v, the values at a position. jump: stress behind minus stress ahead [Pa];
+ * modulus: stress over strain in the front [Pa]; speed: of the front [m/s]; sign: 1 or -1, direction of travel along x;
+ * age: time since the front passed the position, nothing is added if it is negative [s]. The jump of velocity follows
+ * from the balance of momentum, -sign jump/(rho speed). */
 static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int sign,
                       real age)
 {
@@ -54,8 +54,8 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
 /* Returns displacement, velocity, stress and strain at distance s [m] from the loaded end of an elastic-plastic bar at
- * time t [s]: the sum of elastic precursor and plastic front. All values are NAN once the precursor has reached the
- * other end. */
+ * time t [s]: the sum of the elastic precursor, the front at the yield stress, and the plastic front. All values are
+ * NAN once the precursor has reached the other end. */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -69,8 +69,8 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds displacement, velocity and strain of wave pulse p in an infinite bar to *v, at distance eta ahead of the
- * centre of the pulse [m]. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
+/* Adds displacement, velocity and strain of the wave pulse p in an infinite bar to *v, at the distance eta [m] ahead of
+ * the centre of the pulse. sign: direction of travel along x, 1 or -1; factor: sign of the displacement after all
  * reflections. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)

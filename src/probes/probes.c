@@ -10,8 +10,8 @@
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
 /* Counts the separate groups of bonds that break in this step in the region of a BREAK probe. If there are any, also
- * stores time, load step and position as those of the first break; must not be called after it. Bonds of particles
- * with prescribed motion do not count. */
+ * stores time, load step and position as those of the first break; must not be called after the first break. Bonds of
+ * particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
     q->memory.ends = diagnostics_locate_cuts(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -69,8 +69,8 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o)
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
-/* Stores position and growth of the tip that a TIP probe follows in value[dim + 1] [m]; NAN and 0 if there is no
- * tip. */
+/* Stores position and growth of the tip that a TIP probe follows in value[] [m]: the position in the first dim entries,
+ * then the growth; NAN and 0 if there is no tip. */
 static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
     const struct crack_tip *tip = probe_find_tip(q, o->tips);
@@ -141,8 +141,8 @@ void probes_store_motion(struct probes *s, const struct observed_run *o)
     }
 }
 
-/* Computes K_I, K_II, J and their relative spread between contours for a SIF probe, and stores them in
- * value[SIF_FIGURES]. t_velocity: time of the present velocities [s]. */
+/* Computes K_I, K_II, J and their relative difference between contours for a SIF probe, and stores them in
+ * value[SIF_FIGURES] in this order. t_velocity: time of the current velocities [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
     sif_probe_sample(q, o, t_velocity);
@@ -156,7 +156,8 @@ static void sample_force(const struct probe *q, const struct observed_run *o, re
     probe_reaction(q, o->loads, o->part->dim, value, displacement);
 }
 
-/* Stores the velocity of the particle of a POINT probe, at the time of the sample, in value[dim .. 2 dim - 1] [m/s]. */
+/* Stores the velocity of the particle of a POINT probe, at the time of the sample, in value[dim] to value[2 dim - 1]
+ * [m/s]. */
 static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
 {
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);

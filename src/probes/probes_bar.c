@@ -13,8 +13,8 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Returns the rank of particle i: its index in the order of the bar's particles from left to right. Mirror images
- * beyond the ends have the rank -1 (left) or b->n (right). */
+/* Returns the rank of particle i: its index in the order of the bar's particles from left to right, or -1 (left) or
+ * b->n (right) for a mirror image beyond an end. */
 static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
@@ -180,8 +180,8 @@ struct column bar_result_column(enum exact_form form, int k)
     return c;
 }
 
-/* Computes the L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement, against the
- * closed form, and stores them at their indices in value[FIGURES]. */
+/* Computes the errors of a bar against the closed form and stores them at their indices in value[FIGURES]: L1 (mean
+ * |error|) and L2 (root mean square) of stress, E x strain and velocity, and L2 of displacement. */
 static void errors(const struct bar *b, const struct observed_run *o, real *value)
 {
     real sum[7] = {0};
@@ -202,10 +202,10 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the coordinate at which factor * field passes the mean of the stresses before and behind the front f [m],
- * interpolated between particles; NAN if there is none. Of several such coordinates, returns the one nearest to the
- * exact front. field[b->n]: value of each particle from left to right. The outermost particles are left out: the
- * load acts on them, and their bonds transmit only half of it. */
+/* Returns the coordinate at which factor * field passes the mean of the exact stresses before and behind the front f
+ * [m], interpolated between particles; NAN if there is none. Of several such coordinates, returns the one nearest to
+ * the exact front. field[b->n]: stress or strain of each particle from left to right. The outermost particles are left
+ * out: the load acts on them, and their bonds transmit only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {
@@ -232,8 +232,8 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Computes position and stress of fronts and of the plateaus behind them, and stores them at their indices in
- * value[FIGURES]. Entries of fronts that do not exist at this time keep their value. */
+/* Computes positions of stress fronts, and stresses and strains of the plateaus behind them, and stores them at their
+ * indices in value[FIGURES]. Entries of fronts that do not exist at this time keep their value. */
 static void fronts(const struct bar *b, const struct observed_run *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -9,7 +9,7 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
-/* Returns REFUSED, with a message: name of probe q, its closed form, and `what`, the reason. */
+/* Returns REFUSED, with a message that consists of the name of probe q, its closed form, and the reason `what`. */
 static status refuse(const struct probe *q, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
@@ -123,7 +123,8 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-/* Returns the number of loads of kind `kind`. *found: receives the last of them; unchanged if there is none. */
+/* Returns the number of loads in the run that have a boundary condition of kind `kind`. *found: receives the last of
+ * them; unchanged if there is none. */
 static int probes_bar_make_count_of(const struct observed_run *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;

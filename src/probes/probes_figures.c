@@ -90,9 +90,9 @@ void growing_crack_compute_readings(const struct growing_crack *g, real *value)
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
-/* Returns the crack tip that a TIP probe follows at present: the one with its origin nearest to the probe's position
- * `at`. Without `at` it is that of the longest crack, or the first one if no crack has grown. Returns NULL if there
- * are no tips. The tip belongs to *t. */
+/* Returns the crack tip that a TIP probe currently follows: the one whose origin is nearest to the position `at` of the
+ * probe. Without `at` it is that of the longest crack, or the first one if no crack has grown. Returns NULL if there
+ * are no tips. The tip is part of *t. */
 const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t)
 {
     if (t->n == 0) return NULL;
@@ -150,7 +150,7 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
-/* Returns the row of bonds of particle number k of the probe of s, or -1 if it has none. */
+/* Returns the row of bonds of particle number k in the list of the probe s->q, or -1 if it has none. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
@@ -172,7 +172,7 @@ static real bond_term(const void *context, int64_t k)
     return 0.5 * sum;
 }
 
-/* Returns the fracture energy of the bonds of particle number k of a probe [J]. context: a struct region_sum, with
+/* Returns the energy dissipated by the bonds of particle number k of a probe [J]. context: a struct region_sum, with
  * the probe and the run. */
 static real fracture_term(const void *context, int64_t k)
 {
@@ -319,8 +319,8 @@ static void figures_point(const struct emitter *e)
         probes_figures_put(e, particle_reading_column(p, k).name, value[k]);
 }
 
-/* Reports the least and the largest value of each quantity of a LINE probe over its stations (equidistant points of
- * the line) inside the bodies. */
+/* Reports the smallest and the largest value of each quantity of a LINE probe over those of its stations, equidistant
+ * points of the line, that are inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;

@@ -21,7 +21,8 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
-/* Appends a history column for each of the dim components of a vector, named by `prefix` and the axis (x, y, z). */
+/* Appends dim columns to the history that belong to probe q, one for each component of a vector. Their names consist of
+ * `prefix` and the axis x, y or z. */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -82,7 +83,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Sets the particle list of a POINT probe to the particle nearest to its point. Returns REFUSED, with a message, if the
+/* Makes the particle nearest to the point of a POINT probe its only particle. Returns REFUSED, with a message, if the
  * point is outside the bodies. */
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
@@ -94,8 +95,9 @@ static status bind_point(struct probe *q, const struct observed_run *o)
         q->request.name, position_text(q->request.at, o->part->dim, 6).text, particles_extent_text(o->part).text);
 }
 
-/* Sets the particle list of a LINE probe to the particles nearest to its stations (equidistant points from one end to
- * the other), -1 for stations outside the bodies. Returns REFUSED, with a message, if all are outside. */
+/* Makes the particles nearest to the stations of a LINE probe its particles, -1 for stations outside the bodies.
+ * Stations are equidistant points from one end of the line to the other. Returns REFUSED, with a message, if all are
+ * outside. */
 static status bind_line(struct probe *q, const struct observed_run *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -115,8 +117,8 @@ static status bind_line(struct probe *q, const struct observed_run *o)
                       q->request.name, particles_extent_text(o->part).text);
 }
 
-/* Sets the particle list of a probe to the particles in its region, including those on its surface within round-off.
- * Returns REFUSED, with a message, if there is none. */
+/* Makes the particles in the region of probe q its particles; those on the surface of the region, up to round-off, are
+ * included. Returns REFUSED, with a message, if there is none. */
 static status bind_region(struct probe *q, const struct observed_run *o)
 {
     const struct particles *p = o->part;

@@ -3,8 +3,8 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Copies the vector field from[dim][particles] at the particles of probe q to to[dim][q->n], whose arrays are allocated
- * if they are NULL. */
+/* Copies the values of the vector field from[dim][particles] at the particles of probe q to to[dim][q->n]. Arrays to[d]
+ * that are NULL are allocated. */
 static void copy_listed(const struct probe *q, real *const *from, real **to, int dim)
 {
     for (int d = 0; d < dim; d++) {

@@ -6,8 +6,8 @@
 
 const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
-/* Returns the largest distance of a position inside a body from the nearest particle [m]: half the diagonal of a
- * lattice cell, times 1.5 for particles that are not on a lattice. */
+/* Returns the largest distance at which a position without a nearer particle counts as inside a body [m]: half the
+ * diagonal of a lattice cell times 1.5, to allow for particles that are not on a lattice. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
 int32_t particle_nearest(const struct observed_run *o, const real *X)

@@ -4,7 +4,8 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Returns how far particle i is beyond the interface of a PULSE probe, along the direction of its wave packet [m]. */
+/* Returns how far the reference position of particle i is beyond the interface of a PULSE probe, along the direction of
+ * its wave [m]. */
 static real ahead(const struct probe *q, const struct particles *p, int64_t i)
 {
     real distance = 0;
@@ -21,7 +22,7 @@ static real speed(const struct particles *p, const struct baseline *baseline, in
 }
 
 /* Returns the largest speed of the particles on one side of the interface of a PULSE probe [m/s]: before it (side -1),
- * beyond it (+1), or on both (0). baseline: velocities to be subtracted; NULL: none. */
+ * beyond it (1), or on both sides (0). baseline: velocities that are subtracted first; NULL: none. */
 static real probes_pulse_fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline,
                                  int side)
 {

@@ -36,9 +36,9 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Adds to sum[5], over the particles first .. end - 1 of a probe: m X . x, m X x x, angular momentum, |m x x v|,
- * kinetic energy. X, x: reference and present position relative to the centres of mass; the first two sums give the
- * best-fit rotation. context: a struct rigid_sum. A block function of reproducible_sums. */
+/* Adds to sum[5], over the particles first .. end - 1 of a probe: m X . x and m X x x, which give the best-fit
+ * rotation, angular momentum, |m x x v| and kinetic energy. X, x: reference and current position relative to the
+ * centres of mass. context: a struct rigid_sum. A block function of reproducible_sums. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -56,9 +56,10 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Returns the angle of the best-fit rotation R of the particles of a probe, which minimises sum m |x - R X|^2 (Kabsch
- * 1976, in the plane) [rad]. X and x are relative to the centres of mass. Also computes the angular momentum *spin, its
- * scale *spin_scale = sum |m x x v| [kg m^2/s], and the kinetic energy *kinetic [J]. */
+/* Returns the angle [rad] of the best-fit rotation R of the particles of a probe, which minimises sum m |x - R X|^2
+ * (Kabsch 1976, in the plane), with reference positions X and current positions x relative to the centres of mass. Also
+ * computes the angular momentum *spin and its scale *spin_scale = sum |m x x v| [kg m^2/s], and the kinetic energy
+ * *kinetic [J]. */
 static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {
@@ -96,7 +97,8 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
 
 enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Updates m->most[k], the largest |value[k]| so far, for k = first .. end - 1. It becomes NAN if value[k] is NAN. */
+/* Raises m->most[k], the largest |value[k]| so far, to that of value[] for k = first .. end - 1. It becomes NAN if
+ * value[k] is NAN. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));

@@ -37,14 +37,14 @@ struct sif_tracked {
     real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
 };
 
-/* Returns true if the scene gives a value for this key: it is then positive, else NAN. */
+/* Returns true if the scene gives `value` for a key of the probe: it is then positive, else NAN. */
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Sets the integration contours of a SIF probe: first the one from which the results are computed, then those with
- * which it is compared. These have the radii of request r, or 0.6, 0.8 and 1 times the outer radius. Sets w->reach
- * to the largest outer radius. spacing: lattice spacing [m]. */
+/* Sets the integration contours of a SIF probe: contour[0], from which the results are computed, then those with which
+ * it is compared. The latter have the radii of request r, or 0.6, 0.8 and 1 times the outer radius of contour[0]. Sets
+ * w->reach to the largest outer radius. spacing: lattice spacing [m]. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -72,8 +72,8 @@ static int tip_meant(const struct probe_request *r, const struct observed_run *o
     return nearest;
 }
 
-/* Returns the index of the growing crack of the run that starts within SAME_TIP spacings of the tip of the probe, or -1
- * if there is none. */
+/* Returns the index of the growing crack of the run that starts at most SAME_TIP spacings from the tip of the probe, or
+ * -1 if there is none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -83,8 +83,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed_run *
     return -1;
 }
 
-/* Returns REFUSED, with a message, if the stress-intensity factors of probe r control the growth of another crack
- * than the one whose tip r measures. The scene must then give the key `at`. */
+/* Returns REFUSED, with a message, if probe r controls the growth of a crack but measures the tip of another one. The
+ * scene must then give the key `at`, which selects the tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed_run *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -123,9 +123,9 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     return own_growth(w, r, o);
 }
 
-/* Lists the cracks across which particles must not contribute to each other's gradients: the pre-cracks of the scene
- * and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face to which
- * particles exactly on the crack belong. */
+/* Lists in w->crack the cracks across which particles must not contribute to each other's gradients: the pre-cracks of
+ * the scene and, unless one of them ends at the tip, a straight crack behind the tip. Sets w->tip.face, the crack face
+ * to which particles exactly on the crack belong. */
 static void make_cracks(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -266,9 +266,9 @@ void sif_probe_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates position, speed and direction of the tip of SIF probe q. Returns true if the tip is a crack tip that has
- * grown by itself. Returns false if the crack grows at a prescribed or controlled speed, since its tip is then known
- * exactly, and for tips at rest. */
+/* Updates position, speed and direction of the tip of SIF probe q. Returns true if the tip belongs to a crack that
+ * grows because bonds break. Returns false for tips at rest, and for cracks that grow at a prescribed or controlled
+ * speed, since the position of their tip is known exactly. */
 static bool probes_sif_follow(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
@@ -329,8 +329,8 @@ void sif_probe_store_motion(struct probe *q, const struct observed_run *o)
 }
 
 /* Computes velocity and acceleration of all particles at the time of the sample from the velocities half a step before
- * and after it. t_velocity: time of the present velocities [s]. After the last sample no step follows, and the
- * velocities of one step earlier are used. */
+ * and after it. t_velocity: time of the current velocities [s]. After the last sample no step follows, and the
+ * velocities of one step earlier are used instead. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
@@ -340,9 +340,9 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Computes into w->body the accelerations that loads cause, force over mass of each particle [m/s^2]. In static
- * problems this includes the inertia relief, by which a free body is in equilibrium. Returns true if such forces act
- * within the largest contour. */
+/* Computes the accelerations that loads cause, force over mass of each particle, in w->body [m/s^2]. In static problems
+ * this includes the inertia relief, the inertia forces by which a free body is in equilibrium. Returns true if such
+ * forces act within the largest contour. */
 static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
 {
     const struct particles *p = o->part;

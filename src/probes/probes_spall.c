@@ -103,8 +103,9 @@ static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
 }
 
-/* Finds the plane with the smallest x at which the body is separated, and stores its coordinate in *position [m].
- * Adjacent separated planes count as one, at their middle. Returns false if the body is not separated. */
+/* Finds the lowest plane between columns at which the body is separated, and stores its coordinate in *position [m].
+ * Adjacent separated planes count as one, at their middle. Returns false if the body is not separated. c: columns,
+ * slices of the body along x. */
 static bool columns_apart(const struct columns *c, real *position)
 {
     for (int64_t k = 0; k < c->n - 1; k++) {

@@ -13,8 +13,9 @@ static bool in_patch(const struct scene *s, const real *x)
     return false;
 }
 
-/* Raises *most to the largest force component on node I of grid g [N], if the node is in the region of a PATCH probe
- * of scene s. at: index of the node in the box of all nodes, from which its position follows. */
+/* Raises *most to the largest force component on node I of grid g [N], if the node is in the region of a PATCH probe of
+ * scene s. at: index in the box of grid nodes from which the position of the node follows; for a node doubled by a slit
+ * that of the node at its position. */
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];

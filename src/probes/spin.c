@@ -15,8 +15,8 @@ struct turning {
  * have [1]. */
 #define LEAST_TURN 0.01
 
-/* Adds a particle or node with its mass [kg], position x[DIM_MAX] and velocity v[DIM_MAX] to the moments of its body:
- * mass, first moments, momentum, angular momentum about the origin, m x^2 and m v^2. */
+/* Adds a particle or node with its mass [kg], position x[DIM_MAX] [m] and velocity v[DIM_MAX] [m/s] to the moments *to
+ * of its body: mass, first moments, momentum, angular momentum about the origin, m x^2 and m v^2. */
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
     to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
@@ -42,8 +42,8 @@ static void turning_about(const struct turning *t, const real *position, const r
 
 /* Computes spin[DIM_MAX], the angular momentum of all bodies about their common centre of mass [kg m^2/s], from
  * particles and mesh nodes (mesh may be NULL), without the velocity gradients of the transfer method APIC. bodies:
- * number of bodies. Returns a scale for errors of spin: the sum of the magnitudes of the bodies, but at least
- * LEAST_TURN of the largest value that is possible with their kinetic energy. */
+ * number of bodies. Returns the scale of errors of spin: the sum of the magnitudes of the angular momenta of the
+ * bodies, but at least LEAST_TURN times the largest value that is possible with their kinetic energy. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};
