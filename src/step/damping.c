@@ -30,12 +30,13 @@ struct damped {
     const uint8_t *flag;
 };
 
-/* Returns true if entry i of a is damped with a mass of its own. Returns false for points of the mesh, whose mass moves
- * with the nodes. */
+/* Returns true if entry i of a is damped with a mass of its own. Returns false for material points of the mesh, whose
+ * mass moves with the nodes. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
-/* Adds the energy that bulk damping has taken from entries first .. end - 1 since the previous step to sum[0] [J].
- * context: a struct damped, with the previous velocities `before`. */
+/* Adds the energy that bulk damping has taken from entries first .. end - 1 of a struct damped since the previous step
+ * to sum[0] [J]. context: the struct damped, with the previous velocities `before`. A block function of
+ * reproducible_sums. */
 static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -69,8 +70,8 @@ static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_increment_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
-/* Stores in all[] whose velocities bulk damping changes: in all[0] the particles, in all[1] the nodes of the mesh.
- * factor: factor on their velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
+/* Stores in all[0] the particles and in all[1] the nodes of the mesh, whose velocities bulk damping changes. factor:
+ * factor on their velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};
@@ -78,8 +79,9 @@ static int damped_find(const struct particles *p, const struct mesh *mesh, real 
     return mesh->points > 0 ? 2 : 1;
 }
 
-/* Multiplies all velocities, also APIC velocity gradients and mirror images, by `factor` [1], and subtracts the lost
- * momentum from the impulse of the loads. Returns the kinetic energy before that [J]. */
+/* Multiplies the velocities of particles and mesh nodes by `factor` [1], also APIC velocity gradients and velocities of
+ * mirror images, and subtracts the lost momentum from the impulse of the loads. Returns the kinetic energy before that
+ * [J]. */
 static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];

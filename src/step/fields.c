@@ -22,7 +22,8 @@ struct gradient_sum {
     real K[3][3], M[3][3];
 };
 
-/* Adds the bond vector from particle i to neighbour j, and their relative displacement, to the sums K and M of s. */
+/* Adds neighbour j of particle i to the sums s over its neighbours: xi xi^T to K and u xi^T to M, with the reference
+ * vector xi from i to j and the relative displacement u. */
 static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], u[DIM_MAX];
@@ -65,9 +66,9 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Computes the displacement gradient of material point i on the grid, in H[dim dim][i], from the points `near` it that
- * are of its body and not separated from it by pre-cracks or voids. Peridynamic neighbours with broken bonds are left
- * out: a crack may separate them. */
+/* Computes the displacement gradient of material point i on the grid, in H[dim dim][i], by a fit to the neighbouring
+ * points in `near` that belong to its body and are not separated from it by pre-cracks or voids. Peridynamic neighbours
+ * with broken bonds are left out: a crack may separate them. */
 static void gradient_of_points(const struct particles *p, const struct bond_source *source,
                                const struct neighbour_list *near, int64_t i, real *const *H)
 {
@@ -167,8 +168,8 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns for every point that shows a coarse cell in frames the share of the strength surface that its stress reaches,
- * an array [shown->n] [1]. The caller releases it with memory_free. */
+/* Returns the share of the strength surface that the stress reaches at every point that represents a coarse cell in
+ * frames, an array [shown->n] [1]. The caller releases it with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);
@@ -187,8 +188,8 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
     return level;
 }
 
-/* Returns the refinement level of every point that shows a coarse cell in frames [number of these points]; the spacing
- * doubles from level to level. The caller frees it. */
+/* Returns the refinement level of every point that represents a coarse cell in frames, one entry per point; the spacing
+ * doubles from level to level. The caller releases it with memory_free. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);

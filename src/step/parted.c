@@ -32,8 +32,8 @@ static bool flows_on_grid(const struct particles *p, const struct scene *s, int6
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED) && material_yields(&s->material[p->material[i]]);
 }
 
-/* Lists the pairs of neighbouring points of one body that are on the grid and of materials that yield. cells: cells of
- * all particles, for the search for neighbours. */
+/* Lists in *pairs the pairs of neighbouring material points of one body that are on the grid and of materials that
+ * yield. cells: search cells of all particles. */
 static void pairs_make(struct point_pairs *pairs, const struct cells *cells, const struct particles *p,
                        const struct scene *s)
 {
@@ -59,8 +59,8 @@ struct held_cells {
     uint64_t *key; /* of a cell in each slot, 0: none */
 };
 
-/* Returns the slot of the cell at the position x (dim components [m]), or the empty slot in which it belongs. *key:
- * receives the key of the cell. */
+/* Returns the slot, in the hash table h of cells that contain points, of the cell at the position x (dim components
+ * [m]), or the empty slot in which it belongs. *key: receives the key of the cell. */
 static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *key)
 {
     *key = 1;
@@ -70,7 +70,7 @@ static uint64_t cell_slot(const struct held_cells *h, const real *x, uint64_t *k
     return slot & h->mask;
 }
 
-/* Fills the set with the cells, of the size of those of the grid, that hold points of p. Release key with
+/* Fills the hash table h with all cells, as large as those of the grid, that contain points of p. Release h->key with
  * memory_free. */
 static void held_cells_make(struct held_cells *h, const struct particles *p, const struct scene *s)
 {
@@ -95,9 +95,9 @@ struct pair_counts {
     real stretch, x;
 };
 
-/* Returns the distance of the points of a pair over that in the reference state [1], or 0 below PARTED_LEAST, where
- * nothing else is stored. middle[dim]: receives the position between them [m]; *axis: receives the axis along which
- * they are farthest apart. */
+/* Returns the distance between the points of a pair over their reference distance [1], or 0 below PARTED_LEAST, where
+ * nothing is stored. middle[dim]: receives the position between them [m]; *axis: receives the axis along which they
+ * are farthest apart. */
 static real pair_stretch(const struct particles *p, const struct point_pair *pair, real *middle, int *axis)
 {
     const int32_t i = pair->a, j = pair->b;
@@ -138,7 +138,8 @@ static bool in_tension(const struct particles *p, int64_t i)
     return sum > 0;
 }
 
-/* Counts the pairs that are parted, and those pulled to `far` times their distance under tension. */
+/* Counts the pairs that have come apart, with empty cells between them, and those whose distance under tension is at
+ * least `far` times the reference one. s: scene, for the size of the cells. */
 static struct pair_counts pairs_count(const struct point_pairs *pairs, const struct particles *p, const struct scene *s,
                                       real far)
 {
@@ -164,7 +165,7 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
 }
 
 /* Prints a warning that c->parted of n pairs of points have empty cells between them or, if there are none, that
- * c->pulled of them are stretched too far for linear shapes. t: present time [s]. */
+ * c->pulled of them are stretched too far for the shape function of scene s. t: current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
     const struct weak_shape *w = c->parted > 0 ? NULL : weak_shape_of(s->shape);

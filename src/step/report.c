@@ -34,8 +34,8 @@ static int64_t common_step(const struct run_clock *clock, int64_t step)
     return (step + clock->stride / 2) / clock->stride * clock->stride;
 }
 
-/* Returns the step of event k of n events spread evenly over the run: k steps/n, rounded. The product k steps is
- * avoided, since it can exceed 64 bits. If n <= 0, the last step is returned. */
+/* Returns the step after which event k of n events spread evenly over the run is due: k steps/n, rounded. The product k
+ * steps is avoided, since it can exceed 64 bits. If n <= 0, the last step is returned. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
     if (n <= 0) return clock->steps;
@@ -70,8 +70,8 @@ bool report_sample_due(const struct scene *s, const struct run_clock *clock)
 
 /* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
-/* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. The stability check
- * covers positions and speeds in every step and the energy check samples; this check adds the stresses. */
+/* Returns FAILED, with a message, if stress, position or velocity of a particle is not finite. Positions and speeds are
+ * also checked in every step, and energies at samples; this check adds the stresses. */
 static status frame_sound(const struct run_clock *clock, const struct particles *p)
 {
     int64_t first = p->n;
@@ -169,8 +169,8 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint of the run and stores the time that this took, without the time of waiting for a frame. Returns
- * FAILED, with a message, if the file cannot be written. */
+/* Writes a checkpoint of the run and stores how long this took in e->report, without the time of waiting for a frame.
+ * Returns FAILED, with a message, if the file cannot be written. */
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
@@ -186,7 +186,8 @@ static status write_checkpoint(struct run *e)
 }
 
 /* Returns true if a checkpoint is due after a step or load step. If the scene gives an interval, it is due when this
- * has passed, in load steps always; otherwise as rarely as CHECKPOINT_SECONDS and CHECKPOINT_SHARE require. */
+ * has passed, in load steps always. Otherwise CHECKPOINT_SECONDS and CHECKPOINT_SHARE determine how rarely checkpoints
+ * are written. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
@@ -196,8 +197,8 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
-/* Returns true if the wall time that the scene allows is over: the rest is less than twice the time of the longest
- * checkpoint. */
+/* Returns true if the wall-clock time that the scene allows is over, i.e. if less than twice the time of the longest
+ * checkpoint remains. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
     return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;

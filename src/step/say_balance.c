@@ -50,7 +50,8 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
     warnings_add_and_print(to, text);
 }
 
-/* Returns true if interface damping is the only damping in a dynamic scene, and points are in its zone. */
+/* Returns true if interface damping is the only damping in a dynamic scene, and material points are in its zone at the
+ * interface. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
     return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_is_dynamic(s);

@@ -24,9 +24,9 @@ static real least_impedance(const struct scene *s, int b)
 }
 
 /* Returns the closing speed of bodies a and b at which the front of their impact breaks or yields body a [m/s];
- * INFINITY if nothing does. Stress and velocity are equal at the common face, so that body a gets the share Z_b/(Z_a +
- * Z_b) of the closing speed v, with the impedance Z = density times wave speed c. Its strain is this share of v/c: v/(2
- * c) between bodies of one material, v/c beside a rigid body. */
+ * INFINITY if it never does. With the impedance Z = density times wave speed c, body a gets the share Z_b/(Z_a + Z_b)
+ * of the closing speed v, because stress and velocity are equal at the common face. Its strain is this share of v/c:
+ * v/(2 c) between bodies of one material, v/c beside a rigid body. */
 static real speed_limit(const struct scene *s, int a, int b)
 {
     const real other = least_impedance(s, b);

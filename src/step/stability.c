@@ -61,8 +61,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
     }
 }
 
-/* Returns the speed to which a load alone accelerates the fastest of its particles in the last `steps` steps [m/s]. For
- * a prescribed motion it is its largest speed, for mirrors and absorbing faces 0. */
+/* Returns the speed to which a load alone accelerates the fastest of its particles within the last `steps` steps [m/s];
+ * for a prescribed motion its largest speed, for mirrors and absorbing faces 0. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -81,8 +81,9 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* Returns true if the loads explain the motion of a diverged run, so that no instability has to be assumed: if `given`
- * is at least LOAD_SHARE_LEAST times the kinetic energy. given: energy at the start plus work of the loads [J]. */
+/* Returns true if the loads explain the motion of a run that has diverged, so that no instability has to be assumed: if
+ * `given` is at least LOAD_SHARE_LEAST times the kinetic energy. given: energy at the start plus work of the loads
+ * [J]. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
@@ -169,8 +170,8 @@ static bool holds_images(const struct scene *s)
     return false;
 }
 
-/* Writes to text[capacity] the alternatives for a scene that gains energy: another choice for each option that the
- * scene can do without, such as `method: pd`. */
+/* Writes to text[capacity] alternatives for a scene that gains energy: for each option that the scene can do without,
+ * another choice such as `method: pd`. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
                        char *text, size_t capacity)
 {
@@ -371,8 +372,8 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Sets the error that the run is unstable, with a message that contains step, time and the fastest particle. what:
- * completes the words "the fastest one of a body ..."; remedy: advice, at the end of the message. Returns FAILED. */
+/* Sets the error that the run is unstable, with a message that contains step, time and the fastest particle. what: end
+ * of the sentence "the fastest one of a body ..."; remedy: advice, at the end of the message. Returns FAILED. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);

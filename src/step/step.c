@@ -26,8 +26,8 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, and length of the
- * velocity update, which is also stored in *transfer. damping: decay rate c of bulk damping [1/s]. */
+/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, and duration of
+ * the velocity update, which is also stored in *transfer. damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_increment_factor(decay);
@@ -91,8 +91,8 @@ static void damping_begin(struct run *e, const struct step *now)
     damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
 }
 
-/* Returns true if the sweep over bonds may also move the particles, because nothing reads positions between forces and
- * motion; samples, growing cracks and viscosity would. The sweep moves each particle when it no longer reads its
+/* Returns true if the loop over bonds may also move the particles, because nothing reads positions between forces and
+ * motion; samples, growing cracks and viscosity would. The loop moves each particle when it no longer reads its
  * position (kernels/pd/sweep.h), with bit-identical results. This saves 38 % of a step with 1.7 million particles,
  * which exceed the cache. */
 static bool sweep_moves(const struct scene *s, const struct run_report *report)
@@ -100,15 +100,15 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
     return !report->sampling.due && s->growths == 0 && !scene_has_viscosity(s);
 }
 
-/* Returns the number of time steps between two examinations of strength surfaces: in these steps a wave crosses half a
- * horizon. horizon [m]; wave_speed [m/s]; dt: time step [s]. */
+/* Returns the number of time steps between two tests of the stresses of particles against strength surfaces: in these
+ * steps a wave crosses half a horizon. horizon [m]; wave_speed [m/s]; dt: time step [s]. */
 static int64_t surface_interval(real horizon, real wave_speed, real dt)
 {
     return 1 + (int64_t)(0.5 * horizon / (wave_speed * dt));
 }
 
 /* Computes the forces of bonds and breaks the bonds beyond their limit. now->broken receives the number of directed
- * bonds broken. If sweep_moves allows it, particles without loads are also moved in this loop. */
+ * bonds broken. If sweep_moves returns true, the loop over bonds also moves the particles without loads. */
 static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);

@@ -16,11 +16,11 @@
 static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
 
 /* Returns the critical time step of points on a grid over h/(c + |v|) [1]: node distance h, wave speed c, speed v of
- * the points. The values are empirical: slightly below the smallest limit measured over all positions of the points in
- * their cells, through which a moving body passes. n is the number of points per cell and direction. With FLIP and MUSL
- * the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains follow from the updated
- * velocity, it decreases with the size of the points. Linear shapes are limited by points on nodes, where round-off
- * decides the cell (measured over 1500 steps); at other positions the limit is three times as large. */
+ * the points. n is the number of points per cell and direction. The values are empirical: slightly below the smallest
+ * limit measured over all positions of the points in their cells, because a moving body passes through these. With FLIP
+ * and MUSL the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains follow from the
+ * updated velocity, it decreases with the size of the points. Linear shapes are limited by points on nodes, where
+ * round-off decides the cell (measured over 1500 steps); at other positions the limit is three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -55,8 +55,8 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-/* Returns the largest speed expected in the run [m/s]: the maximum of `speed` and of the speeds that boundaries
- * prescribe. */
+/* Returns the largest speed expected in the run [m/s]: the maximum of `speed`, the largest speed at the start, and of
+ * the speeds that boundaries prescribe. */
 static real fastest_driven(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     for (int b = 0; b < s->boundaries; b++)

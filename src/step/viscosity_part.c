@@ -25,7 +25,7 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* Returns the viscous pressure over rho c^2 [1]: linear x + quadratic x^2, with x = crossing rate. linear, quadratic:
+/* Returns the viscous pressure over rho c^2 [1]: linear x + quadratic x^2, with x = crossing * rate. linear, quadratic:
  * coefficients of the material [1]; crossing: time h/c in which a wave of speed c crosses the resolved length h [s];
  * rate: rate of compression [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
@@ -34,8 +34,8 @@ static real viscous_strain(real linear, real quadratic, real crossing, real rate
     return (linear + quadratic * x) * x;
 }
 
-/* Returns the viscous pressure of material m [Pa], 0 in expansion. h: resolved length [m]; rate: growth rate of volume
- * over volume, negative in compression [1/s]. */
+/* Returns the viscous pressure of material m [Pa], 0 in expansion. h: resolved length, such as a spacing or the edge of
+ * a cell [m]; rate: growth rate of volume over volume, negative in compression [1/s]. */
 static real viscous_pressure(const struct material *m, real h, real rate)
 {
     if (!(rate < 0)) return 0;
