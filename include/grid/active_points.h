@@ -21,11 +21,12 @@ struct active_points {
 
 enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells that motion can reach */
 
-/* Finds the material points whose cells motion can reach in the next steps, so that transfers can skip all others.
- * full_order: cell order of all points; previous_order: order used up to this step; grid: background grid with the
- * walls of the previous step; loads: boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or
- * APIC), which determine how far motion spreads in a step. Returns the order of the active points, which r owns, or
- * `full_order` if all points are active. */
+/* Finds the material points whose cells motion can reach in the next steps, so that transfers between points and grid
+ * can skip all others. full_order: points sorted by cell; previous_order: the sorted points that transfers have used so
+ * far; grid: background grid with the prescribed nodal velocities (walls) of the previous step; b: bonds; loads:
+ * boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or APIC), which determine how far
+ * motion spreads in a step. Returns the active points in the same order, which r owns, or `full_order` if all points
+ * are active. */
 const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *full_order,
                                                   const struct transfer_order *previous_order,
                                                   const struct particles *p, const struct grid *grid,

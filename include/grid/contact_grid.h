@@ -42,8 +42,9 @@ struct grid_contact {
     real began, ended;            /* first and last time of contact, NAN: none so far [s] */
 };
 
-/* Allocates c->dissipated, the energy dissipated by contact for each pair of `sides` bodies. The caller sets the
- * constants friction, spacing, half_width and smallest_mass of c. Release with grid_contact_free. */
+/* Allocates c->dissipated, the energy dissipated by contact for each pair of bodies, all 0. sides: number of bodies,
+ * each with a grid of its own. The caller sets the constants friction, spacing, half_width and smallest_mass of c.
+ * Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int sides);
 
 /* Initialises *side with the background grid g of one body, the cell order of its points, and the range of nodes that
@@ -55,9 +56,10 @@ void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, cons
  * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
 void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_side *side, const struct particles *p);
 
-/* Exchanges momentum between two bodies at each node of grid_contact_find_nodes where they touch and approach: normal
- * momentum without rebound, tangential momentum by friction. Changes the nodal velocities, and the velocity increments
- * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
+/* Exchanges momentum between two bodies at each node that grid_contact_find_nodes has listed, if they touch and
+ * approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal velocities of the
+ * grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and points of the bodies,
+ * c->sides elements. Returns the energy dissipated [J]. */
 real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Returns the part of the energy dissipated by contact in this step that grid_contact_exchange_momentum does not

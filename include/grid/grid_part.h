@@ -51,8 +51,9 @@ void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *
  * to place nodes midway between particles. */
 void grid_choose_anchor(const struct scene *s, const real *body_corner, const real *site, bool meshed, real *anchor);
 
-/* Returns the number in the scene of the first body of group number `group` = 0, 1, .... A group is a set of bodies
- * that are joined to each other, or a single body. Returns -1 if there are no more than `group` groups. */
+/* Returns the number of the first body in group number `group` of the bodies of the scene. A group, counted from 0, is
+ * a set of bodies that are joined to each other, or a single body. Returns -1 if there are no more than `group`
+ * groups. */
 int joined_bodies_first_body(const struct scene *s, int group);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
@@ -75,8 +76,8 @@ void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, cons
 void grid_advance_points(struct run *e, real t_middle);
 
 /* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
- * the present positions [W], without moving anything. t_middle: present time plus half a time step [s]. Changes the
- * recorded reactions and work of the loads. Returns 0 if no particles are on a grid. */
+ * the current positions [W]. Nothing is moved, but the recorded reactions and work of the loads change. t_middle:
+ * current time plus half a time step [s]. Returns 0 if no particles are on a grid. */
 real grid_power_of_forces(struct run *e, real t_middle);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* Returns true if load number `load` may move a particle at rest, as all loads but planes of symmetry may. */
+/* Returns true if load number `load` of l may move a particle at rest. All loads but planes of symmetry may. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
 /* Returns true if material point i is at rest and nothing moves it: no load, bond, velocity, force or stress.
@@ -52,17 +52,17 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
 }
 
 /* Returns the number of cells by which motion can spread in the ACTIVE_POINTS_STEPS steps between two searches. In a
- * step it spreads by one cell through shared nodes, by three if shapes reach beyond a cell, by twice as many with FLIP,
- * which maps twice, and by two more if planes of symmetry connect nodes on both sides. */
+ * step it spreads by one cell through shared nodes, or by three if shape functions reach beyond a cell. FLIP doubles
+ * this number, because it maps twice. Planes of symmetry, which connect nodes on both sides, add two. */
 static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
 {
     const int shared = shape == SHAPE_LINEAR ? 1 : 3;
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Sets r->active_cell to 1 for cells with a point that moves or is loaded, and for cells whose lowest node a wall
- * (prescribed velocity of a node) moves, else to 0. now: transfer order with the points to examine; points outside it
- * are still at rest; has_gradient: true if points have velocity gradients (APIC). */
+/* Sets r->active_cell to 1 for cells with a point that moves or is loaded, and for cells whose lowest node has a
+ * prescribed velocity other than 0, else to 0. now: sorted points to be examined, since points outside this list are
+ * still at rest; has_gradient: true if points have velocity gradients (APIC). */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -78,7 +78,7 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
-/* Reallocates the marks of cells in r if grid g has more nodes than r has marks. New marks are 0. */
+/* Extends the arrays of marks of cells in r if grid g has more nodes than these. New marks are 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;
@@ -87,8 +87,8 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes r->active, the transfer order of the points in active cells, from `all`, the order of all points. Cells and
- * points keep their sequence. */
+/* Makes r->active, the list of the points in active cells sorted by cell, from `all`, the sorted list of all points.
+ * Cells and points keep their sequence. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

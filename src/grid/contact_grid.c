@@ -24,7 +24,7 @@ struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
 
-/* Computes the box of nodes *s that points of both sides a and b may reach. Returns false if it is empty. */
+/* Computes the box of nodes *s that points of both bodies a and b may reach. Returns false if it is empty. */
 static bool shared_find(struct shared *s, const struct grid_contact_side *a, const struct grid_contact_side *b)
 {
     s->n = 1;
@@ -93,9 +93,9 @@ static void shared_nodes_find(struct grid_contact *c, const struct shared *s, co
     }
 }
 
-/* Computes the unit normal of each listed node from the mass gradients summed over nodes up to AROUND cells away.
- * Single gradients follow the lattices of both bodies and are up to 10 degrees off on curved faces. slot[s->n]:
- * position in the list of each node of the shared box s, -1: not listed. */
+/* Computes the unit normal of each listed node from the mass gradients, summed over nodes up to AROUND cells away,
+ * since gradients at a single node follow the lattices of both bodies and are up to 10 degrees off on curved faces.
+ * slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
 static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *slot)
 {
     for (int64_t k = 0; k < s->n; k++) {
@@ -117,9 +117,9 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Extends node->reach along the normal of each listed node that the shape function of point i reaches: to the largest x
- * . n of a point of the first body (side 0), or the smallest of the second one (side 1). g: grid of the body;
- * slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
+/* Extends node->reach for each listed node that the shape function of point i reaches: the largest coordinate x . n
+ * along the normal n of the node of a point of the first body (side 0), or the smallest of a point of the second one
+ * (side 1). g: grid of the body; slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)
 {
@@ -142,9 +142,9 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
-/* Extends the reach of body a along the normals of the listed nodes by all of its points (point_reach). side: 0 for the
- * first, 1 for the second body of the pair; slot[s->n]: position in the list of each node of the shared box s, -1: not
- * listed. */
+/* Extends node->reach for the listed nodes by all points of body a: the largest coordinate along the normal of points
+ * of the first body, the smallest of points of the second one. side: 0 if a is the first, 1 if it is the second body of
+ * the pair; slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {
@@ -213,9 +213,9 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_s
  * step, which always dissipates. */
 #define PARTING_SHARE 1.6
 
-/* Returns the speed of approach along the unit vector `along` that the contact impulse removes [m/s]: now . along +
+/* Returns the speed of approach along the unit vector along[dim] that the contact impulse removes [m/s]: now . along +
  * PARTING_SHARE min(0, before . along), at least 0. before, now: relative velocity before and after the forces of the
- * step [m/s]; strict: 0 is returned unless the sides approach already before the step. */
+ * step [m/s]. strict: true to return 0 unless the bodies approach each other already before the step. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
     const real parting = dot(before, along, dim);
@@ -245,17 +245,17 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Sets grid.held[I] to `mark` (0 or 1) for the nodes I of the grids of all `sides` bodies that walls (prescribed
- * velocities of nodes) constrain. */
+/* Sets g->held[I] to `mark` (0 or 1) for the nodes I of all grids whose velocity is prescribed by walls. side: grids of
+ * the bodies, `sides` elements. */
 static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the mass of node I [kg], or INFINITY if walls (prescribed velocities of nodes) constrain it mainly along
- * `normal`. before, now: its velocities before and after the forces of the step [dim] [m/s]; components that walls
- * prescribe are replaced by the velocities of the walls. */
+/* Returns the mass of node I in contact [kg], or INFINITY if its velocity mainly along `normal` is prescribed by walls.
+ * before, now: its velocities before and after the forces of the step [dim] [m/s]; prescribed components are replaced
+ * by the velocities of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

@@ -4,9 +4,9 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Returns the coordinate of a node along an axis [m]: that of mpm.origin, else of the first mirror across the axis,
- * else `corner`, the lower corner of the body. Nodes beyond a mirror move as exact images only if the mirror is on a
- * node or midway between two. */
+/* Returns the coordinate of a node along an axis, from which those of all nodes follow [m]: that of mpm.origin, else of
+ * the first mirror across the axis, else `corner`, the lower corner of the body. Nodes beyond a mirror move as exact
+ * images only if the mirror is on a node or midway between two. */
 static real node_coordinate(const struct scene *s, int axis, real corner)
 {
     if (s->has_grid_origin) return s->grid_origin[axis];
@@ -15,8 +15,8 @@ static real node_coordinate(const struct scene *s, int axis, real corner)
     return corner;
 }
 
-/* Returns the coordinate of a node, `anchor`, shifted by at most half a spacing to the middle between two particles of
- * a lattice. site: coordinate of a particle of this lattice [m]. */
+/* Returns `anchor`, the coordinate of a node, shifted by at most half a spacing so that it is midway between two
+ * particles of a lattice [m]. site: coordinate of a particle of this lattice [m]; spacing [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;

@@ -28,9 +28,9 @@ static void field_list(struct grid_field *f, const struct particles *p)
         if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
 }
 
-/* Extends the grid of field f over its particles and sorts its material points by cells. *lost is set to true, without
- * an error, if positions are not finite. Returns FAILED or REFUSED, with a message, if the grid would need too many
- * nodes. */
+/* Extends the grid of field f over its particles and sorts its material points by cells. *lost: set to true if
+ * positions are not finite; nothing is sorted then, and OK is returned. Returns FAILED or REFUSED, with a message, if
+ * the grid would need too many nodes. */
 static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -109,7 +109,7 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
     return own;
 }
 
-/* Returns true if any particle moves with a grid of the current frame. */
+/* Returns true if any particle moves with a grid of the current frame, as a material point or coupled to the grid. */
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
 /* Maps mass, momentum and force of all particles on the grids to the nodes, which are cleared first. */
@@ -137,9 +137,9 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     return side;
 }
 
-/* Advances the velocities of all nodes under forces, contact, walls and mirrors. side: grids as sides of contact, from
- * meeting_find; NULL: no contact; middle: time in the middle of the step [s]; dt: duration of the velocity update
- * [s]. */
+/* Advances the velocities of all nodes under forces, contact, prescribed velocities (walls) and mirrors. side: grids of
+ * the bodies for contact, from meeting_find; NULL: no contact; middle: time in the middle of the step [s]; dt: duration
+ * of the velocity update [s]. */
 static void grids_move(struct run *e, const struct grid_contact_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
@@ -156,7 +156,7 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
 }
 
 /* Adds the change of the nodal velocities to the points and maps the momentum of the points to the nodes again (MUSL).
- * side: grids as sides of contact, from meeting_find; NULL: no contact. */
+ * side: grids of the bodies for contact, from meeting_find; NULL: no contact. */
 static void grids_remap(struct run *e, const struct grid_contact_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);

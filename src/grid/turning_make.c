@@ -10,8 +10,8 @@ static int first_of(const struct grid_method *grid, const struct scene *scene, i
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Sets held[one[b]] to true if a prescribed motion without rotation acts on a particle of body b. one[bodies]: lowest
- * number of the bodies that share a grid with each body. */
+/* Sets held[one[b]] to true for bodies b of which a particle has a prescribed motion without rotation. one[bodies]:
+ * lowest number of the bodies that share a grid with each body. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -21,8 +21,8 @@ static void mark_held(const struct loads *loads, const struct particles *p, cons
     }
 }
 
-/* Computes the origin of the rotation groups, middle[dim] [m], such that bodies that mirror each other have mirrored
- * groups: on planes of symmetry, else in the middle of all bodies. */
+/* Computes middle[dim] [m], the origin for the division of points into groups that rotate together, such that bodies
+ * that mirror each other have mirrored groups: on planes of symmetry, else in the middle of all bodies. */
 static void turning_middle(const struct particles *part, const struct scene *scene, real *middle)
 {
     for (int d = 0; d < part->dim; d++) {
