@@ -43,14 +43,14 @@ struct rigid_body {
 };
 
 /* Initialises rigid body r, whose name must be set and whose other members must be 0. shape: kept by reference; mass:
- * of a freely moving body [kg], 0 for a fixed or driven one; velocity: initial velocity of a free body, prescribed
- * velocity of a driven one (dim components [m/s]); spacing: of the particles [m]. Returns REFUSED, with a message, if a
- * moving body is unbounded or a bounded body has no volume. */
+ * of a free body, which moves under forces [kg], 0 for a fixed or driven one; velocity: initial velocity of a free
+ * body, prescribed velocity of a driven one (dim components [m/s]); spacing: of the particles [m]. Returns REFUSED,
+ * with a message, if a moving body is unbounded or a bounded body has no volume. */
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing);
 
-/* Tests by bounding spheres whether a point of the body may be within `reach` [m] of the point x (present position
- * [m]). Returns false if that is impossible; always true for a fixed body. */
+/* Tests by bounding spheres whether a point of the body may be within `reach` [m] of the current position x (r->dim
+ * components [m]). Returns false if that is impossible; always true for a fixed body, which may be unbounded. */
 static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
@@ -62,7 +62,7 @@ static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, re
  * negative inside [m]. normal: receives the outward unit normal of the nearest surface point. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 
-/* Computes the present position x of the material point of the body that was at X at t = 0 [m]. */
+/* Computes the current position x of the point of the body that was at X at t = 0 (DIM_MAX components each [m]). */
 void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
 /* Computes the velocity v of the point of the rigid body at the present position x [m/s], from the velocity of the
@@ -85,11 +85,11 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
  * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
-/* Adds the work that the drive of a driven body has done since the last call to r->work: minus its displacement since
- * the last call times the mean of the contact forces at the last call and at present. */
+/* Adds the work that a driven body's drive has done since the last call to r->work: minus its displacement since that
+ * call times the mean of the contact forces at that call and now. Does nothing for other bodies. */
 void rigid_add_drive_work(struct rigid_body *r);
 
-/* Updates r->force_most, the largest contact force on the body so far [N], by the present force. */
+/* Raises r->force_most, the largest magnitude of the contact force on the body so far [N], to that of r->force. */
 void rigid_update_largest_force(struct rigid_body *r);
 
 /* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
@@ -99,7 +99,7 @@ real rigid_total_work(const struct rigid_body *r);
 /* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);
 
-/* Returns by how much the kinetic energy of a free body changes in half a time step under the present force, weight and
+/* Returns by how much the kinetic energy of a free body changes in half a time step under its current force, weight and
  * moment, to first order [J]; 0 for other bodies. dt: whole time step [s]. */
 real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt);
 

@@ -26,7 +26,7 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s);
  * if a freely moving one touches a mirror plane of the scene. */
 status rigids_check(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
 
-/* Accounts for the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
+/* Evaluates the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
  * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
  * the particles (dim components [N s]). */
 void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
@@ -58,8 +58,9 @@ struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt
  * Returns their number: force [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
 int rigids_list_columns(const struct run *e, struct column *column);
 
-/* Writes the values of the columns described by rigids_list_columns to `record`: for each rigid body the forces and
- * moments of the last step, then position and velocity at the time of the sample (rigids_store_motion_for_sample). */
+/* Writes the values of the columns of rigid bodies in history.csv to `record`, in the order of rigids_list_columns: for
+ * each body the forces and moments of the last step, then position and velocity at the time of the sample, which
+ * rigids_store_motion_for_sample has stored. */
 void rigids_write_record(struct run *e, real *record);
 
 /* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample at time t
@@ -67,15 +68,17 @@ void rigids_write_record(struct run *e, real *record);
 void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 
 /* Replaces the velocities of free bodies that rigids_store_motion_for_sample stored before the step by the mean of
- * these and the present velocities, after the step: the velocities at the time of the sample. */
+ * these and the current velocities. Must be called after the step; the result is the velocities at the time of the
+ * sample. */
 void rigids_average_velocities(struct rigid_set *rigid);
 
-/* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s] (rigids_velocity_of_body),
- * for the sample after the last time step. dt: time step [s]. */
+/* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from the
+ * current ones, for the sample after the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
 
-/* Computes the velocity v of rigid body number `body` at time t [m/s], from the velocity half a step dt [s] behind t
- * and the present forces; of a driven body, the prescribed velocity. */
+/* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its
+ * velocity, half a step behind t, and the current forces; for a driven body the prescribed velocity. dt: time step
+ * [s]. */
 void rigids_velocity_of_body(const struct rigid_set *rigid, int body, real t, real dt, real *v);
 
 #endif

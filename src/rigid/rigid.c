@@ -7,7 +7,7 @@
 
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
-/* Computes the product to = A b, or A^T b if `back` is true. to must not be b. */
+/* Computes the product to = A b, or A^T b if `back` is true, of a 3 x 3 matrix and a vector. to must not be b. */
 static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
@@ -71,9 +71,9 @@ struct box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Integrates over the sampling points of a region in its bounding box b. Adds the centre of the region to centre[dim]
- * [m] and its second moments per volume about the centre to `second` [m^2]; both must be 0 before. Returns the volume
- * of the region [m^dim], or 0 if the box has no volume. */
+/* Integrates over the sampling points of a region in its bounding box b. Adds the centre of the region [m] to
+ * centre[dim] and its second moments per volume about the centre [m^2] to `second`; both must be 0 before. Returns the
+ * volume of the region [m^dim], or 0 if the box has no volume. */
 static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
                            real second[DIM_MAX][DIM_MAX])
 {

@@ -10,8 +10,8 @@
 #define DEEP_MOST 0.6      /* allowed depth of the centre of a particle in a rigid body at the start [spacings] */
 #define INCREMENT_MOST 0.5 /* allowed motion in a step [spacings]: contact acts over a distance of one spacing */
 
-/* Returns REFUSED, with a message, if the centre of a particle is deeper than DEEP_MOST spacings inside rigid body r at
- * the start. */
+/* Returns REFUSED, with a message, if at the start the centre of a particle is deeper than DEEP_MOST spacings inside
+ * rigid body r. */
 static status check_room(const struct rigid_body *r, const struct scene *s, const struct particles *p)
 {
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};

@@ -27,7 +27,8 @@ struct net {
     int32_t *point; /* [nodes] index of the point of the cell above a node; -1: none */
 };
 
-/* Returns the level set at X[dim] of a region cut to the box low[dim] .. high[dim] [m], negative inside. */
+/* Returns the level set at X[dim] of a region, cut to the box low[dim] .. high[dim] [m]: negative inside both, 0 on the
+ * surface. */
 static real cut_level_set(const struct region *shape, const real *X, int dim, const real *low, const real *high)
 {
     real value = region_level_set_value(shape, X, dim);
@@ -69,7 +70,7 @@ static void net_make(struct net *g, const struct region *shape, int dim, const r
     }
 }
 
-/* Returns the difference of the indices of neighbouring nodes along axis d in the arrays of g. */
+/* Returns by how much the indices of neighbouring nodes along axis d differ in the arrays of g. */
 static int64_t stride(const struct net *g, int d)
 {
     return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
