@@ -18,16 +18,15 @@ real particles_kinetic_energy(const struct particles *p);
  * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
-/* Returns the elastic strain energy [J], as points_strain_energy does, of those material points that are among n listed
- * particles. m: array of the materials; partial: partial stresses of the points, NULL for none; list: n particle
- * indices.
- */
+/* Returns the elastic strain energy of those material points that are among the particles list[n] [J], 1/2 sum sigma :
+ * C^-1 : sigma V without the part of the stress that bonds carry. m: array of the materials; partial: partial stresses
+ * of the points, NULL for none. */
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
                                   const struct partial_stress *partial, const int32_t *list, int64_t n);
 
 /* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
- * hardening modulus H and the accumulated plastic strain a, and the booked plastic work of materials with a flow law.
- * m: array of the materials; partial: partial stresses of the points, NULL for none. */
+ * hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work stored
+ * with the points. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the
@@ -43,8 +42,8 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
                                real *size);
 
-/* Computes the weighted volume and the dilatation of the family of each particle of bonds b at the present positions,
- * as ordinary state-based peridynamics needs them before forces or energies; in the bond-based model updates the
+/* Prepares the families of the bonds b at the current positions, before forces or energies are computed. Computes the
+ * weighted volume and the dilatation of each family in state-based peridynamics; in the bond-based model updates the
  * largest stretches of bonds that soften. Does nothing for other bond-based models. s: bond law. */
 static inline void family_states_precompute(struct bonds *b, struct particles *p, const struct bond_source *s)
 {

@@ -4,14 +4,14 @@
 
 #include "run/run.h"
 
-/* Reduces elastic[m].trigger, the stress at which points of material m convert, to that of its weakest particle, if the
- * strength of particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants
- * of all materials, changed in place. */
+/* Reduces elastic[m].trigger, the stress at which points of material m are converted to peridynamic particles, to that
+ * of its weakest particle, if the strength of particles is random (p->strength). Does nothing if strength is uniform.
+ * elastic: array of the constants of all materials, changed in place. */
 void conversion_stress_reduce_to_weakest(struct elastic *elastic, const struct particles *p);
 
-/* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
- * each material and each method that moves its particles (bonds, grid or mesh). Returns NULL if the scene has no
- * absorbing boundary or is static. source: bond law. */
+/* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
+ * each method that moves its particles (bonds, grid or mesh). Release it with memory_free. Returns NULL if the scene
+ * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source);
 
 /* Lists in tables->voids the shapes of bodies that may contain voids, and in tables->void_mirror the planes of the
@@ -19,8 +19,8 @@ struct impedance *absorbing_impedances(const struct scene *s, const struct bond_
  * if at least one shape was listed. */
 bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
-/* Returns the largest distance across which particles interact [m], through bonds shorter than `cutoff` [m] or through
- * common cells of the mesh; voids narrower than this distance must be handled explicitly. */
+/* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],
+ * or through common cells of the mesh. Voids narrower than this distance must be handled explicitly. */
 real voids_interaction_distance(const struct scene *s, real cutoff);
 
 /* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
@@ -34,8 +34,8 @@ bool joined_bodies_have_exact_surface(const struct scene *s, int body);
 status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                                 const struct loads *loads, const struct scene *s);
 
-/* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: neighbour search over
- * the particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
+/* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: search cells of the
+ * particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
  * within `cutoff` of a particle of the other. */
 status joined_bodies_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
 

@@ -22,8 +22,8 @@ struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bo
 
 void bond_operator_free(struct bond_operator *body) { memory_free(body->root); }
 
-/* Returns the largest absolute component of the displacement u/sqrt(m) over all particles. u: [dim][n], scaled by
- * sqrt(mass). */
+/* Returns the largest absolute component of the displacement u/sqrt(m) over all particles [m]. u: [dim][n]
+ * displacements times the square root of the mass. */
 static real largest_motion(const struct bond_operator *body, const real *u)
 {
     const struct particles *p = body->p;

@@ -3,8 +3,8 @@
 
 #include "run/make.h"
 
-/* Returns REFUSED, with a message, if the motion of boundary b depends on the reference positions of particles and acts
- * on points on the grid of the current frame, which has no reference positions. l: the load of b. */
+/* Returns REFUSED, with a message, if the motion of boundary b depends on the reference positions of particles but acts
+ * on material points on the grid of the current frame, which do not store these. l: the load of b. */
 static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && boundary_motion_varies_in_space(b); k++)

@@ -39,8 +39,9 @@ struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds kinetic energy, and by `wanted` momentum and sum of |m v|, of entries first .. end - 1 of m to *to. meshed: true
- * to skip entries with FLAG_MESHED. dim, meshed and wanted must be compile-time constants. */
+/* Adds the sums over entries first .. end - 1 of m to *to: the kinetic energy and, depending on `wanted`, the momentum
+ * and the sum of |m v|. meshed: true to skip entries with FLAG_MESHED, which the nodes of a mesh move. dim, meshed and
+ * wanted must be known at compile time. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const enum motion_sums wanted)
 {
@@ -62,8 +63,8 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
 }
 
-/* Calls add_motion for entries first .. end - 1 with the dimension of m as a constant. Skips them if the nodes of a
- * mesh move all of these particles. */
+/* Adds the sums over entries first .. end - 1 of m to *to, by add_motion with the dimension of m as a constant. Skips
+ * the entries if all are particles that the nodes of a mesh move. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                        const enum motion_sums wanted)
 {
@@ -82,7 +83,8 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of the finest cells inside coarse cells. */
+/* Returns true if nodes first .. end - 1 all have no mass, as most nodes of the finest cells in the region of coarse
+ * cells. */
 static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 {
     real most = 0;
@@ -143,8 +145,8 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* Adds the sum of m dv^2/4 over particles first .. end - 1 (kick_piece) to sum[0] [J]; a block function of
- * reproducible_sums. Points of a mesh do not contribute. context: a struct kick. */
+/* Adds the sum of m dv^2/4 over particles first .. end - 1 to sum[0] [J], with the change of velocity dv in the step; a
+ * block function of reproducible_sums. Points of a mesh do not contribute. context: a struct kick. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -211,9 +213,9 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
-/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits to the grid times the strain
- * C^-1 stress. The material is isotropic, so that normal stresses cause normal strains alone. dim: a compile-time
- * constant. */
+/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits to the grid times the
+ * elastic strain C^-1 stress. The material is isotropic, so that normal stresses cause only normal strains. dim: number
+ * of dimensions, known at compile time. */
 static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -306,9 +308,9 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
     if (size) *size = sum[p->dim];
 }
 
-/* Computes the stresses p->stress of peridynamic particles from their bonds. The states of state-based models are
- * recomputed first, at the present positions: a step moves particles after its forces, and the stress in a rotating
- * body would otherwise contain the rotation of a step. s: source of the bonds b. */
+/* Computes the stresses p->stress of peridynamic particles from their bonds. In state-based models the weighted volumes
+ * and dilatations are recomputed first, at the current positions: a step moves particles after its forces, and the
+ * stress in a rotating body would otherwise contain the rotation of a step. s: source of the bonds b. */
 void bonds_compute_particle_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                                    const struct kernels *kernels)
 {

@@ -4,7 +4,8 @@
 
 #include "run/make.h"
 
-/* Returns the index of a mirror whose plane is between positions X and Y along `axis`, or -1 if there is none. */
+/* Returns the number of a mirror boundary whose plane is between the positions X and Y along `axis`, or -1 if there is
+ * none. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -15,8 +16,8 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns the number of the body, among those joined to body `body`, whose shape contains X [m]; `body` if no shape
- * does. */
+/* Returns the number of that body, among those joined to body `body`, whose shape contains the position X [m]; `body`
+ * if no shape does. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
     for (int b = 0; b < s->bodies; b++)
