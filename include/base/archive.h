@@ -15,8 +15,8 @@ enum archive_scope {
     ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
-/* A store of named entries, in a checkpoint file or in memory, open either for saving or for restoring. The same call
- * of `exchange` saves or restores an entry, depending on `saving`. */
+/* A store of named entries, in a checkpoint file or in memory. `saving` determines whether a call of `exchange` saves
+ * an entry (true) or restores it (false), so that one function describes both. */
 struct archive {
     bool saving;
     /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if
@@ -36,9 +36,9 @@ struct archive {
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
 /* Saves n elements of `size` bytes, one per particle (mirror images included), under the name `name` if a->saving, else
- * restores them. If a->now is set while restoring, the run has other particles than the stored one: each element goes
- * to the new index of its particle, and elements of particles that were not stored keep their value. Returns the status
- * of a->exchange. */
+ * restores them. If a->now is not NULL while restoring, the run has other particles than the stored one: each element
+ * is stored at the new index of its particle, and elements of particles that were not stored keep their value. Returns
+ * the status of a->exchange. */
 status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
 /* Replaces each of the n restored particle indices particle[k] by the new index of that particle, a->now[particle[k]];

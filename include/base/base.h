@@ -34,7 +34,7 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 #define VECTOR_PICK(MASK, a, b, ...) __builtin_shuffle(a, b, (MASK){__VA_ARGS__})
 #endif
 
-/* Returns the number of components of a symmetric tensor. */
+/* Returns the number of components of a symmetric tensor in dim dimensions: 1, 3 or 6. */
 static inline int symmetric_component_count(int dim) { return dim * (dim + 1) / 2; }
 
 /* Computes row and column (0 .. 2) of component number `component` of a symmetric tensor. Order of the components: xx,
@@ -58,9 +58,9 @@ static inline uint64_t hash_add_word(uint64_t hash, uint64_t word)
 /* Result of a function that can fail; the values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 
-/* Composes the message of a failure (one line) as printf does, stores it for status_message, and returns `s`. Called
- * once, where the fault is found; functions above it in the call chain only pass the status on (TRY). Each thread has
- * its own message. */
+/* Composes the message of a failure (one line) as printf does, stores it for status_message, and returns `s`. It is
+ * called once, where the fault is found; functions above it in the call chain only return the status (macro TRY). Each
+ * thread has its own message. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the message of the last failure in this thread. */
@@ -80,9 +80,10 @@ status status_prepend_location(const char *location, status s);
  * instead. */
 #define INVARIANT(condition) ((condition) ? (void)0 : invariant_broken(#condition, __FILE__, __LINE__, __func__))
 
-/* Ends the program: prints one line on standard error with the version, the source location and the text of the
- * condition, and what to report; calls the function set by invariant_set_cleanup; exit status 1. Any thread may call
- * it; of several threads the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers
+/* Ends the program because `condition`, which must always hold, does not hold in `function` of the source file `file`
+ * at `line`. Prints one line on standard error with the version, the source location, the text of the condition, and
+ * what to report; calls the function set by invariant_set_cleanup; exits with status 1. Any thread may call it; of
+ * several threads only the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers can
  * distinguish such an end from a refusal. */
 _Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function);
 

@@ -6,9 +6,10 @@
 
 enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
-/* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child `process` (id; 0: none) is
- * killed with all processes that it started, then the file `path` (copied; NULL: none) is removed. kind: kind of file;
- * replaces its previous entry. A signal that is ignored or already has a handler is left alone. */
+/* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child with the id `process` (0:
+ * none) is killed with all processes that it started, then the file `path` (copied; NULL: none) is removed. kind: kind
+ * of file; a second call with this kind replaces the first. A signal that is ignored or already has a handler is not
+ * handled. */
 void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int process);
 
 /* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread if `block` is true, else unblocks them. Block them while a

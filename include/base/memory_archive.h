@@ -21,8 +21,8 @@ struct memory_archive {
  * calling the state functions of the modules with &m->archive. Release with memory_archive_free. */
 void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
 
-/* Switches an archive in memory from saving to restoring and returns to its first entry, so that the state functions,
- * called in the same order with &m->archive, restore what they saved. May be repeated. */
+/* Switches an archive in memory from saving to restoring and returns to its first entry. The state functions, called in
+ * the same order with &m->archive, then restore what they saved. It may be called repeatedly. */
 void memory_archive_rewind(struct memory_archive *m);
 
 /* Frees all entries of an archive in memory. Does nothing if it has none. */

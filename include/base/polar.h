@@ -7,8 +7,8 @@
 
 #include "base/base.h"
 
-/* Computes the rotation R nearest to the 2 x 2 matrix M (row major): its angle is that of the vector (M11 + M22, M21 -
- * M12). The identity if this vector is 0. */
+/* Computes the rotation matrix R nearest to the 2 x 2 matrix M (row major): its angle is that of the vector (M11 + M22,
+ * M21 - M12). R is the identity if this vector is 0. */
 static inline void polar_rotation_2d(const real *M, real *R)
 {
     const real c = M[0] + M[3], s = M[2] - M[1], size = sqrt(c * c + s * s);

@@ -50,7 +50,7 @@ void core_shares_free(struct core_shares *s);
 /* Returns the wall clock [s]. */
 double wall_clock(void);
 
-/* Returns the processor time of the calling thread [s]; time taken by other programs does not count. */
+/* Returns the processor time that the calling thread has used [s]; time taken by other programs does not count. */
 double thread_cpu_clock(void);
 
 /* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums in one pass. */
@@ -62,8 +62,8 @@ enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
 
 /* Computes `terms` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of threads.
- * block(context, first, end, sum) adds the terms first .. end - 1 of all sums to sum[terms]. sum: receives the
- * results. */
+ * block(context, first, end, sum) must add the terms first .. end - 1 of all sums to sum[terms]; threads call it at
+ * once for different ranges. sum: receives the results. */
 void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
@@ -77,7 +77,7 @@ struct timers {
     double last, spent[TIMERS];
 };
 
-/* Sets the time spent in every section to 0 and starts timing the first one. */
+/* Sets the time spent in each section of *timers to 0 and starts timing the first one. */
 void timers_start(struct timers *timers);
 
 /* Adds the time since the last call of timer_add_elapsed (or timers_start) to section `which`. */

@@ -42,8 +42,8 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* Computes the next Lanczos vector w = A v - (v . A v) v - last u of the symmetric matrix A, where v is the present
- * vector and u = l->before the previous one. apply(context, v, w): computes w = A v. last: length of w in the previous
+/* Computes the next Lanczos vector w = A v - (v . A v) v - last u of the symmetric matrix A, where v is the current
+ * vector and u = l->before the previous one. apply(context, v, w): computes w = A v; last: length of w in the previous
  * iteration. Stores v . A v in *diagonal. Returns the length of w. */
 static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
@@ -57,8 +57,8 @@ static real next(struct lanczos *l, matrix_product_fn *apply, void *context, rea
     return sqrt(sum[1]);
 }
 
-/* Prepares the next iteration of the Lanczos method: makes v the previous Lanczos vector, and w/size the present one.
- * size: length of w. */
+/* Prepares the next iteration of the Lanczos method: makes v the previous vector and w/size the current one. size:
+ * length of w. */
 static void eigenvalue_turn(struct lanczos *l, real size)
 {
     real *spare = l->before;

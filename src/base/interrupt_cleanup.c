@@ -20,9 +20,10 @@ static struct {
 static pthread_t maker; /* the thread that makes files and children */
 
 /* Handles the signal `number`, which ends the process. Ends the child processes and waits for them, since they could
- * create their files once more; removes the temporary files; ends the process by the same signal. Calls only functions
- * that are safe in a handler. Files and children are created by the thread `maker` alone, which blocks signals while it
- * starts a child. Another thread only forwards the signal to `maker`, which would otherwise continue to create them. */
+ * otherwise create their files again; removes the temporary files; ends the process by the same signal. Calls only
+ * functions that are safe in a handler. Files and children are created by the thread `maker` alone, which blocks
+ * signals while it starts a child. Another thread only forwards the signal to `maker`, which would otherwise continue
+ * to create them. */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {

@@ -85,9 +85,9 @@ static int waiting_longest;
 static size_t waiting_bytes;
 static bool reusing;
 
-/* Returns the size of the pages to be provided for an array of `length` bytes [byte]. The sizes are in steps of at most
- * a quarter, so that the released block of an array can be used again for a slightly larger one. Pages beyond the end
- * of the array are never written and thus take no memory. */
+/* Returns the size of the pages that are reserved for an array of `length` bytes [byte]. The sizes are in steps of at
+ * most a quarter, so that the released block of an array can be used again for a slightly larger one. Pages beyond the
+ * end of the array are never written and thus take no memory. */
 static size_t room_of(size_t length)
 {
     size_t step = OWN_PAGES / 4;
@@ -112,9 +112,9 @@ static struct block take_kept(size_t least)
     return block;
 }
 
-/* Adds a released block to the store of released blocks, in place of the oldest one. Then returns further old blocks to
- * the system while the store is larger than KEPT_ALL bytes. A block larger than KEPT_MOST is not stored but returned to
- * the system; so is every block if the store is not in use. */
+/* Adds a released block to the store of released blocks, in place of the oldest one, and returns further old blocks to
+ * the system while the store is larger than KEPT_ALL bytes. If the store is not in use, or the block is larger than
+ * KEPT_MOST, the block is returned to the system instead. */
 static void memory_keep(struct block block)
 {
     if (!reusing || block.mapped > KEPT_MOST) {

@@ -22,8 +22,8 @@ static int64_t number_in(const char *path)
     return found ? number : INT64_MAX;
 }
 
-/* Returns the smallest number in the files base/group/file of a control group and of all groups above it [byte]. A
- * container sees its own group as the highest. Modifies `group`. */
+/* Returns the smallest number in the files base/group/file [byte], where `group` is a control group or one of the
+ * groups above it. A container sees its own group as the highest. Modifies `group`. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;

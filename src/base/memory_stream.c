@@ -16,8 +16,8 @@ struct collected {
     bool lost;
 };
 
-/* Ensures that the collected output has room for `more` further bytes and a NUL. Returns false if memory is
- * exhausted. */
+/* Makes sure that the memory of the collected output has capacity for `more` further bytes and a NUL. Returns false if
+ * memory is exhausted. */
 static bool collected_room(struct collected *c, size_t more)
 {
     const size_t least = *c->length + more + 1, room = least < 2 * c->room ? 2 * c->room : least;

@@ -173,8 +173,8 @@ static void bind_helpers(const struct place *place, int threads)
 
 static bool user_binds(void) { return getenv("OMP_PROC_BIND") != NULL || getenv("OMP_PLACES") != NULL; }
 
-/* Returns the number of threads for which the user's OMP_PLACES provides hardware threads, at most the number of
- * threads of OpenMP (omp_get_max_threads). Returns the latter number if OMP_PLACES is not set. */
+/* Returns the number of threads for which OMP_PLACES, if the user has set it, provides hardware threads, at most
+ * omp_get_max_threads(). Returns omp_get_max_threads() if OMP_PLACES is not set. */
 static int bound_threads(void)
 {
     int held = 0, most = omp_get_max_threads();
@@ -194,7 +194,7 @@ static void flush_tiny_numbers(int threads)
 #endif
 }
 
-/* Start routine of the threads of threads_start: waits until `mutex` is unlocked. */
+/* Start routine of the threads that threads_start creates: waits until the mutex `mutex` is unlocked. */
 static void *wait_for(void *mutex)
 {
     pthread_mutex_lock(mutex);
