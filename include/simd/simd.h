@@ -19,11 +19,11 @@ struct simd_set {
 extern const struct simd_set simd_sets[];
 extern const int simd_set_count;
 
-/* Makes `set` the set of kernels that all kernel calls use from now on. The processor must support it (set->runs()).
- * Must not be called while kernels run. */
+/* Makes all kernel calls use the set of kernels `set` from now on. The processor must support it (set->runs()). Must
+ * not be called while kernels run. */
 void simd_use_kernels(const struct simd_set *set);
 
-/* Returns the set of kernels that kernel calls use at present. */
+/* Returns the set of kernels that kernel calls currently use. */
 const struct simd_set *simd_current_kernels(void);
 
 /* Selects the set of kernels named by the environment variable CLEAVE_SIMD, or, if it is not set, the one with the

@@ -76,7 +76,7 @@ void simd_use_kernels(const struct simd_set *set)
 const struct simd_set *simd_current_kernels(void) { return in_use; }
 
 /* Writes the names of all sets of kernels to text[size], separated by commas as in "avx2, portable", and returns text.
- * running: true: only those sets that this processor supports. */
+ * running: true for only those sets that this processor supports. */
 static const char *names(bool running, char *text, size_t size)
 {
     size_t length = 0;
