@@ -18,13 +18,15 @@
 
 /* ---- a lattice of spacing 1 m, particles at half-integers -------------------------------------------------------- */
 
-/* A lattice body and its cells. */
+/* A body of particles on a lattice, and the cells by which neighbours are found. */
 struct body {
     struct particles p;
     struct cells c;
 };
 
-/* Creates a lattice of count[dim] particles with spacing 1 m. */
+/* Creates a body of count[0] x count[1] x count[2] particles (dim factors) on a lattice of spacing 1 m, from 0.5 m in
+ * each direction, with volume 1, mass BODY_MASS and their index as id; its cells serve to find neighbours within 3.1 m.
+ * Release it with body_free. */
 static inline void body_make(struct body *b, int dim, const int *count)
 {
     int64_t n = 1;
@@ -45,7 +47,7 @@ static inline void body_free(struct body *b)
     particles_free(&b->p);
 }
 
-/* Returns the particle at a position, which must exist. */
+/* Returns the index of the particle whose reference position is (x, y, z) [m]; the test fails if there is none. */
 static inline int64_t particle_at(const struct body *b, real x, real y, real z)
 {
     const real X[DIM_MAX] = {x, y, z};
@@ -58,7 +60,8 @@ static inline int64_t particle_at(const struct body *b, real x, real y, real z)
     return -1;
 }
 
-/* Damages the particle at a position and makes it peridynamic, since only peridynamic particles lose bonds. */
+/* Sets damage 0.5 for the particle at a reference position [m], and makes it peridynamic, since only peridynamic
+ * particles lose bonds. The test fails if there is no such particle. */
 static inline void hurt(struct body *b, real x, real y, real z)
 {
     const int64_t i = particle_at(b, x, y, z);
@@ -70,7 +73,8 @@ static inline void hurt(struct body *b, real x, real y, real z)
 
 enum { ENTRIES = 64 };
 
-/* An archive in memory. */
+/* An archive in memory, in place of a restart file: n entries, each a name with a copy of its data. Use it as `file` of
+ * a struct archive with the function store_exchange; release it with store_free. */
 struct store {
     int n;
     struct {
@@ -80,7 +84,8 @@ struct store {
     } entry[ENTRIES];
 };
 
-/* Saves or restores an entry; the archive function of a store. */
+/* Saves an entry in the store a->file or restores it from there, as a->saving says: the archive function of a store.
+ * The test fails if a name is saved twice or restored without having been saved, or if the size differs. */
 static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     struct store *s = a->file;
@@ -104,8 +109,9 @@ static inline void store_free(struct store *s)
     for (int k = 0; k < s->n; k++) free(s->entry[k].data);
 }
 
-/* Creates a plate of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to (10, 10.5), and
- * its tips. window: of the crack speed [s]. */
+/* Creates a plate of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to (10, 10.5),
+ * with the particles of this row and of the next row below damaged up to x = 8.5 m, and the crack tips t. window: time
+ * over which the crack speed is taken [s]. Release both with notched_free. */
 static inline void notched_make(struct body *b, struct crack_tips *t, real window)
 {
     body_make(b, 2, (const int[]){40, 20});
@@ -121,6 +127,8 @@ static inline void notched_free(struct body *b, struct crack_tips *t)
     body_free(b);
 }
 
+/* Returns a brittle material with Young's modulus 200 Pa, Poisson's ratio 0.25, density 1 kg/m^3 and critical stretch
+ * 1, with the constants derived for a space. */
 static inline struct material steel(enum space space)
 {
     struct material m = {.young = 200, .poisson = 0.25, .density = 1, .critical_stretch = 1};

@@ -13,7 +13,8 @@
 enum { CLOUD_MATERIALS = 2 };
 #define CLOUD_SPACING 1e-3 /* [m] */
 
-/* Parameters of a body. Zeros stand for a regular lattice with whole volumes, calibrated on the lattice. */
+/* Plan of a body on a lattice of CLOUD_SPACING. The members left at 0 stand for one particle in a direction, a regular
+ * lattice, whole volumes and calibration on the lattice. */
 struct cloud_plan {
     enum space space;
     int count[DIM_MAX]; /* particles per direction; 0 means 1 */
@@ -28,7 +29,9 @@ struct cloud_plan {
     enum influence influence;
 };
 
-/* A body; its arrays are owned. */
+/* A body with all that bond kernels need: particles, two materials with the limits and yield stretches of their bonds
+ * (by pair of materials), cells, source of bonds, bonds, and the arrays of surface corrections. It owns its arrays;
+ * release them with particle_cloud_free. */
 struct particle_cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
@@ -44,19 +47,21 @@ struct particle_cloud {
 };
 
 /* Returns a pseudo-random number, uniform in [0, 1) and equal on all machines, from a linear congruential generator,
- * which suffices to perturb particles. */
+ * which suffices to perturb particles. seed: state of the generator, which is advanced. */
 static inline real cloud_random(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
     return (real)(*seed >> 11) * 0x1p-53;
 }
 
-/* Returns a pseudo-random number between low and high. */
+/* Returns a pseudo-random number, uniform between low and high. seed: state of the generator, which is advanced. */
 static inline real cloud_between(uint64_t *seed, real low, real high)
 {
     return low + (high - low) * cloud_random(seed);
 }
 
+/* Sets the two materials of a body, like steel and aluminium, brittle but unbreakable and elastic: Poisson's ratio that
+ * of bonds in the space (0 in 1D), all bond limits and yield stretches infinite. */
 static inline void cloud_materials(struct particle_cloud *c, enum space space)
 {
     static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
@@ -70,8 +75,8 @@ static inline void cloud_materials(struct particle_cloud *c, enum space space)
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
-/* Creates the particles of cloud c by a plan: peridynamic, one body, material 0, at rest in the reference position. It
- * has no bonds yet (cloud_bonds). Release it with particle_cloud_free. */
+/* Creates the particles of body c by a plan: peridynamic, one body, material 0, at rest in their reference positions.
+ * It has no cells and bonds yet (cloud_source, cloud_bonds). Release it with particle_cloud_free. */
 static inline void particle_cloud_make(struct particle_cloud *c, const struct cloud_plan *plan)
 {
     static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
@@ -107,7 +112,8 @@ static inline void particle_cloud_make(struct particle_cloud *c, const struct cl
     particles_update_kind_lists(p);
 }
 
-/* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
+/* Rounds the positions of a regular lattice to multiples of half a spacing that are exact doubles, as src/scene/fill.c
+ * does for bodies of scenes, so that bonds of equal length have exactly equal lengths. */
 static inline void cloud_exact(struct particle_cloud *c)
 {
     const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
@@ -115,14 +121,17 @@ static inline void cloud_exact(struct particle_cloud *c)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
 }
 
-/* Stores all bonds explicitly. */
+/* Stores all bonds explicitly: replaces the shared stencils, which give the bonds of regular row blocks, by lists of
+ * neighbours. */
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
         if (b->implicit[g]) row_block_expand_stencil(b, g);
 }
 
-/* Sets the source of bonds. Call after kinds, bodies and materials are set. */
+/* Creates the cells of body c and sets c->source, all that bonds_make needs: materials, limits, and the surface
+ * correction of the plan. Call it once, after kinds, bodies and materials of the particles are set; cloud_bonds does so
+ * itself. */
 static inline void cloud_source(struct particle_cloud *c)
 {
     struct bond_source *s = &c->source;
@@ -142,14 +151,16 @@ static inline void cloud_source(struct particle_cloud *c)
     s->neighbour_volume = c->neighbour_volume;
 }
 
-/* Creates the bonds. */
+/* Creates the cells and bonds of body c (c->bonds). Call it once, after kinds, bodies and materials of the particles
+ * are set. */
 static inline void cloud_bonds(struct particle_cloud *c)
 {
     cloud_source(c);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* Sets x = X + strain X. */
+/* Strains the body uniformly: sets the positions x = X + strain X, with the displacement gradient `strain`, which need
+ * not be symmetric. */
 static inline void cloud_strain(struct particle_cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     struct particles *p = &c->p;
@@ -170,7 +181,8 @@ static inline void particle_cloud_free(struct particle_cloud *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Copies the particles into arrays of their own. */
+/* Creates the particles *to as a copy of *from with arrays of its own. optional: sum of the WITH_* whose arrays are
+ * copied; *from must have them. Release with particles_free. */
 static inline void cloud_copy(struct particles *to, const struct particles *from, int optional)
 {
     particles_make(to, from->dim, from->n, optional);
@@ -183,7 +195,8 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
     particles_update_kind_lists(to);
 }
 
-/* Returns the largest difference of two arrays over the largest magnitude in the second. */
+/* Returns the largest difference of corresponding elements of a[n] and b[n] over the largest magnitude in b; 0 if they
+ * are equal, NAN if a difference is NAN. */
 static inline real cloud_difference(const real *a, const real *b, int64_t n)
 {
     real difference = 0, largest = 0;

@@ -12,8 +12,9 @@
 
 /* ---- symmetric --------------------------------------------------------------------------------------------------- */
 
-/* Eliminates all but one off-diagonal entry of row i of a symmetric matrix, of which the lower half is stored. d, e:
- * diagonal and off-diagonal. */
+/* Reduces row i of the symmetric matrix a[n][n], of which only the lower half is stored, to its diagonal and one
+ * off-diagonal entry, e[i], by a Householder reflection that changes the rows above it. Call it for i = n - 1 down to
+ * 0. d[n] is scratch; the diagonal of the tridiagonal matrix remains in a. */
 static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real *e)
 {
     real *row = a + i * n, scale = 0, h = 0, f = 0;
@@ -38,7 +39,8 @@ static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real
         for (int64_t k = 0; k <= j; k++) a[j * n + k] -= row[j] * d[k] + d[j] * row[k];
 }
 
-/* Performs one implicit QL sweep from m to l. */
+/* Performs one implicit QL sweep on rows l .. m of a symmetric tridiagonal matrix, from m to l, with a shift near an
+ * eigenvalue, after which e[l] is closer to 0. d: diagonal; e[k]: entry between rows k and k + 1. */
 static inline void eigen_sweep(real *d, real *e, int64_t l, int64_t m)
 {
     real g = (d[l + 1] - d[l]) / (2 * e[l]), r = hypot(g, 1), s = 1, c = 1, p = 0;
@@ -62,13 +64,15 @@ static inline void eigen_sweep(real *d, real *e, int64_t l, int64_t m)
     d[l] -= p, e[l] = g, e[m] = 0;
 }
 
+/* Compares two numbers for qsort, in ascending order. */
 static inline int eigen_ascending(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;
     return (x > y) - (x < y);
 }
 
-/* Computes all eigenvalues of a symmetric matrix in ascending order in d[n]; e[n] is scratch. */
+/* Computes all eigenvalues of the symmetric matrix a[n][n] into d[n], in ascending order. Reads the lower half of a and
+ * overwrites it; e[n] is scratch. */
 static inline void eigen_symmetric(real *a, int64_t n, real *d, real *e)
 {
     for (int64_t i = n - 1; i >= 0; i--) eigen_reduce_row(a, n, i, d, e);
@@ -87,7 +91,8 @@ static inline void eigen_symmetric(real *a, int64_t n, real *d, real *e)
 
 /* ---- general ----------------------------------------------------------------------------------------------------- */
 
-/* Transforms a matrix to Hessenberg form by similarity: zero below the first subdiagonal. */
+/* Transforms the matrix a[n][n] in place to Hessenberg form with the same eigenvalues, by elimination with pivoting.
+ * The entries below the first subdiagonal become 0. */
 static inline void eigen_hessenberg(real *a, int64_t n)
 {
     for (int64_t m = 1; m < n - 1; m++) {
@@ -114,7 +119,9 @@ static inline void eigen_hessenberg(real *a, int64_t n)
     }
 }
 
-/* Performs the double QR step on rows l .. high, started by p, q, r at row m. */
+/* Performs a double QR step on rows l .. high of the Hessenberg matrix a[n][n]: two shifts at once, in real numbers. m:
+ * row from which it acts, at least l; p, q, r: first three entries of the column m of the shifted matrix, up to a
+ * factor (eigen_start). */
 static inline void eigen_double_step(real *a, int64_t n, int64_t l, int64_t m, int64_t high, real p, real q, real r)
 {
     for (int64_t k = m; k < high; k++) {
@@ -150,8 +157,10 @@ static inline void eigen_double_step(real *a, int64_t n, int64_t l, int64_t m, i
     }
 }
 
-/* Finds the row at which a double step on l .. high starts, where two consecutive subdiagonal entries are small, and
- * performs it. */
+/* Performs a double QR step on rows l .. high (at least three) of the Hessenberg matrix a[n][n]. It starts at the last
+ * row where two consecutive subdiagonal entries are so small that rows above need not take part. x, y: the last and the
+ * last but one diagonal entry; w: product of the two off-diagonal entries beside them, which together give both
+ * shifts. */
 static inline void eigen_start(real *a, int64_t n, int64_t l, int64_t high, real x, real y, real w)
 {
     int64_t m;
@@ -175,8 +184,9 @@ static inline void eigen_start(real *a, int64_t n, int64_t l, int64_t high, real
     eigen_double_step(a, n, l, m, high, p, q, r);
 }
 
-/* Returns the largest magnitude of the imaginary parts of the eigenvalues and stores the least real part in
- * *real_least; NAN without convergence. */
+/* Returns the largest magnitude of the imaginary parts of the eigenvalues of the matrix a[n][n], 0 if all are real, and
+ * stores the smallest real part in *real_least. Overwrites a. Returns NAN if an eigenvalue is not found within 200
+ * steps; *real_least is then of no use. */
 static inline real eigen_imaginary(real *a, int64_t n, real *real_least)
 {
     real most = 0, shift = 0, norm = 0;

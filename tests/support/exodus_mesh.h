@@ -8,10 +8,11 @@
 
 #include "tests/support/near.h"
 
-/* Calls a function of netCDF, which must succeed. */
+/* Calls a function of netCDF; the test fails unless it returns NC_NOERR. */
 #define NC(call) assert_int_equal(call, NC_NOERR)
 
-/* Defines a dimension that is called `name` followed by `number`, 0: without a number. Returns its id. */
+/* Defines a dimension of the open netCDF file `file` with the name `name` followed by `number` (0: `name` alone) and
+ * the length `length`. Returns its id. */
 static inline int exodus_dim(int file, const char *name, int number, size_t length)
 {
     char called[64];
@@ -22,7 +23,9 @@ static inline int exodus_dim(int file, const char *name, int number, size_t leng
     return id;
 }
 
-/* Writes an array of whole numbers that is called `name` followed by `number` over one or two dimensions. */
+/* Writes an array of whole numbers to the netCDF file `file`, with the name `name` followed by `number` (0: `name`
+ * alone). ranks: number of its dimensions, 1 or 2; dim: their ids; value: its elements, NULL: the array is defined but
+ * not filled. Returns its id. */
 static inline int exodus_put_integers(int file, const char *name, int number, int ranks, const int *dim,
                                       const int *value)
 {
@@ -36,7 +39,8 @@ static inline int exodus_put_integers(int file, const char *name, int number, in
     return id;
 }
 
-/* Writes an array of real numbers likewise. */
+/* Writes an array of real numbers to the netCDF file `file`, with the name `name` followed by `number` (0: `name`
+ * alone). ranks: number of its dimensions; dim: their ids; value: its elements, not NULL. */
 static inline void exodus_put_reals(int file, const char *name, int number, int ranks, const int *dim,
                                     const real *value)
 {
@@ -49,8 +53,9 @@ static inline void exodus_put_reals(int file, const char *name, int number, int 
     NC(nc_put_var_double(file, id, value));
 }
 
-/* Creates a file with n nodes X[n][dim] and the numbers of its blocks and sets. mode: of nc_create. Returns its id, to
- * be closed with nc_close. */
+/* Creates a file of Exodus II, in place of any of that path, with n <= 64 nodes at X[n][dim] and the numbers of element
+ * blocks, side sets and node sets, which exodus_put_... then write. mode: format of the file, flags of nc_create.
+ * Returns the id of the file, to be closed with nc_close. */
 static inline int exodus_begin(const char *path, int mode, int dim, int n, const real *X, int blocks, int side_sets,
                                int node_sets)
 {
@@ -71,7 +76,8 @@ static inline int exodus_begin(const char *path, int mode, int dim, int n, const
     return file;
 }
 
-/* Writes a block of elements with the nodes `connect`, from 1. */
+/* Writes a block of elements. number: of the block, from 1; type: its element type in the file, such as HEX8;
+ * connect[elements][nodes]: numbers of the nodes of each element, from 1. */
 static inline void exodus_put_block(int file, int number, const char *type, int elements, int nodes, const int *connect)
 {
     const int dim[2] = {exodus_dim(file, "num_el_in_blk", number, (size_t)elements),
@@ -82,7 +88,8 @@ static inline void exodus_put_block(int file, int number, const char *type, int 
     nc_enddef(file);
 }
 
-/* Writes n names of blocks or sets: the array `name`, over the dimension `over`. */
+/* Writes the names of all n blocks or sets of one sort. name: array for them, such as eb_names; over: dimension that
+ * counts them, such as num_el_blk; names[n]: the names, "" for none, at most 32 characters each. */
 static inline void exodus_put_names(int file, const char *name, const char *over, int n, const char *const *names)
 {
     int dim[2], id;
@@ -95,7 +102,8 @@ static inline void exodus_put_names(int file, const char *name, const char *over
         NC(nc_put_vara_text(file, id, (size_t[]){(size_t)k, 0}, (size_t[]){1, strlen(names[k]) + 1}, names[k]));
 }
 
-/* Writes a side set of n sides. */
+/* Writes a side set of n sides: side[k] of element[k]. number: of the set, from 1. Elements and the sides of an element
+ * are numbered from 1. */
 static inline void exodus_put_sides(int file, int number, int n, const int *element, const int *side)
 {
     const int dim = exodus_dim(file, "num_side_ss", number, (size_t)n);
@@ -103,7 +111,7 @@ static inline void exodus_put_sides(int file, int number, int n, const int *elem
     exodus_put_integers(file, "side_ss", number, 1, &dim, side);
 }
 
-/* Writes a node set of n nodes. */
+/* Writes a node set of n nodes with the numbers node[n], from 1. number: of the set, from 1. */
 static inline void exodus_put_nodes(int file, int number, int n, const int *node)
 {
     const int dim = exodus_dim(file, "num_nod_ns", number, (size_t)n);

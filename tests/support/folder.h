@@ -8,14 +8,16 @@
 
 static char folder[] = "/tmp/cleave-test-XXXXXX";
 
-/* Creates the folder and enters it. Returns 0 on success. */
+/* Creates a temporary folder and makes it the working folder: the setup function of a group of tests. Returns 0 on
+ * success. */
 static inline int folder_enter(void **state)
 {
     (void)state;
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 
-/* Leaves the folder and removes it with its scene.yaml. Returns 0 if tests have left nothing else in it. */
+/* Leaves the temporary folder and removes it with its scene.yaml, if any: the teardown function of a group of tests.
+ * Returns 0 on success, not 0 if the tests have left other files in it. */
 static inline int folder_leave(void **state)
 {
     (void)state;

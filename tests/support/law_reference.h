@@ -8,12 +8,14 @@
 #include "data/law.h"
 #include "data/material.h"
 
-/* Stress, back stress (xx yy zz xy yz zx) [Pa] and accumulated plastic strain of a point. */
+/* Plastic state of a point: stress s and back stress [Pa], each with the components xx yy zz xy yz zx, and accumulated
+ * plastic strain a [1]. */
 struct reference_point {
     real s[SYM_MAX], back[SYM_MAX], a;
 };
 
-/* Returns the stress at plastic strain a on a curve through points, constant beyond the last [Pa]. */
+/* Returns the yield stress at plastic strain a on the flow curve c [Pa]: linear between its points, constant beyond the
+ * last. */
 static inline real reference_curve(const struct flow_curve *c, real a)
 {
     for (int k = 1; k < c->points; k++)
@@ -23,8 +25,8 @@ static inline real reference_curve(const struct flow_curve *c, real a)
     return c->stress[c->points - 1];
 }
 
-/* Returns the yield stress of a flow law at plastic strain a, strain rate `rate` [1/s] and temperature T [K] [Pa]; NAN,
- * which fails every comparison, for a law without a case. */
+/* Returns the yield stress of the flow law m [Pa] at accumulated plastic strain a [1], plastic strain rate `rate` [1/s]
+ * and temperature T [K]; NAN, which fails every comparison, for a law that is missing here. */
 static inline real reference_stress(const struct law *m, real a, real rate, real T)
 {
     const real hot = (T - m->johnson_cook.T_room) / (m->johnson_cook.T_melt - m->johnson_cook.T_room);
@@ -47,7 +49,8 @@ static inline real reference_stress(const struct law *m, real a, real rate, real
     return NAN;
 }
 
-/* Computes xi = s - g X of the deviator s. Returns its equivalent stress [Pa]. */
+/* Computes the relative stress xi = s' - g X of point p [Pa], with the deviator s' of its stress and its back stress X.
+ * g: share of the back stress that recall leaves [1]. Returns the equivalent stress sqrt(3/2 xi:xi) [Pa]. */
 static inline real reference_relative(const struct reference_point *p, real g, real *xi)
 {
     const real mean = (p->s[0] + p->s[1] + p->s[2]) / 3;
@@ -59,15 +62,17 @@ static inline real reference_relative(const struct reference_point *p, real g, r
     return sqrt(sum);
 }
 
-/* Returns the share of the back stress added in an increment `more` of plastic strain that its recall leaves [1]. */
+/* Returns the share of the back stress added in an increment `more` of plastic strain that remains at its end, since
+ * recall takes away from it meanwhile [1]; 1 without recall. */
 static inline real reference_added(const struct law *m, real more)
 {
     const real x = m->kinematic.recall * more;
     return x > 0 ? -expm1(-x) / x : 1;
 }
 
-/* Returns how far the equivalent stress after an increment `more` of plastic strain is above the yield stress [Pa].
- * duration: of the step [s], 0: the rate has no effect; stiffness: 3 G. */
+/* Returns by how much the equivalent stress exceeds the yield stress after an increment `more` of plastic strain from
+ * the trial state p [Pa]. duration: of the step [s], 0: the rate has no effect; T: temperature [K]; stiffness: 3 G,
+ * three times the shear modulus [Pa]. */
 static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real duration,
                                     real T, real stiffness)
 {
@@ -78,7 +83,9 @@ static inline real reference_excess(const struct law *m, const struct reference_
            reference_stress(m, p->a + more, rate, T);
 }
 
-/* Maps a trial state in space solid back to the yield surface in a step of a duration [s], 0: a load step. */
+/* Maps the trial stress of a point back to the yield surface of the flow law m in 3D, by bisection of the increment of
+ * plastic strain, and updates its plastic state. Changes nothing below the yield stress. duration: of the step [s], 0:
+ * load step, the rate has no effect; T: temperature [K]. */
 static inline void reference_return(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real stiffness = 3 * m->shear;
@@ -100,8 +107,9 @@ static inline void reference_return(const struct law *m, struct reference_point 
     p->a += low;
 }
 
-/* Maps a trial state of plane stress, with zz = 0, back within plane stress: by bisection of the strain zz beyond the
- * elastic one at which the return in 3D leaves no stress zz. */
+/* Maps the trial stress of a point in plane stress (zz = 0) back to the yield surface within plane stress, by bisection
+ * of the strain zz beyond the elastic one at which the return in 3D leaves no stress zz. Otherwise as
+ * reference_return. */
 static inline void reference_return_plane_stress(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real c12 = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), c11 = c12 + 2 * m->shear;

@@ -4,9 +4,11 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Maps a trial stress [Pa] back to the yield surface, in place. before: stress at the start of the step, NULL: 0 [Pa];
- * both have the components of particles.stress. *a, *work: plastic strain [1] and work [J/m^3], updated; *zz, in plane
- * strain only: sigma_zz - nu (sigma_xx + sigma_yy) [Pa], updated. Returns the increment of plastic strain [1]. */
+/* Maps the trial stress of one point [Pa] back to the yield surface, in place, by one explicit step at 300 K without
+ * effect of the strain rate. before: stress at the start of the step [Pa], NULL: 0; both have the components of
+ * particles.stress. *a, *work: accumulated plastic strain [1] and plastic work [J/m^3], updated; *zz, used in plane
+ * strain only: sigma_zz - nu (sigma_xx + sigma_yy) [Pa], updated. Returns the increment of plastic strain [1], 0 if the
+ * point does not yield; nothing is changed then. */
 static inline real law_step(const struct law *law, enum space space, const real *before, real *stress, real *a,
                             real *work, real *zz)
 {

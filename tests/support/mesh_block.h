@@ -12,7 +12,8 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A block of points with a hole in one corner, so that it has complete and partial cells. */
+/* A block of material points with their mesh in the reference frame (cells of 2^D points each), and the materials to
+ * which the mesh refers. It may have a hole in one corner, so that it has complete and partial cells. */
 struct block {
     struct particle_cloud c;
     struct mesh mesh;
@@ -21,7 +22,9 @@ struct block {
     struct mesh_source source;
 };
 
-/* Creates a block. hole: peridynamic corner; cubic: lower c12, an anisotropic material. */
+/* Creates a block and its mesh. hole: the points within three spacings of the lowest corner are peridynamic, so not
+ * part of the mesh; cubic: c12 is lowered by a fifth, which makes the material anisotropic; optional: sum of WITH_*,
+ * further arrays of the particles. Release it with block_free. */
 static void block_make_with(struct block *b, enum space space, bool hole, bool cubic, int optional)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
@@ -57,8 +60,8 @@ static inline void block_make(struct block *b, enum space space, bool hole, bool
     block_make_with(b, space, hole, cubic, 0);
 }
 
-/* Gives the points of a cell one dilatation (elastic.mean_dilatation). mixed: a tenth of the points become of another
- * material, so that cells have several. */
+/* Gives all points of a cell that have one material the same dilatation (elastic.mean_dilatation; not in 1D), and makes
+ * the mesh anew. mixed: every eleventh point first becomes of material 1, so that cells have several materials. */
 static inline void block_average(struct block *b, bool mixed)
 {
     for (int m = 0; m < CLOUD_MATERIALS; m++) b->elastic[m].mean_dilatation = b->c.p.dim > 1;
@@ -72,7 +75,8 @@ static void block_free(struct block *b)
     particle_cloud_free(&b->c);
 }
 
-/* Sets random displacements of at most `by` spacings at every node with mass. */
+/* Sets random displacements at every node of the mesh with mass, between -by and by spacings in each direction; 0 at
+ * other nodes. */
 static void shake(struct block *b, real by, uint64_t seed)
 {
     for (int64_t I = 0; I < b->mesh.grid.n; I++)
@@ -80,13 +84,15 @@ static void shake(struct block *b, real by, uint64_t seed)
             b->mesh.displacement[d][I] = b->mesh.grid.mass[I] > 0 ? cloud_between(&seed, -by, by) * CLOUD_SPACING : 0;
 }
 
+/* Returns coordinate d of node I of the mesh in the reference frame [m]. */
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
     return grid_node_position(&mesh->grid, d,
                               mesh_regular_node_of(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-/* Sets u = (R - 1) X, with R a rotation by `angle` about z after an extension along x by `stretch`. */
+/* Displaces all nodes with mass as a body that is first extended along x by `stretch` [1] and then rotated about z by
+ * `angle` [rad]; in 1D it is only extended. */
 static inline void rotation(struct block *b, real angle, real stretch)
 {
     const int dim = b->c.p.dim;
@@ -103,7 +109,8 @@ static inline void rotation(struct block *b, real angle, real stretch)
 
 /* ---- reference implementation: energy point by point ------------------------------------------------------------- */
 
-/* Computes the strain e of point i, dim x dim, in the axes of its cell. */
+/* Computes the strain e = R^T F - 1 of point i, dim x dim, from the displacements of the nodes. F: deformation gradient
+ * at the point; R: rotation of the mean deformation gradient of its cell if `finite`, else the identity. */
 static void point_strain(const struct block *b, int64_t i, bool finite, real *e)
 {
     const struct mesh *mesh = &b->mesh;
@@ -133,7 +140,8 @@ static void point_strain(const struct block *b, int64_t i, bool finite, real *e)
         }
 }
 
-/* Returns the trace of the strain of point i: its own, or the mean over the points of its cell of its material. */
+/* Returns the dilatation of point i, the trace of its strain (point_strain) or, if its material has mean_dilatation,
+ * the mean over the points of its material in its cell. */
 static real point_trace(const struct block *b, int64_t i, bool finite)
 {
     const int dim = b->c.p.dim;
@@ -151,6 +159,8 @@ static real point_trace(const struct block *b, int64_t i, bool finite)
     return sum / n;
 }
 
+/* Returns the elastic energy of point i [J], from its strain with the dilatation of point_trace. finite: the strain is
+ * that without the rotation of the cell. */
 static real point_energy(const struct block *b, int64_t i, bool finite)
 {
     const int dim = b->c.p.dim;
@@ -167,6 +177,8 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
     return 0.5 * b->mesh.volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
 }
 
+/* Returns the elastic energy of all points of the mesh [J], to be compared with that of the engine. finite: strains
+ * are those without the rotations of cells. */
 static inline real plain_energy(const struct block *b, bool finite)
 {
     real sum = 0;
@@ -175,12 +187,15 @@ static inline real plain_energy(const struct block *b, bool finite)
     return sum;
 }
 
+/* Computes the nodal forces of the mesh by the engine (b->mesh.grid.force) for the present displacements. finite:
+ * strains are those without the rotations of cells. */
 static void forces(struct block *b, bool finite)
 {
     mesh_clear(&b->mesh);
     mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
 }
 
+/* Returns the largest magnitude of the components of all nodal forces [N]. */
 static real largest_force(const struct block *b)
 {
     real most = 0;
@@ -189,7 +204,9 @@ static real largest_force(const struct block *b)
     return most;
 }
 
-/* Sets the partial stress of every point: a random symmetric T up to `most` times Young's modulus, M = T C^-1. */
+/* Creates the partial stress of every point, the share of its stress that PD-MPM bonds carry, as a random matrix M = T
+ * C^-1: T symmetric with entries of at most `most` times Young's modulus of material 0, C of the point's material. p:
+ * particles; material: by index. Release with partial_stress_free. */
 static inline void partial_of(struct partial_stress *partial, const struct particles *p,
                               const struct material *material, real most)
 {

@@ -14,7 +14,8 @@
 
 #include "base/base.h"
 
-/* Fails unless |a - b| <= tolerance. Infinities equal themselves; NAN equals nothing. */
+/* Fails the test at a line of a file unless |a - b| <= tolerance. Infinities equal themselves; NAN equals nothing.
+ * what: name of a for the message. */
 static inline void near_check(double a, double b, double tolerance, const char *what, const char *file, int line)
 {
     if (a == b || fabs(a - b) <= tolerance) return;
@@ -22,7 +23,8 @@ static inline void near_check(double a, double b, double tolerance, const char *
     _fail(file, line);
 }
 
-/* Fails unless the status is as wanted and its message contains `part`. */
+/* Fails the test at a line of a file unless the status `got` is `wanted` and, if that is not OK, its message contains
+ * `part` (NULL: any message). */
 static inline void status_check(status got, status wanted, const char *part, const char *file, int line)
 {
     if (got == wanted && (wanted == OK || part == NULL || strstr(status_message(), part) != NULL)) return;
@@ -32,11 +34,11 @@ static inline void status_check(status got, status wanted, const char *part, con
 }
 
 #define assert_near(a, b, tolerance) near_check(a, b, tolerance, #a, __FILE__, __LINE__)
-/* Asserts |a - b| <= share |b|. */
+/* Asserts |a - b| <= share |b|, a relative tolerance. */
 #define assert_close(a, b, share) near_check(a, b, fabs((double)(b)) * (share), #a, __FILE__, __LINE__)
 #define assert_exact(a, b) near_check(a, b, 0, #a, __FILE__, __LINE__)
 #define assert_ok(call) status_check(call, OK, NULL, __FILE__, __LINE__)
-/* Asserts REFUSED or FAILED with a message that contains `part`. */
+/* Asserts that a call returns REFUSED, or FAILED, and that its message contains `part` (NULL: any message). */
 #define assert_refused(call, part) status_check(call, REFUSED, part, __FILE__, __LINE__)
 #define assert_failed(call, part) status_check(call, FAILED, part, __FILE__, __LINE__)
 

@@ -12,14 +12,16 @@
 #include "mesh/mesh_part.h"
 #include "step/step.h"
 
-/* An unknown: component d of a particle or of a node of the mesh. */
+/* One unknown displacement: component d of the peridynamic particle or, if `node`, of the node of the mesh with index
+ * `at`. */
 struct unknown {
     bool node;
     int32_t at;
     int d;
 };
 
-/* The operator and its run. */
+/* The stiffness matrix K of a body, its n unknowns and their masses, and the run whose forces it is computed from.
+ * Release it with operator_free. */
 struct operator
 {
     struct run e;
@@ -48,8 +50,9 @@ struct spectrum {
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns bit sets of the components of particles that loads drive, or of nodes that walls hold or that follow
- * others. */
+/* Returns an array of bit sets, by node of the mesh if `node`, else by particle: bit d is set if component d is no
+ * unknown, since a velocity is prescribed for the particle, or a wall holds the node, or the node follows its mirror
+ * image. Release it with memory_free. */
 static inline uint8_t *operator_held(struct run *e, bool node)
 {
     const int64_t n = node ? e->frame->mesh.grid.n : e->part.n;
@@ -67,6 +70,8 @@ static inline uint8_t *operator_held(struct run *e, bool node)
     return held;
 }
 
+/* Adds the components of particle or node `at` that are not held as unknowns, with their mass [kg]; only counts them in
+ * o->n while o->unknown is NULL. */
 static inline void operator_add(struct operator* o, bool node, const uint8_t *held, int64_t at, real mass)
 {
     for (int d = 0; d < o->e.part.dim; d++) {
@@ -76,6 +81,8 @@ static inline void operator_add(struct operator* o, bool node, const uint8_t *he
     }
 }
 
+/* Determines the unknowns of the operator and their masses: all free components of the peridynamic particles, then
+ * those of the nodes of the mesh with mass. Nodes beyond a symmetry plane add their mass to their images. */
 static inline void operator_unknowns(struct operator* o)
 {
     struct run *e = &o->e;
@@ -101,6 +108,7 @@ static inline void operator_unknowns(struct operator* o)
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
+/* Sets the displacement of the unknown q to u [m]. */
 static inline void operator_place(struct operator* o, struct unknown q, real u)
 {
     struct run *e = &o->e;
@@ -110,8 +118,8 @@ static inline void operator_place(struct operator* o, struct unknown q, real u)
         e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
-/* Computes the forces on the unknowns. Nodes beyond symmetry planes follow their images, to which their forces are
- * added, as in mesh_move. */
+/* Computes the internal forces f[n] on all unknowns [N] for the present displacements. Nodes beyond symmetry planes are
+ * first moved as mirror images of the nodes that they follow, to which their forces are then added, as in mesh_move. */
 static inline void operator_forces(struct operator* o, real *f)
 {
     struct run *e = &o->e;
@@ -132,7 +140,8 @@ static inline void operator_forces(struct operator* o, real *f)
     }
 }
 
-/* Computes K column by column: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h. */
+/* Computes the matrix K [N/m], column by column, as minus the derivative of the forces by the displacement of an
+ * unknown: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h with h of OPERATOR_STEP spacings. */
 static inline void operator_fill(struct operator* o)
 {
     const real h = OPERATOR_STEP * o->s.spacing;
@@ -153,7 +162,8 @@ static inline void operator_fill(struct operator* o)
 
 /* ---- whole operator ---------------------------------------------------------------------------------------------- */
 
-/* Creates the run of a case and its operator. */
+/* Creates the run of the stability case c and the operator of its bodies. Returns OK, or the status of a scene that is
+ * refused; o is then not to be released. Release with operator_free. */
 static inline status operator_make(struct operator* o, const struct stability_case *c)
 {
     char text[4096];
@@ -173,7 +183,8 @@ static inline void operator_free(struct operator* o)
     bench_engine_free(&o->e, &o->s);
 }
 
-/* Compares the energy of bonds and cells in the energy balance with 1/2 u K u; returns the relative difference. */
+/* Returns the relative difference |W/(1/2 u K u) - 1| for small random displacements u, with the energy W of bonds and
+ * cells as the energy balance counts it; displacements are 0 afterwards. */
 static inline real operator_energy(struct operator* o)
 {
     struct run *e = &o->e;
@@ -193,7 +204,8 @@ static inline real operator_energy(struct operator* o)
     return fabs(W / half - 1);
 }
 
-/* Computes the properties of the operator. */
+/* Returns the properties of the operator. imaginary: computes the imaginary parts of the eigenvalues, too, which is
+ * slower; else `imaginary` of the result is NAN. */
 static inline struct spectrum operator_spectrum(struct operator* o, bool imaginary)
 {
     const int64_t n = o->n;

@@ -6,19 +6,20 @@
 #include "coupling/conversion.h"
 #include "kernels/kernels.h"
 
-/* Fails with the name of a quantity if its magnitude exceeds `most`. */
+/* Fails the test unless |value| <= most. what: name of the quantity for the message. */
 static inline void at_most(const char *what, real value, real most)
 {
     if (!(fabs(value) <= most)) fail_msg("%s: %g is more than %g", what, value, most);
 }
 
-/* Fails with the name of a quantity unless it is within `tolerance` of `expected`. */
+/* Fails the test unless |value - expected| <= tolerance. what: name of the quantity for the message. */
 static inline void is_near(const char *what, real value, real expected, real tolerance)
 {
     if (!(fabs(value - expected) <= tolerance)) fail_msg("%s: %g, not %g +- %g", what, value, expected, tolerance);
 }
 
-/* A patch of material points, or of both kinds, and its grid. */
+/* A patch of material points, perhaps with peridynamic particles; its grid; the order of its points by cells; and the
+ * partial stresses of the points. Release it with patch_free. */
 struct patch {
     struct particle_cloud c;
     struct grid g;
@@ -26,7 +27,8 @@ struct patch {
     struct partial_stress partial;
 };
 
-/* Creates the grid: cells of `ratio` spacings, shifted by `offset` spacings along x relative to the lattice. */
+/* Creates the grid of a patch, which covers all particles. ratio: edge of the cells [spacings]; offset: distance of a
+ * node from the start of the lattice along x [spacings]. */
 static inline void patch_grid(struct patch *s, real ratio, real offset)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -39,7 +41,8 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
     assert_int_equal(grid_extend_box(&s->g, from, to, 1000000, &changed), OK);
 }
 
-/* Maps the points to the grid. */
+/* Maps mass, momentum and forces of the material points to the nodes of the grid (FLIP), with the shape functions
+ * `shape`. */
 static inline void patch_map(struct patch *s, enum shape shape)
 {
     struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
@@ -48,8 +51,8 @@ static inline void patch_map(struct patch *s, enum shape shape)
     p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);
 }
 
-/* Returns the largest force on a node between `from` and `to` [spacings] in every direction; there must be such a
- * node. */
+/* Returns the largest magnitude of the nodal force [N] among the nodes between `from` and `to` [spacings] in every
+ * direction; the test fails if there is no such node. */
 static inline real patch_residual(const struct patch *s, const real *from, const real *to)
 {
     real largest = -1;

@@ -11,6 +11,7 @@
 
 /* ==== families ===================================================== */
 
+/* Computes the vector from particle i to j, of coordinates x, into relative[dim]. Returns its length [m]. */
 static inline real reference_relative(real *const *x, int dim, int64_t i, int64_t j, real *relative)
 {
     real r2 = 0;
@@ -18,7 +19,8 @@ static inline real reference_relative(real *const *x, int dim, int64_t i, int64_
     return sqrt(r2);
 }
 
-/* Returns true if j is in the family of i, including points exactly at the cutoff. */
+/* Returns true if j is in the family of i: another particle of its body within the cutoff, or exactly at it, in the
+ * reference configuration. */
 static inline bool reference_bonded(const struct particles *p, const struct family *f, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
@@ -26,14 +28,17 @@ static inline bool reference_bonded(const struct particles *p, const struct fami
     return reference_relative(p->X, p->dim, i, j, xi) <= cutoff * (1 + 1e-9);
 }
 
+/* Returns beta, the share of the volume of a particle at distance r [m] that is within the horizon [1]; 1 if whole
+ * volumes are used. */
 static inline real reference_beta(const struct family *f, real r)
 {
     if (f->volume == VOLUME_WHOLE) return 1;
     return fmax(0, fmin(1, (f->horizon + 0.5 * f->spacing - r) / f->spacing));
 }
 
-/* Returns the shell weight of a bond: those near the axes and those near the diagonals have different weights,
- * separated by sum n^4 above or below its mean 3/(D + 2). */
+/* Returns the shell weight of a bond of reference vector xi and length r [m], which makes a lattice isotropic [1]: one
+ * weight for bonds near the axes, one for those near the diagonals. With the direction n, the former have sum n_d^4 >
+ * 3/(D + 2). */
 static inline real reference_shell(const struct family *f, const real *xi, real r, int dim)
 {
     real fourth = 0;
@@ -41,8 +46,8 @@ static inline real reference_shell(const struct family *f, const real *xi, real 
     return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
 }
 
-/* Returns the sum of r V beta over a full family on the lattice [m^4], from which the micro-modulus c [N/m^6]
- * follows. */
+/* Returns sigma, the sum of r V beta times the shell weight over a full family of the lattice [m^4], with length r and
+ * volume V of each neighbour. The micro-modulus c [N/m^6] of bonds follows from it. */
 static inline real reference_sigma(const struct family *f)
 {
     int dim = space_dim(f->space), reach = (int)ceil(f->horizon / f->spacing) + 1;
@@ -59,6 +64,8 @@ static inline real reference_sigma(const struct family *f)
     return sum;
 }
 
+/* Returns the micro-modulus c of the bonds of a material [N/m^6], for which a uniform dilatation of a full family has
+ * the energy of the elastic material. */
 static inline real reference_modulus(const struct family *f, const struct material *m)
 {
     real E = m->young, nu = m->poisson, sigma = reference_sigma(f);
@@ -74,6 +81,7 @@ static inline real reference_modulus(const struct family *f, const struct materi
     }
 }
 
+/* Returns the volume of all neighbours of particle i, each times beta, its share within the horizon [m^3]. */
 static inline real reference_neighbour_volume(const struct particles *p, const struct family *f, int64_t i)
 {
     real xi[DIM_MAX], sum = 0;
@@ -83,9 +91,10 @@ static inline real reference_neighbour_volume(const struct particles *p, const s
     return sum;
 }
 
-/* Returns the weight of bond i-j: c beta lambda V_i V_j over that of a bond between lattice particles of material 0. At
- * a material interface: harmonic mean of the moduli (two half bonds in series). volume: reference_neighbour_volume of
- * all particles, or NULL; V0 is the sum over a full family. */
+/* Returns the weight of bond i-j: c beta lambda V_i V_j, with the micro-modulus c, the share beta of the volume within
+ * the horizon and the surface correction lambda, over the same of a bond between lattice particles of material 0.
+ * Between materials c is the harmonic mean of both (two half bonds in series). volume: reference_neighbour_volume of
+ * all particles, for the surface correction; NULL: lambda = 1. */
 static inline real reference_weight(const struct particles *p, const struct bond_source *s, const real *volume,
                                     int64_t i, int64_t j)
 {
@@ -99,12 +108,13 @@ static inline real reference_weight(const struct particles *p, const struct bond
 
 /* ==== cracks, in general position only =========================================================================== */
 
+/* Returns twice the signed area of the triangle a b c in the plane: positive if the corners turn anticlockwise. */
 static inline real reference_turn(const real *a, const real *b, const real *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Returns six times the volume of the tetrahedron a b c d. */
+/* Returns six times the signed volume of the tetrahedron a b c d. */
 static inline real reference_tetrahedron(const real *a, const real *b, const real *c, const real *d)
 {
     real u[3], v[3], w[3];
@@ -112,8 +122,8 @@ static inline real reference_tetrahedron(const real *a, const real *b, const rea
     return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-/* Returns true if the segment a-b intersects triangle t: its ends are on different sides, and the line has the same
- * orientation to all edges. */
+/* Returns true if the segment a-b intersects the triangle t0 t1 t2: its ends are on different sides of the plane, and
+ * the line passes all three edges with the same orientation. */
 static inline bool reference_pierced(const real *t0, const real *t1, const real *t2, const real *a, const real *b)
 {
     if ((reference_tetrahedron(t0, t1, t2, a) > 0) == (reference_tetrahedron(t0, t1, t2, b) > 0)) return false;
@@ -121,6 +131,8 @@ static inline bool reference_pierced(const real *t0, const real *t1, const real 
     return first == (reference_tetrahedron(a, b, t1, t2) > 0) && first == (reference_tetrahedron(a, b, t2, t0) > 0);
 }
 
+/* Returns true if the segment a-b crosses the crack c: a point in 1D, one straight segment in 2D, a convex polygon in
+ * 3D. */
 static inline bool reference_cut(const struct crack *c, const real *a, const real *b, int dim)
 {
     if (dim == 1) return (a[0] < c->corner[0][0]) != (b[0] < c->corner[0][0]);
@@ -135,7 +147,8 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
 
 /* ==== bonds ============================================================= */
 
-/* Returns the stored weights as a full matrix, w[i n + j], allocated; 0 for a broken bond, NAN for none. */
+/* Returns the stored weights of all bonds as a full matrix of n x n entries, bond i-j at w[i n + j]: 0 for a broken
+ * bond, NAN where there is none. Release it with memory_free. */
 static inline real *reference_table(const struct bonds *b, const struct particles *p)
 {
     real *w = NEW("reference.w", p->n * p->n, real);
@@ -146,11 +159,13 @@ static inline real *reference_table(const struct bonds *b, const struct particle
     return w;
 }
 
-/* Bond from i to j: stretch, reference length [m], unit vector and vector in the current configuration. */
+/* Bond from particle i to j: stretch [1], reference length [m], and in the current configuration the unit vector n and
+ * the vector y [m]. */
 struct reference_bond {
     real stretch, length, n[DIM_MAX], y[DIM_MAX];
 };
 
+/* Returns the bond from particle i to j in their present positions. */
 static inline struct reference_bond reference_bond(const struct particles *p, int64_t i, int64_t j)
 {
     struct reference_bond q;
@@ -161,11 +176,13 @@ static inline struct reference_bond reference_bond(const struct particles *p, in
     return q;
 }
 
-/* Contributions of its bonds to one particle. */
+/* Sums over the bonds of one particle: force [N], half the elastic energy of each bond [J], stress [Pa]. */
 struct reference_row {
     real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX];
 };
 
+/* Computes force, energy and stress of particle i from its elastic bonds. w: matrix of reference_table; stiffness:
+ * force of a bond of weight 1 over its stretch [N]. */
 static inline struct reference_row reference_row(const struct particles *p, const real *w, real stiffness, int64_t i)
 {
     struct reference_row row = {.energy = 0};
@@ -184,7 +201,7 @@ static inline struct reference_row reference_row(const struct particles *p, cons
 
 /* ==== partial stress ===================================================== */
 
-/* Returns the index of a symmetric component: xx yy zz xy yz zx in 3D. */
+/* Returns the index of component ab in a stored symmetric tensor: xx yy zz xy yz zx in 3D, xx yy xy in 2D. */
 static inline int reference_symmetric(int dim, int a, int b)
 {
     if (a == b) return a;
@@ -192,13 +209,15 @@ static inline int reference_symmetric(int dim, int a, int b)
     return a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
+/* Expands a stored symmetric tensor to a matrix of dim x dim. */
 static inline void reference_tensor(const real *symmetric, int dim, real tensor[DIM_MAX][DIM_MAX])
 {
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) tensor[a][b] = symmetric[reference_symmetric(dim, a, b)];
 }
 
-/* Returns the fraction of the segment between two reference positions inside the cube of q. */
+/* Returns the share of the segment between the reference positions of particles m and j that is inside the cube
+ * (square, interval) of particle q [1]. section: thickness in 2D [m], cross section in 1D [m^2], 1 in 3D. */
 static inline real reference_inside(const struct particles *p, real section, int64_t m, int64_t j, int64_t q)
 {
     real edge = pow(p->volume0[q] / section, 1.0 / p->dim), from = 0, to = 1;
@@ -214,8 +233,9 @@ static inline real reference_inside(const struct particles *p, real section, int
     return fmax(0, to - from);
 }
 
-/* Computes T_q [Pa] of material point q from every intact bond between a peridynamic particle and a material point. w:
- * table of stored weights. */
+/* Computes the tensor T [Pa] of material point q: its stiffness due to the intact bonds between peridynamic particles
+ * and material points that cross its cube. w: matrix of reference_table; stiffness: force of a bond of weight 1 over
+ * its stretch [N]; section: as in reference_inside. */
 static inline void reference_partial(const struct particles *p, const real *w, real stiffness, real section, int64_t q,
                                      real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX])
 {
@@ -235,7 +255,9 @@ static inline void reference_partial(const struct particles *p, const real *w, r
         }
 }
 
-/* Computes T : C^-1 sigma with C^-1 of the isotropic law. */
+/* Computes T : C^-1 sigma [Pa], the part of the stress sigma of a point that bonds of the stiffness T
+ * (reference_partial) carry, into grid_coupled; both are stored symmetric tensors. C: stiffness of the isotropic
+ * material m. */
 static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
                                      const real *sigma, real *grid_coupled)
 {

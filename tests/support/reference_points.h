@@ -9,13 +9,15 @@
 
 /* ==== shape functions ==================================================== */
 
+/* Value N of a shape function at a point [1], and its slope dN/dx [1/m]. */
 struct reference_shape {
     real value, slope;
 };
 
+/* Returns the linear shape function at distance r from its node: 1 at r = 0, 0 from one cell h on [1]. */
 static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
 
-/* Returns the integral of the tent function from -h to r. */
+/* Returns the integral of the linear shape function from -h to r [m]. h: edge of a cell [m]. */
 static inline real reference_tent_integral(real r, real h)
 {
     if (r <= -h) return 0;
@@ -23,7 +25,8 @@ static inline real reference_tent_integral(real r, real h)
     return r < 0 ? 0.5 * (h + r) * (h + r) / h : h - 0.5 * (h - r) * (h - r) / h;
 }
 
-/* Returns N and dN/dx at distance r = x_p - x_I; GIMP is the tent function averaged over the particle's width 2 l. */
+/* Returns N and dN/dx of a shape function in one direction at distance r = x_p - x_I of a point from a node [m]. h:
+ * edge of a cell [m]; l: half the width of the point [m], over which GIMP averages the linear function. */
 static inline struct reference_shape reference_shape(enum shape shape, real r, real h, real l)
 {
     real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
@@ -51,7 +54,10 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
 
 /* ==== one step of the material point method  =================================== */
 
-/* State of a step. */
+/* State of one step. The caller sets what is above `value`: half_width, half the width of an undeformed point [m]; dt,
+ * time step for positions and strains, and dt_velocity, that for velocities [s]; smallest_mass, below which a node does
+ * not move [kg]. The rest is allocated by reference_step_make; mass to `change` are nodal values: `momentum` also holds
+ * the velocity of the second map of FLIP, and `change` is the increment of the velocity in the step. */
 struct reference_step {
     enum shape shape;
     enum transfer transfer;
@@ -66,6 +72,7 @@ struct reference_step {
     real *more; /* [n] change of mean stress or rate of dilatation by the mean of the cell */
 };
 
+/* Computes the position x[dim] of a node of the grid [m]. */
 static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
 {
     for (int d = 0; d < g->dim; d++) {
@@ -74,7 +81,8 @@ static inline void reference_node_position(const struct grid *g, int64_t node, r
     }
 }
 
-/* Computes N and grad N of every particle at every node. */
+/* Computes N and grad N of every node at every particle, products of those in each direction, into s->value and
+ * s->slope. */
 static inline void reference_weights(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -97,6 +105,7 @@ static inline void reference_weights(struct reference_step *s)
         }
 }
 
+/* Allocates the nodal values of a step, all 0, and computes N and grad N. Release with reference_step_free. */
 static inline void reference_step_make(struct reference_step *s)
 {
     int64_t nodes = s->g->n;
@@ -127,7 +136,8 @@ static inline void reference_step_free(struct reference_step *s)
     }
 }
 
-/* Computes the stress that a point transfers to the grid. */
+/* Computes the stress that point i transmits to the grid [Pa], dim x dim: its stress less the part M sigma that PD-MPM
+ * bonds carry. */
 static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
 {
     int n = symmetric_component_count(s->p->dim);
@@ -140,7 +150,8 @@ static inline void reference_given(const struct reference_step *s, int64_t i, re
     reference_tensor(given, s->p->dim, tensor);
 }
 
-/* Maps mass and momentum (step 1). APIC: the velocity of a point varies with its gradient. */
+/* Maps the momentum of the material points and, if with_mass, their mass to the nodes. FLIP: a point has one velocity;
+ * APIC: its velocity varies in space with its gradient. */
 static inline void reference_map(struct reference_step *s, bool with_mass)
 {
     const struct particles *p = s->p;
@@ -163,7 +174,8 @@ static inline void reference_map(struct reference_step *s, bool with_mass)
     }
 }
 
-/* Returns true if points i and j are in one cell and have one mean dilatation. */
+/* Returns true if points i and j share the mean dilatation of a cell: both are material points of one body and
+ * material, which uses mean dilatations, and both are in the same cell. So does a point with itself. */
 static inline bool reference_together(const struct reference_step *s, int64_t i, int64_t j)
 {
     const struct particles *p = s->p;
@@ -174,7 +186,8 @@ static inline bool reference_together(const struct reference_step *s, int64_t i,
     return same;
 }
 
-/* Computes by how much a value of each point changes where it is replaced by the mean of its cell. */
+/* Computes change[i], by how much a value of point i changes when it is replaced by the mean over the points that share
+ * their dilatation with it (reference_together), weighted by volume; 0 where there are none. */
 static inline void reference_means(const struct reference_step *s, const real *value, real *change)
 {
     for (int64_t i = 0; i < s->p->n; i++) {
@@ -185,6 +198,7 @@ static inline void reference_means(const struct reference_step *s, const real *v
     }
 }
 
+/* Returns the trace of a tensor of dim x dim. */
 static inline real reference_trace(real tensor[DIM_MAX][DIM_MAX], int dim)
 {
     real sum = 0;
@@ -192,7 +206,8 @@ static inline real reference_trace(real tensor[DIM_MAX][DIM_MAX], int dim)
     return sum;
 }
 
-/* Computes by how much the mean stress of each point changes, into s->more. */
+/* Computes by how much the mean stress of each point changes [Pa], into s->more, when the points of a cell that share
+ * their dilatation get the mean of theirs. */
 static inline void reference_pressures(struct reference_step *s)
 {
     real *mean = NEW("reference.mean", s->p->n, real);
@@ -205,7 +220,8 @@ static inline void reference_pressures(struct reference_step *s)
     memory_free(mean);
 }
 
-/* Computes f = -sum V sigma . grad N + sum N f (step 3). */
+/* Adds the forces of all material points to the nodal forces: -V sigma . grad N of the stress that each transmits, and
+ * N f of its own force. */
 static inline void reference_forces(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -224,8 +240,8 @@ static inline void reference_forces(struct reference_step *s)
     }
 }
 
-/* Computes the velocities with which nodes move, at the end of step 3; nodes lighter than the smallest mass do not
- * move. */
+/* Computes the nodal velocities at the end of the step and their increments by the nodal forces; both are 0 at nodes
+ * lighter than the smallest mass. */
 static inline void reference_move(struct reference_step *s)
 {
     for (int64_t I = 0; I < s->g->n; I++)
@@ -236,6 +252,8 @@ static inline void reference_move(struct reference_step *s)
         }
 }
 
+/* Returns the value of a nodal field at point i, with the weights s->value, or a component of its gradient, with
+ * s->slope[d]. */
 static inline real reference_at(const struct reference_step *s, const real *weight, const real *field, int64_t i)
 {
     real sum = 0;
@@ -243,8 +261,8 @@ static inline real reference_at(const struct reference_step *s, const real *weig
     return sum;
 }
 
-/* Performs steps 4 to 6 of FLIP: velocities of points, then the second map with the old weights; `momentum` holds its
- * velocity afterwards. */
+/* Updates the velocities of the points (FLIP) by the increments at the nodes, and maps their new momentum to the nodes
+ * with the old weights. s->momentum holds the velocity of this second map afterwards, 0 at light nodes. */
 static inline void reference_remap(struct reference_step *s)
 {
     for (int64_t i = 0; i < s->p->n; i++)
@@ -256,6 +274,7 @@ static inline void reference_remap(struct reference_step *s)
             s->momentum[d][I] = s->mass[I] < s->smallest_mass ? 0 : s->momentum[d][I] / s->mass[I];
 }
 
+/* Computes the product c = a b of two tensors of dim x dim. */
 static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][DIM_MAX], real c[DIM_MAX][DIM_MAX],
                                      int dim)
 {
@@ -266,8 +285,9 @@ static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][D
         }
 }
 
-/* Rotates the stress: sigma + W s - s W, with s the previous stress for angles below 3e-5 rad and the half-rotated
- * stress up to 1e-3 rad; beyond, R sigma R^T with R = exp W from its power series. */
+/* Rotates the stress sigma in place by the spin increment W (antisymmetric): up to 3e-5 rad sigma + W sigma - sigma W;
+ * up to 1e-3 rad likewise with the half-rotated stress in the last two terms; beyond, R sigma R^T with R = exp W, from
+ * its power series. */
 static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
 {
     real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
@@ -296,8 +316,9 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     memcpy(sigma, b, sizeof b);
 }
 
-/* Performs step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume,
- * axial stretch. */
+/* Updates the state of point i with the velocity gradient L [1/s]: rotates its stress with the spin (Jaumann), adds
+ * Hooke's law of the strain increment sym(L) dt - W W/2, with the spin increment W, and updates its volume and, with
+ * CPGIMP, its stretches along the axes. */
 static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     struct particles *p = s->p;
@@ -320,7 +341,8 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
-/* Computes the velocity gradient L at point i. */
+/* Computes the velocity gradient L at point i [1/s], from the velocities of the second map (FLIP) or the nodal
+ * velocities at the end of the step (APIC). */
 static inline void reference_gradient(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     real *const *straining = s->transfer == TRANSFER_APIC ? s->velocity : s->momentum;
@@ -328,7 +350,8 @@ static inline void reference_gradient(const struct reference_step *s, int64_t i,
         for (int b = 0; b < s->p->dim; b++) L[a][b] = reference_at(s, s->slope[b], straining[a], i);
 }
 
-/* Computes by how much the rate of dilatation of each point changes, into s->more. */
+/* Computes by how much the rate of dilatation of each point changes [1/s], into s->more, when the points of a cell that
+ * share their dilatation get the mean of theirs. */
 static inline void reference_dilatations(struct reference_step *s)
 {
     real *rate = NEW("reference.rate", s->p->n, real), L[DIM_MAX][DIM_MAX];
@@ -340,8 +363,9 @@ static inline void reference_dilatations(struct reference_step *s)
     memory_free(rate);
 }
 
-/* Updates positions with the nodal velocity or, if bonds end at a point, with that of the second map; computes the
- * gradient from the second map (FLIP) or the nodal velocity (APIC). */
+/* Moves all material points and updates their stress and volume. They move with the nodal velocities at the end of the
+ * step, with FLIP those at which bonds end with the velocities of the second map; strains follow from
+ * reference_gradient. APIC: also sets their velocities and gradients. */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
@@ -365,7 +389,7 @@ static inline void reference_gather(struct reference_step *s)
     }
 }
 
-/* Returns the largest principal stress, by Jacobi rotations of the tensor. */
+/* Returns the largest principal stress of a stored symmetric tensor [Pa], by Jacobi rotations. */
 static inline real reference_principal(const real *symmetric, int dim)
 {
     real t[DIM_MAX][DIM_MAX], largest = -INFINITY;

@@ -8,7 +8,8 @@
 
 #include "scene/scene_read.h"
 
-/* Reads the scene with the overrides `key=value` of the list, which ends with NULL. */
+/* Reads a scene from its text with overrides of its keys: a list of at most 16 strings `key=value` that ends with NULL.
+ * Returns the status of scene_read_text. */
 static inline status scene_with(struct scene *s, const char *text, va_list list)
 {
     enum { MOST = 16 };

@@ -6,7 +6,8 @@
 
 #include "simd/simd.h"
 
-/* Selects the next set that this processor can run; returns NULL at the end. Prints which sets are skipped. */
+/* Returns the first kernel set from `set` on that this processor can run, after making it the set in use; NULL if there
+ * is none. Prints which sets are used and skipped. */
 static inline const struct simd_set *sets_next(const struct simd_set *set)
 {
     for (; set < simd_sets + simd_set_count; set++) {
@@ -20,6 +21,7 @@ static inline const struct simd_set *sets_next(const struct simd_set *set)
     return NULL;
 }
 
+/* Head of a loop that runs its body once with each kernel set that this processor can run in use. */
 #define FOR_EVERY_SET for (const struct simd_set *set = sets_next(simd_sets); set; set = sets_next(set + 1))
 
 #endif

@@ -8,7 +8,8 @@
 
 enum { EVERYTHING = WITH_EVERYTHING, SOLIDS = 3, BODIES = 2, INITIALS = 3 };
 
-/* A scene with the parts that it refers to. */
+/* A scene together with the arrays to which it refers: two materials, two bodies with up to three solids each, and
+ * three initial conditions. */
 struct setting {
     struct scene scene;
     struct material material[2];
@@ -17,7 +18,9 @@ struct setting {
     struct scene_initial initial[INITIALS];
 };
 
-/* Initialises a scene with two materials and one body, the box 0 .. edge, at spacing 0.5. */
+/* Makes a scene of the material point method at spacing 0.5 m with two materials and one body `plate`, the box from 0
+ * to edge[dim] [m]. A second body `layer`, whose solid is not yet set, and initial conditions for all bodies are ready
+ * but not counted: increase the counts to use them. */
 static inline void setting_make(struct setting *s, enum space space, const real *edge)
 {
     static const char *const name[BODIES] = {"plate", "layer"};

@@ -5,14 +5,16 @@
 #include "kernels/kernels.h"
 #include "tests/support/cloud.h"
 
-/* A body whose bonds soften. */
+/* A body (cloud.h) together with the softening law of its bonds, the same for each pair of materials. */
 struct soft_body {
     struct particle_cloud c;
     struct softening_curve curve;
     struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
 };
 
-/* Creates the bonds of a body, with `onset` and `critical` for all pairs of materials, after particle_cloud_make. */
+/* Creates the bonds of the body s->c, which soften by a law, for all pairs of materials. onset: stretch at which
+ * softening begins; critical: critical stretch of a brittle bond of equal energy [1]. Call it after
+ * particle_cloud_make, in place of cloud_bonds. */
 static inline void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
 {
     s->curve = softening_curve_of(law);

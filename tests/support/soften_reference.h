@@ -6,7 +6,9 @@
 
 #include "tests/support/reference.h"
 
-/* State of all bonds of a body, [i n + j]. */
+/* State of all bonds of a body of n particles: bond i-j at [i n + j] of each array except `due`. The caller fills onset
+ * and critical: the stretches s_0, where softening begins, and s_c, the critical stretch of a brittle bond of equal
+ * energy. */
 struct soften_reference {
     enum softening law;
     real *most, *onset, *critical; /* largest stretch, 0: not begun; s_0 and s_c of each bond [1] */
@@ -16,6 +18,8 @@ struct soften_reference {
     real broken; /* energy of ended bonds [J] */
 };
 
+/* Allocates the states of the bonds of n particles, none softening, ended or due. Release with
+ * soften_reference_free. */
 static inline struct soften_reference soften_reference_make(enum softening law, int64_t n)
 {
     struct soften_reference r = {.law = law};
@@ -32,14 +36,15 @@ static inline void soften_reference_free(struct soften_reference *r)
     memory_free(r->most), memory_free(r->onset), memory_free(r->critical), memory_free(r->ended), memory_free(r->due);
 }
 
-/* Returns the end of a bond: linear s_c^2/s_0; bilinear s_0 + 9/5 (s_c^2 - s_0^2)/s_0. */
+/* Returns the stretch at which a softening bond ends [1]: s_c^2/s_0 (linear), s_0 + 9/5 (s_c^2 - s_0^2)/s_0 (bilinear),
+ * with s_0 the onset and s_c the critical stretch. */
 static inline real soften_reference_end(enum softening law, real onset, real critical)
 {
     if (law == SOFTENING_LINEAR) return critical * critical / onset;
     return onset + 1.8 * (critical * critical - onset * onset) / onset;
 }
 
-/* Returns the force at the largest stretch k, over stiffness [1]. */
+/* Returns the force of a bond at stretch k, not below the onset, on the softening curve, over its stiffness [1]. */
 static inline real soften_reference_peak(enum softening law, real onset, real critical, real k)
 {
     const real end = soften_reference_end(law, onset, critical), kink = onset + 2 * (end - onset) / 9;
@@ -49,8 +54,9 @@ static inline real soften_reference_peak(enum softening law, real onset, real cr
     return onset / 3 * (end - k) / (end - kink);
 }
 
-/* Returns the energy dissipated at the largest stretch k, over stiffness and length [1]: area under the curve, by
- * trapezoids between its corners, less the triangle of unloading. */
+/* Returns the energy that a bond has dissipated when its largest stretch so far is k, not below the onset, over
+ * stiffness and length [1]: the area under the curve, by trapezoids between its corners, less the triangle of
+ * unloading. */
 static inline real soften_reference_spent(enum softening law, real onset, real critical, real k)
 {
     const real end = soften_reference_end(law, onset, critical), kink = onset + 2 * (end - onset) / 9;
@@ -63,7 +69,8 @@ static inline real soften_reference_spent(enum softening law, real onset, real c
     return area - 0.5 * at * to;
 }
 
-/* Returns 1 - d of bond q at the stretch s. */
+/* Returns the share of its stiffness that bond q keeps at stretch s [1]: 1 - d with the damage d of the largest
+ * stretch, s included; 1 in compression and before softening begins. */
 static inline real soften_reference_kept(const struct soften_reference *r, int64_t q, real s)
 {
     const real k = fmax(r->most[q], s);
@@ -71,8 +78,8 @@ static inline real soften_reference_kept(const struct soften_reference *r, int64
     return soften_reference_peak(r->law, r->onset[q], r->critical[q], k) / k;
 }
 
-/* Solves the symmetric system A x = b of n unknowns by Cholesky's decomposition. Returns false if a pivot is below
- * `least`. */
+/* Solves the symmetric system A x = b of n <= 6 unknowns by Cholesky's decomposition; b becomes x. Returns false, with
+ * b unchanged, if a pivot is not above `least`. */
 static inline bool soften_reference_solve(int n, real A[6][6], real *b, real least)
 {
     real L[6][6] = {{0}};
@@ -94,8 +101,9 @@ static inline bool soften_reference_solve(int n, real A[6][6], real *b, real lea
     return true;
 }
 
-/* Returns the trace of the strain that fits the stretches of the bonds of particle i by least squares, weighted by the
- * stiffness that they keep; D times their mean stretch where they have too few directions. */
+/* Returns the dilatation at particle i [1]: the trace of the strain that fits the stretches of its bonds by least
+ * squares, weighted by the stiffness that they keep; D times their mean stretch where they have too few directions for
+ * a fit, 0 without bonds. w: matrix of reference_table. */
 static inline real soften_reference_dilatation(const struct soften_reference *r, const struct particles *p,
                                                const real *w, int64_t i)
 {
@@ -122,7 +130,10 @@ static inline real soften_reference_dilatation(const struct soften_reference *r,
     return trace;
 }
 
-/* Starts the softening of bonds between row blocks that are due. block[i]: row block of particle i. */
+/* Starts the softening of bonds that are beyond their onset and whose row blocks are both due, unless the dilatation
+ * shows that no stress pulls at them; only the row blocks of such bonds stay due. Adds the energy that bonds lose at
+ * once to r->jumped. w: matrix of reference_table; stiffness: force of a bond of weight 1 over its stretch [N];
+ * block[i]: row block of particle i. */
 static inline void soften_reference_begin(struct soften_reference *r, const struct particles *p, const real *w,
                                           real stiffness, const int64_t *block)
 {
@@ -150,9 +161,11 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
     r->due = denied;
 }
 
-/* Computes force, energy and stress of all particles after soften_reference_begin, into row[n], and ends bonds. A bond
- * that goes from its onset, or from less, beyond its end in this step is brittle; with LAST_FORCE_NONE its force ends
- * at once, and its energy is that of its stretch. */
+/* Computes force and energy of all particles into row[n] (its stress remains 0), after soften_reference_begin; ends
+ * bonds whose stretch is beyond their end, marks the row blocks of bonds beyond their onset as due, and updates the
+ * largest stretches. A bond that ends, though its largest stretch was not above its onset before, is brittle: with
+ * LAST_FORCE_NONE its force ends at once, and its energy is that of its stretch. Arguments as of
+ * soften_reference_begin. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)
 {
@@ -179,7 +192,8 @@ static inline void soften_reference_step(struct soften_reference *r, const struc
     }
 }
 
-/* Returns the energy dissipated so far [J]. */
+/* Returns the energy that all bonds have dissipated so far [J]: of ended bonds, of those that soften, and lost at once
+ * by those that began late. Arguments as of soften_reference_begin. */
 static inline real soften_reference_fracture(const struct soften_reference *r, const struct particles *p, const real *w,
                                              real stiffness)
 {

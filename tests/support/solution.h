@@ -12,14 +12,16 @@
 #include "scene/scene_read.h"
 #include "tests/support/scene_with.h"
 
-/* A scene, its run, and the status of both. */
+/* A scene `s` and its run `e`. made: status of reading the scene and creating the run; ran: status of the run to its
+ * end, if it was asked for, else the same as `made`. Release with solution_free. */
 struct solution {
     struct scene s;
     struct run e;
     status made, ran;
 };
 
-/* Creates a run of a scene with the overrides `key=value` of the list, which ends with NULL. */
+/* Creates the run of a scene given as text, with overrides of its keys: a list of at most 16 strings `key=value` that
+ * ends with NULL. The status is in a->made. */
 static inline void solution_make_list(struct solution *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -29,7 +31,8 @@ static inline void solution_make_list(struct solution *a, const char *text, va_l
     a->ran = a->made;
 }
 
-/* Creates a run of a scene with the overrides `key=value`, which end with NULL. */
+/* Creates the run of a scene given as text, with overrides of its keys: at most 16 strings `key=value`, then NULL. The
+ * status is in a->made. */
 static inline void solution_make(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -38,7 +41,7 @@ static inline void solution_make(struct solution *a, const char *text, ...)
     va_end(list);
 }
 
-/* Creates a run as solution_make does, and runs it to its end. */
+/* Creates a run as solution_make does and, if this succeeds, runs it to its end. The status is in a->ran. */
 static inline void solution_run(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -48,7 +51,7 @@ static inline void solution_run(struct solution *a, const char *text, ...)
     if (a->made == OK) a->ran = engine_run(&a->e);
 }
 
-/* Fails with the message unless the run reached its end. */
+/* Fails the test with the message of the last error unless a->ran is OK. */
 static inline void solution_done(const struct solution *a)
 {
     if (a->ran != OK) fail_msg("%s", status_message());
@@ -60,27 +63,28 @@ static inline void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
-/* Fails with the name of a quantity unless its relative error is within `tolerance`. */
+/* Fails the test unless |value - expected| <= tolerance |expected|. what: name of the quantity for the message. */
 static inline void near_to(const char *what, real value, real expected, real tolerance)
 {
     if (!(fabs(value - expected) <= tolerance * fabs(expected)))
         fail_msg("%s: %.9g where %.9g +- %.2g is expected", what, value, expected, tolerance * fabs(expected));
 }
 
-/* Returns the particle nearest to a position. */
+/* Returns the index of the particle nearest to (x, y, z) [m], in the reference configuration. */
 static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
 {
     return particles_nearest(&a->e.part, (const real[DIM_MAX]){x, y, z});
 }
 
-/* Returns component d of the displacement of the particle nearest to a position [m]. */
+/* Returns component d of the displacement [m] of the particle nearest to the reference position (x, y, z) [m]. */
 static inline real solution_moved(const struct solution *a, int d, real x, real y, real z)
 {
     const int64_t i = solution_at(a, x, y, z);
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Returns the largest difference of two solutions over the largest displacement, at the particles of the second. */
+/* Returns the largest difference of a displacement component of two solutions over the largest component in the second,
+ * at the particles of the second. Solutions of unequal numbers of particles are compared at the nearest particles. */
 static inline real solution_difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
