@@ -144,8 +144,9 @@ struct bench_figure {
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n);
 
 /* Runs a scene to its end and stores n quantities of its probes in figure[]; NAN if no probe has them. If a pulse probe
- * compares with material points alone, such a run is made, too. The scene is `text` or, if `text` is NULL, the file
- * `path`; o: overrides of the scene. Returns REFUSED or FAILED if the scene is invalid or a step fails. */
+ * compares its results with those of material points alone, the scene is also run with material points alone. The scene
+ * is `text` or, if `text` is NULL, the file `path`; o: overrides of the scene. Returns REFUSED or FAILED if the scene
+ * is invalid or a step fails. */
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
 
 /* Returns true if the scene file `path` exists; else prints that it is left out. */
@@ -250,7 +251,7 @@ void bench_targets_print(const struct targets *f);
 void bench_targets_table(const struct targets *f, struct bench_table *t);
 
 /* Measures the effect of an interface between material points and bonds on waves and on uniform strain
- * (bench_coupling.c). */
+ * (bench_coupling.c). quick: fewer cases. */
 status bench_coupling(bool quick);
 
 /* Measures the error against the computing time of every method on problems with known solutions. Results of an
@@ -262,14 +263,15 @@ status bench_accuracy(bool quick);
  * Returns REFUSED if there is no such problem. */
 status bench_accuracy_of(const char *only, bool quick);
 
-/* Compares stress-intensity factors, static and dynamic, with closed forms and published tables (bench_sif.c). */
+/* Compares stress-intensity factors, static and dynamic, with closed forms and published tables (bench_sif.c). quick:
+ * fewer cases and coarse spacings. */
 status bench_sif(bool quick);
 
-/* Measures strong and weak scaling on 1 ... all cores (bench_threads.c). */
+/* Measures strong and weak scaling on 1 ... all cores (bench_threads.c). quick: small blocks and few steps. */
 status bench_threads(bool quick);
 
 /* Measures time and memory per particle, set-up time and the time of output for blocks of 1e4 to 1e7 particles
- * (bench_scale.c). */
+ * (bench_scale.c). quick: smaller blocks, two sizes only. */
 status bench_scale(bool quick);
 
 /* Measures how the numbers of particles, memory and time of Kalthoff's plate grow as the spacing decreases
@@ -281,7 +283,7 @@ status bench_growth(bool quick);
 status bench_growth_finest(bool quick);
 
 /* Measures the cost of a crack in a large plate, whose area is a hundred times that of the region around the crack,
- * with coarse grid cells or absorbing faces far from the crack (scale_field.c). */
+ * with coarse grid cells or absorbing faces far from the crack (scale_field.c). quick: coarse spacing. */
 status bench_far_field(bool quick);
 
 /* Compares speed and results of a block and a plate in Cleave and in LAMMPS, if its program `lmp` is installed
@@ -294,12 +296,12 @@ status bench_peers(bool quick);
 status bench_bar(bool quick);
 
 /* Compares the observed critical time step with the predicted one for every method, and runs scenes in which methods
- * fail, with their thresholds and remedies (bench_stability.c). */
+ * fail, with their thresholds and remedies (bench_stability.c). quick: fewer cases and steps. */
 status bench_stability(bool quick);
 
 /* Runs only the long runs of bench_stability, which measure the drift of the energy (energy_drift.c). only: `lasting`
  * for all cases, whose results are written to files, or a part of the names of the cases, whose results are only
- * printed. */
+ * printed. quick: shorter runs, of `lasting` only a quarter of the cases. */
 status bench_stability_of(const char *only, bool quick);
 
 /* Compares the computing times of adaptive runs and of full peridynamics, and with Table 1 of Zeng et al. 2022
@@ -310,32 +312,37 @@ status bench_efficiency(bool quick);
  * (bench_sensitivity.c). quick: fewer scenes and time steps. */
 status bench_sensitivity(bool quick);
 
-/* Compares collisions of bodies with closed forms (bench_contact.c). */
+/* Compares collisions of bodies with closed forms (bench_contact.c). quick: without the long runs. */
 status bench_contact(bool quick);
 
 /* Measures how much of a wave absorbing faces reflect (bench_absorbing.c). quick: fewer dimensions and angles. */
 status bench_absorbing(bool quick);
 
-/* Tests whether the error bars of `cleave converge` contain the exact values (bench_uncertainty.c). */
+/* Tests whether the error bars of `cleave converge` contain the exact values (bench_uncertainty.c). quick: one spacing
+ * and fewer runs for each case. */
 status bench_uncertainty(bool quick);
 
-/* Tests whether `method: auto` reaches the requested accuracy (bench_pilot.c). */
+/* Tests whether `method: auto` reaches the requested accuracy (bench_pilot.c). quick: one accuracy only. */
 status bench_pilot(bool quick);
 
-/* Compares cracks with published experiments and other codes; takes hours (bench_experiments.c). */
+/* Compares cracks with published experiments and other codes; takes hours (bench_experiments.c). quick: fewer cases and
+ * spacings. */
 status bench_experiments(bool quick);
 
 /* Compares material laws with closed forms and published values (bench_laws.c). quick: only single elements, no
  * bodies. */
 status bench_laws(bool quick);
 
-/* Compares bonds that soften with the challenge problems of Kamarei et al. 2025 (bench_circles.c). */
+/* Compares bonds that soften with the challenge problems of Kamarei et al. 2025 (bench_circles.c). quick: one spacing
+ * only. */
 status bench_circles(bool quick);
 
-/* Compares static runs with load steps with linear elastic fracture mechanics (bench_slow.c). */
+/* Compares static runs with load steps with linear elastic fracture mechanics (bench_slow.c). quick: fewer cases and
+ * coarse spacings. */
 status bench_slow(bool quick);
 
-/* Measures how start time, length, angle and energy of cracks depend on the time step (bench_steps.c). */
+/* Measures how start time, length, angle and energy of cracks depend on the time step (bench_steps.c). quick: short
+ * scenes and one model only. */
 status bench_steps(bool quick);
 
 #endif

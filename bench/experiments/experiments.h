@@ -171,7 +171,8 @@ status vortex_run(enum vortex_method method, double spacing, double *error);
 /* Runs the notched beam of John & Shah 1990 and adds its results to x. Returns REFUSED or FAILED if a run does. */
 status experiments_beam(struct experiments *x);
 
-/* Runs a compressed disc and adds its stress and strength to x. Returns REFUSED or FAILED if the study does. */
+/* Runs a disc that is compressed across its diameter, and adds its stress and its largest load over the closed forms to
+ * x. Returns REFUSED or FAILED if a run does. */
 status experiments_disc(struct experiments *x);
 
 #endif

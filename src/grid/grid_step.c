@@ -101,7 +101,8 @@ static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
     return grid_coupled;
 }
 
-/* Returns the parameters of transfers between the points of field k and their grid. */
+/* Returns the parameters of transfers between background grid number k (mpm->field[k], one for each body in contact,
+ * else a single one) and its material points. */
 static struct transfer_data field_data(const struct grid_method *mpm, int k)
 {
     struct transfer_data own = mpm->transfer;

@@ -341,7 +341,7 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-/* Lists for each particle of load l the corners whose positions depend on it. particles: number of all particles. */
+/* Lists in a for each particle of load l the corners that move with it. particles: number of all particles. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);

@@ -72,7 +72,8 @@ real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p,
 
 /* Computes the numbers of particles along the edges of a lattice block, edge[dim], whose largest frequency represents
  * that of the body. The block is large enough for particles with full families and, if that is cheap, for long waves.
- * longest: extent of the body along each axis [dim] [m]. Returns the number of particles of the block. */
+ * f: family of the bonds; longest[dim]: extent of the body along each axis [m]. Returns the number of particles of the
+ * block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

@@ -114,8 +114,9 @@ static void gradients_make(const struct run *e, real **H)
 
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
-/* Returns the plastic work per volume of every particle [n] [J/m^3]: of material points the stored work, of peridynamic
- * particles the plastic work of their bonds over their volume. Returns NULL if nothing yields. The caller frees it. */
+/* Returns the plastic work per volume of every particle, an array of p->n values [J/m^3]: of material points the stored
+ * work, of peridynamic particles the plastic work of their bonds over their volume. Returns NULL if nothing yields. The
+ * caller frees the array with memory_free. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
@@ -131,8 +132,9 @@ static real *plastic_work_make(const struct particles *p, const struct bonds *b)
     return work;
 }
 
-/* Returns the equivalent plastic strain of every particle [n] [1]: that of material points, and the mean plastic path
- * of the bonds of peridynamic particles. Returns NULL if no bond yields. The caller frees it. */
+/* Returns the equivalent plastic strain of every particle, an array of p->n values [1]: that of material points, and
+ * the mean plastic path of the bonds of peridynamic particles. Returns NULL if no bond yields. The caller frees the
+ * array with memory_free. */
 static real *plastic_strain_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->plastic_path) return NULL;
@@ -146,8 +148,9 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
     return strain;
 }
 
-/* Returns the damage of every particle [n] [1]: the volume fraction of its broken bonds, plus for softening bonds the
- * fraction of stiffness that they have lost. Returns NULL if no bond softens. The caller frees it. */
+/* Returns the damage of every particle, an array of p->n values [1]: the volume fraction of its broken bonds, plus for
+ * softening bonds the fraction of stiffness that they have lost. Returns NULL if no bond softens. The caller frees the
+ * array with memory_free. */
 static real *damage_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->soft.curve) return NULL;
@@ -158,8 +161,8 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
-/* Returns for every particle the share of the strength surface that its stress reaches, an array [n] [1]; NULL if no
- * material has a strength surface. The caller releases it with memory_free. */
+/* Returns for every particle the share of the strength surface that its stress reaches, an array of p->n values [1];
+ * NULL if no material has a strength surface. The caller frees the array with memory_free. */
 static real *shares_make(const struct particles *p, const struct bonds *b, const struct bond_source *source)
 {
     if (!b->soft.near) return NULL;
@@ -169,7 +172,7 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
 }
 
 /* Returns the share of the strength surface that the stress reaches at every point that represents a coarse cell in
- * frames, an array [shown->n] [1]. The caller releases it with memory_free. */
+ * frames, an array of shown->n values [1]. The caller frees it with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);

@@ -119,7 +119,8 @@ static void push_bonds(struct run *e, struct step *now)
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }
 
-/* Computes the contact forces on particles, and records them for output if a frame follows this step. */
+/* Computes the contact forces on particles. Records them for output, too, if a frame (a file with the fields of all
+ * particles) is written at the end of this step. */
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
