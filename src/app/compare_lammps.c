@@ -163,7 +163,7 @@ static void check_print(const struct check *c, const struct lammps_frame *f)
     printf("\nLAMMPS beside Cleave, from the same start, after %lld steps\n", (long long)f->step);
     printf("  max |u - u_LAMMPS| / max |u|   %.3g%s\n", size > 0 ? sqrt(apart / size) : 0,
            apart <= 1e-18 * size ? " (round-off)" : "");
-    printf("  particles with other broken bonds %lld of %lld, damage differs by at most %.3g\n", (long long)other,
+    printf("  particles whose broken bonds differ %lld of %lld, their damage by at most %.3g\n", (long long)other,
            (long long)f->n, damage);
 }
 

@@ -46,8 +46,8 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
     if (spacings <= ALIKE * STEP_SPACINGS_MOST) return;
     warnings_add(
         to,
-        "steps.energy: each load step dissipates the energy of %.3g spacings of new crack, and the largest load "
-        "may be off by %s; %.3g J and less keep it within 4 %%, and so does the default, a quarter spacing",
+        "steps.energy: one load step dissipates as much energy as a crack that grows by %.3g spacings, so that "
+        "the largest load may be off by %s; at most %.3g J keeps the error within 4 %%, as the default does",
         spacings,
         spacings <= ALIKE       ? "8 %"
         : spacings <= 2 * ALIKE ? "15 %"

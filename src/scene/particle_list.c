@@ -71,7 +71,8 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     bool good = table_shape(set, t);
     status checked = good ? table_check(t, path, name) : OK;
     if (good && !hdf_dataset_is_in_its_file(set))
-        checked = status_set(REFUSED, "%s: %s has its numbers in other files", path, name);
+        checked = status_set(
+            REFUSED, "%s: the numbers of %s are stored in another file; numbers in this file are expected", path, name);
     if (checked != OK) {
         H5Dclose(set);
         return checked;

@@ -116,10 +116,12 @@ static status include_file(struct reader *r, const struct yaml_node *n, const st
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
         return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", node_text(r, n));
-    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", node_text(r, n));
+    if (is_open(chain, &file))
+        return fault(r, n, "%s includes itself, or this scene; a scene outside this circle is expected",
+                     node_text(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n, "%s is the last of more than %d scenes that include each other", node_text(r, n),
-                     CHAIN_MOST);
+        return fault(r, n, "%s would be the end of a chain of more than %d scenes, each included by the one before",
+                     node_text(r, n), CHAIN_MOST);
     if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
     r->included[r->includes++] = path;

@@ -155,8 +155,8 @@ status refuse_poisson(struct reader *r, const struct yaml_node *n)
         return fault(r, n, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s has any",
                      node_text(r, n), bonds, space_names[r->scene->space], change);
     return fault(r, n,
-                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; this ratio is expected, "
-                 "as no method has another one together with %s",
+                 "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use that ratio, "
+                 "since no method has any other one together with %s",
                  node_text(r, n), bonds, space_names[r->scene->space], names_of(r, has & ~(unsigned)HAS_RATIO));
 }
 

@@ -46,7 +46,7 @@ agrees()
     "$cleave" compare there there >compared 2>&1 || fail "$name: $(cat compared)"
     apart=$(sed -n 's/^ *max |u - u_LAMMPS.*|u| *\([0-9.e+-]*\).*/\1/p' compared | head -n 1)
     between "$name, $ranks: displacements apart" "$apart" 0 1e-9
-    is "$name, $ranks: particles with other broken bonds" "$(sed -n 's/^ *particles with other broken bonds \([0-9]*\) of.*/\1/p' compared | head -n 1)" 0
+    is "$name, $ranks: particles whose broken bonds differ" "$(sed -n 's/^ *particles whose broken bonds differ \([0-9]*\) of.*/\1/p' compared | head -n 1)" 0
     tested=$(cd there && sed -n 's/^# awk/awk/p' in.lammps | sh)
     between "$name: the test in the script" "${tested% *}" 0 1e-9
 }

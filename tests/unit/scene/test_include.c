@@ -144,11 +144,14 @@ static void faults_name_the_file(void **state)
          "sub/inner.yaml:1:1: a list is not a mapping of keys to values, as a scene is"},
         {"include: inner.yaml\n", "", "sub/inner.yaml:1:1: empty; a scene begins with keys such as space and duration"},
         {"include: inner.yaml\n", "include: outer.yaml\n",
-         "sub/inner.yaml:1:1: include: outer.yaml includes itself, or this scene it"},
+         "sub/inner.yaml:1:1: include: outer.yaml includes itself, or this scene; a scene outside this circle is "
+         "expected"},
         {"include: inner.yaml\n", "include: inner.yaml\n",
-         "sub/inner.yaml:1:1: include: inner.yaml includes itself, or this scene it"},
+         "sub/inner.yaml:1:1: include: inner.yaml includes itself, or this scene; a scene outside this circle is "
+         "expected"},
         {"a: 1\ninclude: outer.yaml\n", "",
-         "sub/outer.yaml:2:1: include: outer.yaml includes itself, or this scene it"},
+         "sub/outer.yaml:2:1: include: outer.yaml includes itself, or this scene; a scene outside this circle is "
+         "expected"},
         {"include: no.yaml\n", "",
          "sub/outer.yaml:1:1: include: no.yaml cannot be read; a scene in the folder of this one is expected"},
         {"include: .\n", "",
@@ -189,8 +192,8 @@ static void chains_and_numbers_are_bounded(void **state)
         write_file(name, text);
     }
     assert_int_equal(scene_read(&s, "chain0.yaml", NULL, 0), REFUSED);
-    assert_string_equal(status_message(), "chain7.yaml:1:1: include: chain8.yaml is the last of more than 8 scenes "
-                                          "that include each other");
+    assert_string_equal(status_message(), "chain7.yaml:1:1: include: chain8.yaml would be the end of a chain of "
+                                          "more than 8 scenes, each included by the one before");
     write_file("leaf.yaml", "space: line\n");
     strcpy(text, "include: [leaf.yaml");
     for (int k = 1; k < 64; k++) strcat(text, ", leaf.yaml");

@@ -240,9 +240,9 @@ static void hdf5_lists_are_whole(void **state)
 {
     (void)state;
     enum { OUTSIDE, INSIDE, BESIDE, VIRTUAL, CLAIMED, WAYS };
-    static const char *const said[WAYS] = {"positions is a link", "positions is a link",
-                                           "positions has its numbers in other files",
-                                           "positions has its numbers in other files", "claims 100000000 entries"};
+    static const char *const said[WAYS] = {
+        "positions is a link", "positions is a link", "the numbers of positions are stored in another file",
+        "the numbers of positions are stored in another file", "claims 100000000 entries"};
     const double X[3][2] = {{0, 0}, {1, 0}, {0, 1}}, volume[3] = {1, 2, 3};
     const hsize_t rows[] = {3, 2}, many[] = {100000000, 2}, chunk[] = {1000000, 2};
     struct setting s;
