@@ -50,4 +50,8 @@ int site_map_find_neighbours(const struct site_map *map, const struct particles 
 /* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
 bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i);
 
+/* Returns true if one of the bonds in row block `row_block` (the bonds of eight particles) may be to a mirror image.
+ * Most row blocks follow a stencil, of which this reads the last column only. */
+bool row_block_may_meet_images(const struct bonds *b, const struct particles *p, int64_t row_block);
+
 #endif

@@ -168,6 +168,15 @@ void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row
         to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
 }
 
+/* Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less than
+ * eight lanes: none has an image if the last one ends two row blocks before the images. */
+bool row_block_may_meet_images(const struct bonds *b, const struct particles *p, int64_t row_block)
+{
+    const int64_t columns = row_block_column_count(b, row_block);
+    if (p->n_all == p->n || columns == 0) return false;
+    return !b->stencil[row_block] || column_first_consecutive_neighbour(b, row_block, columns - 1) + 3 * LANES > p->n;
+}
+
 void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks)
 {
     if (row < 0) return;

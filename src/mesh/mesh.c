@@ -228,11 +228,24 @@ void mesh_cell_runs_make(struct mesh *mesh)
     mesh_activate_blocks_at_cells(mesh);
 }
 
+/* Recomputes the masses of the nodes at the corners of coarse cells and of the cells I with dirty[I]: those of the
+ * other nodes have not changed, and include no part of a coarse cell. dirty: [grid.n]. */
+static void nodes_weigh(struct mesh *mesh, const struct particles *p, const uint8_t *dirty)
+{
+    uint8_t *changed = NEW("mesh.changed", mesh->grid.n, uint8_t);
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        for (int c = 0; c < 1 << p->dim && (dirty[I] || cell_is_coarse(mesh, I)); c++)
+            changed[mesh_cell_corner_node(mesh, I, c)] = 1;
+#pragma omp parallel for schedule(static)
+    for (int64_t I = 0; I < mesh->grid.n; I++)
+        if (changed[I]) mesh_node_update_mass(mesh, p, I);
+    memory_free(changed);
+}
+
 void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                     const uint8_t *dirty)
 {
-#pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_update_mass(mesh, p, I);
+    nodes_weigh(mesh, p, dirty);
     cells_sort_out(mesh, p, s, dirty);
 }
 

@@ -1,6 +1,7 @@
 /* Exposed points of the mesh, whose motion is needed in every step: with bonds, loads or images. */
 #include "mesh/active_nodes.h"
 #include "base/memory.h"
+#include "bonds/sites.h"
 #include "mesh_parts.h"
 
 /* Flags of the exposed points (with bonds, loads or images, so that their motion is needed in every step), [particles],
@@ -53,16 +54,28 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Marks in *e the points that have intact bonds in row block g (bonds of eight particles), and the particles that the
- * images among their neighbours mirror. l: loads, with the list of images. */
+/* Returns eight bits: bit l is set if the particle in lane l of row block g (the bonds of eight particles) is a point
+ * of the mesh. */
+static unsigned lanes_in_mesh(const struct mesh *mesh, const struct bonds *b, int64_t g)
+{
+    unsigned bits = 0;
+    for (int l = 0; l < LANES; l++) bits |= (unsigned)(mesh->place[b->particle[g * LANES + l]] >= 0) << l;
+    return bits;
+}
+
+/* Sets the flags of the points that have intact bonds in row block g (the bonds of eight particles), and of the sources
+ * of the images that are neighbours there. Peridynamic particles are no points of the mesh, so that most row blocks
+ * need not be read. l: loads, with the list of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned intact = row_block_is_complete(b, g) ? 0 : row_block_lanes_with_intact_bonds(b, g);
+    const unsigned points = row_block_is_complete(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
+    const unsigned intact = points ? points & row_block_lanes_with_intact_bonds(b, g) : 0;
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
-    for (int64_t k = 0; k < row_block_column_count(b, g) && p->n_all > p->n; k++) {
+    const int64_t columns = row_block_may_meet_images(b, p, g) ? row_block_column_count(b, g) : 0;
+    for (int64_t k = 0; k < columns; k++) {
         if (!meets_images(b, p, g, k)) continue;
         bond_column_read(&column, b, g, k);
         images_expose(e, mesh, p, l->image, column.nbr);

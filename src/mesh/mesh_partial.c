@@ -437,7 +437,7 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     const int64_t groups = mesh_partial_cell_group_count(mesh);
     groups_fill(mesh);
     mesh->stiffness = numbers_make("mesh.stiffness", mesh, half);
-    mesh->partial_force = NEW("mesh.partial_force", groups * unknowns * LANES, real);
+    mesh->partial_force = BARE("mesh.partial_force", groups * unknowns * LANES, real);
     mesh->partial_stressed = NEW("mesh.partial_stressed", groups * LANES, bool);
     mesh->partial_material = NEW("mesh.partial_material", groups * LANES, uint8_t);
     for (int64_t k = 0; k < groups * LANES; k++)
