@@ -27,19 +27,21 @@ enum { HEAP_ALONE = 0 };
  * memory of the processor whose threads wrote to them first. New pages are zero, so that zeros need not be written. */
 enum { OWN_PAGES = 1 << 20 };
 /* Limits of the store of released blocks. KEPT: largest number of blocks; KEPT_LEAST, KEPT_MOST: smallest and largest
- * size of a block [byte]; KEPT_ALL: largest size of all blocks [byte]. A block in the store is used again for an array
- * of similar size, mostly for the rebuilt version of the released array. This saves time because the system takes
- * longer to provide a page than a thread takes to write it. */
-enum { KEPT = 256, KEPT_LEAST = 1 << 17, KEPT_MOST = 64 << 20, KEPT_ALL = 256 << 20 };
+ * size of a block [byte]; KEPT_ALL: largest size of the used pages of all blocks [byte]. A block in the store is used
+ * again for an array of similar size, mostly for the rebuilt version of the released array. This saves time because the
+ * system takes longer to provide a page than a thread takes to write it. */
+enum { KEPT = 256, KEPT_LEAST = 1 << 17, KEPT_MOST = 64 << 20, KEPT_ALL = 192 << 20 };
 
 /* Elements allocated by the first growth of an array. */
 enum { GROWN_FIRST = 16 };
 
 /* Header before each array. */
 struct block {
-    void *whole;   /* address to be released */
-    size_t mapped; /* length of its own pages, 0: heap [byte] */
-    size_t length; /* length of the array [byte] */
+    void *whole;    /* address to be released */
+    size_t mapped;  /* length of its own pages, 0: heap [byte] */
+    size_t length;  /* length of the array [byte] */
+    size_t touched; /* largest length of its pages that an array has used [byte] */
+    bool large;     /* it has large pages; such blocks are of several mappings, which mremap does not extend */
 };
 _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 
@@ -97,18 +99,19 @@ static size_t room_of(size_t length)
 }
 
 /* Removes the smallest block of at least `least` and at most 4 `least` bytes from the store of released blocks and
- * returns it. Returns a block with `whole` NULL if there is none. */
-static struct block take_kept(size_t least)
+ * returns it. large: the block must have large pages, else it must not. Returns a block with `whole` NULL if there is
+ * none. */
+static struct block take_kept(size_t least, bool large)
 {
-    struct block block = {NULL, 0, 0};
+    struct block block = {0};
 #pragma omp critical(memory_kept)
     {
         int best = -1;
         for (int k = 0; k < KEPT; k++)
-            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least &&
+            if (waiting[k].mapped >= least && waiting[k].mapped / 4 <= least && waiting[k].large == large &&
                 (best < 0 || waiting[k].mapped < waiting[best].mapped))
                 best = k;
-        if (best >= 0) block = waiting[best], waiting[best] = (struct block){NULL, 0, 0}, waiting_bytes -= block.mapped;
+        if (best >= 0) block = waiting[best], waiting[best] = (struct block){0}, waiting_bytes -= block.touched;
     }
     return block;
 }
@@ -126,9 +129,9 @@ static void memory_keep(struct block block)
     do {
         const struct block oldest = waiting[waiting_longest];
         waiting[waiting_longest] = block;
-        waiting_bytes += block.mapped - oldest.mapped;
+        waiting_bytes += block.touched - oldest.touched;
         if (oldest.whole) munmap(oldest.whole, oldest.mapped);
-        block = (struct block){NULL, 0, 0};
+        block = (struct block){0};
         waiting_longest = (waiting_longest + 1) % KEPT;
     } while (waiting_bytes > KEPT_ALL);
 }
@@ -140,7 +143,7 @@ static void keep_none(void)
 #pragma omp critical(memory_kept)
     for (int k = 0; k < KEPT; k++) {
         if (waiting[k].whole) munmap(waiting[k].whole, waiting[k].mapped);
-        waiting[k] = (struct block){NULL, 0, 0};
+        waiting[k] = (struct block){0};
     }
     waiting_bytes = 0;
 }
@@ -151,16 +154,16 @@ static void keep_none(void)
  * whether the bytes are zero. */
 static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {
-    *block = (struct block){NULL, 0, 0}, *fresh = false;
+    *block = (struct block){0}, *fresh = false;
 #ifdef MAP_ANONYMOUS
     if (!HEAP_ALONE && length >= (size_t)(reusing ? KEPT_LEAST : OWN_PAGES)) {
         const size_t beside = alignment > PAGE ? alignment : 0,
                      room = room_of(reusing ? length + length / 2 : length) + beside;
-        if (!anew) *block = take_kept(length + beside);
+        if (!anew) *block = take_kept(length + beside, alignment > PAGE);
         if (!block->whole) {
             void *pages = mmap(NULL, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
             if (pages == MAP_FAILED) return NULL;
-            *block = (struct block){pages, room, 0}, *fresh = true;
+            *block = (struct block){.whole = pages, .mapped = room}, *fresh = true;
         }
         return (char *)(((uintptr_t)block->whole + alignment - 1) / alignment * alignment);
     }
@@ -196,7 +199,8 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
     char *pointer = from + ahead;
     if (content == ZEROED) zero(pointer, rounded, fresh);
     if (content == MOSTLY_ZERO && !fresh) memset(pointer, 0, rounded);
-    block.length = length;
+    block.length = length, block.large = large;
+    if (block.touched < ahead + rounded) block.touched = ahead + rounded;
     memcpy(pointer - sizeof block, &block, sizeof block);
     return pointer;
 }
@@ -227,6 +231,7 @@ static bool array_extend(void *pointer, size_t old_length, size_t length)
     if (length < old_length || ahead + rounded > block.mapped) return false;
     memset((char *)pointer + old_length, 0, rounded - old_length);
     block.length = length;
+    if (block.touched < ahead + rounded) block.touched = ahead + rounded;
     memcpy((char *)pointer - sizeof block, &block, sizeof block);
     return true;
 }
@@ -247,7 +252,7 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 
 void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size)
 {
-    struct block block = {NULL, 0, 0};
+    struct block block = {0};
     if (pointer) memcpy(&block, (char *)pointer - sizeof block, sizeof block);
     const int64_t room = (int64_t)(block.length / size), more = room > 0 ? 2 * room : GROWN_FIRST;
     return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
@@ -283,6 +288,7 @@ void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_
         out_of_memory(label, count, size);
     if (pages_extend(&block, &array, (length / ALIGNMENT + 1) * ALIGNMENT)) {
         block.length = length;
+        if (block.touched < length) block.touched = length;
         memcpy(array - sizeof block, &block, sizeof block);
         return array;
     }

@@ -40,6 +40,25 @@ static void memory_resize_keeps_what_fits(void **state)
     memory_free(array);
 }
 
+/* New elements are zero, too, where an array grows within a block that another one has written. */
+static void memory_resize_clears_reused_blocks(void **state)
+{
+    (void)state;
+    memory_set_reuse(true);
+    for (int64_t large = 1; large < 5; large++) {
+        const int64_t most = large << 20, some = most / 2, more = most - 1000;
+        char *array = NEW("test", most, char);
+        memset(array, 0xff, (size_t)most);
+        memory_free(array);
+        array = NEW("test", some, char);
+        memset(array, 1, (size_t)some);
+        array = memory_resize("test", array, some, more, 1);
+        for (int64_t i = 0; i < more; i++) assert_int_equal(array[i], i < some ? 1 : 0);
+        memory_free(array);
+    }
+    memory_set_reuse(false);
+}
+
 static void memory_grows(void **state)
 {
     (void)state;
@@ -77,6 +96,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_is_aligned_and_zero),
         cmocka_unit_test(memory_resize_keeps_what_fits),
+        cmocka_unit_test(memory_resize_clears_reused_blocks),
         cmocka_unit_test(memory_grows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
