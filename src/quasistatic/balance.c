@@ -126,7 +126,7 @@ status equilibrium_solve(struct run *e, real t, real *const *applied)
     applied_forces_compute(s, &e->part, &e->loads, t);
     if (s->fragments_stale) unconstrained_fragments_find(e);
     increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, applied);
-    s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
+    s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, e->contact);
     if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
     const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, t != s->t);
     s->t = t;

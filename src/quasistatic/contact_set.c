@@ -113,7 +113,7 @@ bool statics_contact_update_set(void *engine)
     loads_update_mirror_images(&e->loads, &e->part);
     const int64_t changed =
         contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select_active(c, &e->part, 0);
-    s->balance.applied = applied_forces_norm(s, &e->part, c);
+    s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
     return changed == 0;

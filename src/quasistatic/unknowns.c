@@ -193,15 +193,31 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
     }
 }
 
-real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *c)
+/* Returns an array [p->n] of the components (bit d: component d) of the displacement of each particle that a support
+ * prescribes. The caller frees it. */
+static uint8_t *particles_prescribed_components(const struct particles *p, const struct loads *loads)
 {
+    uint8_t *prescribed = NEW("statics.prescribed", p->n, uint8_t);
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
+        for (int64_t k = 0; l->boundary->kind == BOUNDARY_VELOCITY && k < l->n; k++)
+            prescribed[l->particle[k]] |= (uint8_t)l->boundary->components;
+    }
+    return prescribed;
+}
+
+real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
+                         const struct contact *c)
+{
+    uint8_t *prescribed = particles_prescribed_components(p, loads);
     real sum = 0;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->particles; k++)
             if (!(s->balance.held[k] >> d & 1)) sum += square(s->weight[k] * s->applied[d][s->node[k]]);
         for (int64_t i = 0; i < p->n; i++)
-            if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
+            if (p->kind[i] != KIND_PD && !(prescribed[i] >> d & 1)) sum += square(s->applied[d][i]);
     }
+    memory_free(prescribed);
     return hypot(sqrt(sum), contact_rigid_force_norm(c, p));
 }
 

@@ -35,8 +35,9 @@ void image_displacement_signs(const struct particles *p, const struct loads *loa
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t);
 
 /* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of
- * the contact forces of rigid bodies [N]. */
-real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *contact);
+ * the contact forces of rigid bodies [N]. loads: the supports of the body. */
+real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
+                         const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
  * equilibrium, and stores them in *loads. */

@@ -107,6 +107,14 @@ near "way of the grip" "$(last "$bar" grip.displacement_x)" 2e-5 1e-12
 holds "a wall at rest has no displacement" sh -c "! grep -q 'wall.displacement' '$bar/history.csv'"
 is "figures are those of probes alone" "$(grep -c '"wall"\|"grip"' "$bar/summary.json")" 0
 
+# Loads on lists of particles that overlap: the wall bears their sum, that of points that two of them load counted once each.
+for method in pd mpm; do
+    calm "$bar$method" "$bar.yaml" -s method=$method -s 'gravity=[100 km/s^2]' \
+        -s 'boundary=[{name: wall, fixed: [x], face: x-}, {name: end, traction: [10 MPa], face: x+}, {name: all, body_force: [1 GN/m^3]}]'
+    near "$method: sum of the loads" "$(last "$bar$method" wall.force_x)" "$(compute "-(10e6 * 3e-6 + (1e9 + 2700 * 1e5) * 3e-6 * 0.04)")" 1e-6
+    apart "$method: balance of these loads" "$(figure "$bar$method" energy.balance_error)" 0 1e-6
+done
+
 # A beam on two rollers, pressed by a third that bears a probe's name; on any number of threads.
 cat >"$work/bend.yaml" <<'END'
 space: plane stress
