@@ -135,6 +135,22 @@ struct unconstrained_fragment {
     real middle[DIM_MAX]; /* reference position of a node in the middle of the list [m] */
 };
 
+/* State of a point at the start of a load step, from which the turn of its direction of flow in the step is measured
+ * (flow_turn.h). Tensors have the components xx yy zz xy yz zx, in the axes of its cell. */
+struct flow_start {
+    real relative[SYM_MAX]; /* deviator of the stress less the back stress [Pa] */
+    real elastic[SYM_MAX];  /* deviator of Hooke's stress of the whole strain [Pa] */
+    real bound;             /* yield stress [Pa] */
+    real strain;            /* accumulated plastic strain [1] */
+};
+
+/* The largest turn of the direction of plastic flow of a point within a load step. */
+struct flow_turn {
+    real angle;             /* [rad]; 0: no flow has turned */
+    real position[DIM_MAX]; /* reference position of the point [m] */
+    int64_t step;           /* number of the load step */
+};
+
 /* State of a body between two load steps, and the storage of the equilibrium solver. The nodes of the system of
  * equations are the peridynamic particles, then the nodes of the mesh that move. */
 struct statics {
@@ -152,6 +168,8 @@ struct statics {
     struct multigrid *precondition;          /* preconditioner; NULL until its next use makes it */
     int64_t directions;                      /* search directions of the first solution with it; 0: none yet */
     struct memory_archive plastic;           /* plastic state at the start of the next solutions (system.c) */
+    struct flow_start *flow_start;           /* [particles of the body] NULL until the first load step */
+    struct flow_turn turn;                   /* the largest one so far */
     real t;                                  /* present pseudo-time [s] */
     real stretch_ratio;            /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
     struct break_list next;        /* bonds of the next crack increment; empty: none has been found */

@@ -243,9 +243,8 @@ static int law_arrays(const struct law *law)
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
-    const int meshed = scene_has_load_steps(s)   ? WITH_PLASTIC_CORRECTION
-                       : scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS
-                                                 : 0;
+    const int meshed =
+        scene_has_load_steps(s) || scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS : 0;
     for (int m = 0; m < s->materials; m++)
         if (s->material[m].law.given) optional |= meshed | law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;

@@ -5,6 +5,7 @@
 
 #include "crack_increment.h"
 #include "balance.h"
+#include "flow_turn.h"
 #include "sif_cracks.h"
 #include "load_size.h"
 #include "unconstrained.h"
@@ -338,6 +339,7 @@ static void warn_at_end(struct run *e)
     sif_leading_tip_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
+    flow_turn_warn(&e->statics->turn, e->part.dim, &e->warnings);
     rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
@@ -366,6 +368,7 @@ status engine_run_load_steps(struct run *e)
     e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
     sif_cracks_initialise(e); /* for the plane of the tips, which a resumed run lacks */
     if (e->clock.step == 0) sample_take_in_equilibrium(e);
+    flow_turn_measure(e->statics, &e->part, e->tables.elastic, 0);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
@@ -373,6 +376,7 @@ status engine_run_load_steps(struct run *e)
         timer_add_elapsed(&e->timers, TIMER_BONDS);
         TRY(solved);
         TRY(check_constrained(e, &apart));
+        flow_turn_measure(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
         plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;

@@ -74,6 +74,7 @@ static status search_archive(struct statics *s, struct run_clock *clock, struct 
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
     ARCHIVE_VALUE(a, "statics/solutions", s->solutions);
     ARCHIVE_VALUE(a, "statics/record", s->record);
+    ARCHIVE_VALUE(a, "statics/turn", s->turn);
     clock->load_step = s->record.step;
     return OK;
 }

@@ -96,6 +96,7 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_write_integer(j, "equilibria", s->solutions);
     json_write_integer(j, "search_directions", s->balance.directions);
     json_write_real(j, "stretch_ratio", s->stretch_ratio);
+    if (e->part.plastic_correction[0]) json_write_real(j, "flow_turn", s->turn.angle);
     json_write_integer(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
     json_write_real(j, "released", s->record.released);
     json_write_real(j, "crack_area", s->record.face);

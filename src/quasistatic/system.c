@@ -144,6 +144,7 @@ void statics_free(struct statics *s)
     statics_unknowns_free(s);
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->applied[d]), s->applied[d] = NULL;
     memory_archive_free(&s->plastic);
-    memory_free(s->next.bond);
+    memory_free(s->next.bond), memory_free(s->flow_start);
+    s->flow_start = NULL;
     s->next = (struct break_list){0};
 }

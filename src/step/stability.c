@@ -487,7 +487,7 @@ status energy_check(struct run *e)
     growth_samples_add(&e->stability->excess, e->clock.step, excess);
     if (!e->stability->stretched)
         e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
-                                  say_flowed(&e->part, e->clock.t, &e->warnings) ||
+                                  (scene_is_dynamic(e->scene) && say_flowed(&e->part, e->clock.t, &e->warnings)) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
         e->stability->parted =

@@ -159,6 +159,40 @@ near "plane strain in time: stress [MPa]" "$(compute "$(mean plane_time point.st
 near "plane strain in time: plastic strain" "$(column "$work/plane_time" point.plastic_strain 1)" 4.209e-3 1e-3
 balanced "plane strain in time" plane_time
 
+# Shear after tension: from the yield stress in tension, twice the deviatoric strain of yield turns the flow of one step by atan 2, and a
+# tenth of it by atan 0.2 at first. A run names the largest turn and what it costs; a path without turns is silent.
+scene turn <<'END'
+space: solid
+duration: 1 s
+method: mpm
+mpm: {strain: small}
+solver: static
+steps: {number: 2}
+material: {young: 200 GPa, poisson: 0.25, density: 7850 kg/m^3, yield_stress: 240 MPa}
+variables: {stretch: 1e-3, shear: 2e-3*sqrt(0.75)}
+body: {box: {from: [0, 0, 0], to: [2 mm, 2 mm, 2 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {displacement: ["x*stretch*min(1, t/(0.5 s)) + y*shear*max(0, t/(0.5 s) - 1)",
+        "-y*stretch/2*min(1, t/(0.5 s)) + x*shear*max(0, t/(0.5 s) - 1)", "-z*stretch/2*min(1, t/(0.5 s))"], region: {box: {from: [-1, -1, -1], to: [1, 1, 1]}}}
+probes: [{point: {at: [0.5 mm, 0.5 mm, 0.5 mm]}}]
+output: {frames: 0}
+END
+warned "turn of 63 degrees" "$work/turned" 'flow turns by 63 degrees within load step 2, near x = 0.0005, y = 0.0005, z = 0.0005 m, and .* off by 22 %' "$work/turn.yaml"
+near "turn in one step [rad]" "$(f turned load_steps.flow_turn)" "$(compute "atan2(2, 1)")" 1e-6
+near "what is left of the tension" "$(compute "($(f turned probes.point.stress_xx) - $(f turned probes.point.stress_yy))/240e6")" 0.4472136 1e-6
+warned "turn of 11 degrees" "$work/turned" 'flow turns by 11 degrees within load step 11, .* off by 6 %' "$work/turn.yaml" -s steps.number=20 --overwrite
+near "turn in one of ten steps [rad]" "$(f turned load_steps.flow_turn)" "$(compute "atan2(0.2, 1)")" 1e-6
+calm "$work/turned_less" "$work/turn.yaml" -s steps.number=40
+is "turns of 6 degrees: no warning" "$(grep -c 'flow turns' "$work/turned_less/summary.json")" 0
+near "turn in one of twenty steps [rad]" "$(f turned_less load_steps.flow_turn)" "$(compute "atan2(0.1, 1)")" 1e-6
+calm "$work/turned_not" "$work/turn.yaml" -s variables.shear=0 -s variables.stretch=4e-3
+apart "a path that does not turn" "$(f turned_not load_steps.flow_turn)" 0 1e-6
+# Tension of half the yield stress first: flow begins within the second step, where the stress is sqrt(3/4) of it in shear. No turn of the
+# elastic stress counts.
+calm "$work/turned_late" "$work/turn.yaml" -s variables.stretch=0.5e-3
+near "turn from the first yield on [rad]" "$(f turned_late load_steps.flow_turn)" "$(compute "atan2(4, 1) - atan2(sqrt(3), 1)")" 1e-6
+
 # Cycles of a cell in every space, as fast as waves: round-off, and frames of a restart.
 sed -e 's/^duration.*/duration: 40 us/; s/velocity: .*free\]/velocity: ["4*sin(pi*t\/(10 us))*(1 m\/s)", free]/' "$work/plane_time.yaml" >"$work/cycle.yaml"
 sed -e 's/^space: .*/space: solid/; /^thickness/d; s/free\]/free, free]/; s/from: \[0, 0\], to: \[2 mm, 2 mm\]/from: [0, 0, 0], to: [2 mm, 2 mm, 2 mm]/' \

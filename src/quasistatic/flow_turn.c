@@ -1,0 +1,106 @@
+/* The turn of the direction of plastic flow within a load step. */
+#include "flow_turn.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "kernels/laws/flows.h"
+#include "kernels/laws/law_update.h"
+
+/* Largest turn of the direction of flow in a load step without a warning [degrees], and the largest error of the stress
+ * per degree [%]. Measured along two straight segments of strain, 20 to 150 degrees apart, the second of 0.7 to 10
+ * yield strains in 1 to 64 load steps, with and without hardening and back stress: the deviatoric stress at the end
+ * differs from that of 4000 steps by 0.2 to 0.5 % for each degree by which flow turns in a step, up to 22 % in all, and
+ * half as much if the number of steps is doubled. */
+#define TURN_MOST 10.0
+#define ERROR_PER_DEGREE 0.5
+#define ERROR_MOST 22.0
+
+#define DEGREE (M_PI / 180)
+
+/* Returns the scalar product x:y of two symmetric tensors with the components xx yy zz xy yz zx. */
+static real tensor_scalar_product(const real *x, const real *y)
+{
+    real sum = 0;
+    for (int c = 0; c < SYM_MAX; c++) sum += (c < 3 ? 1 : 2) * x[c] * y[c];
+    return sum;
+}
+
+/* Subtracts the mean of the normal components from a symmetric tensor x (components xx yy zz xy yz zx). */
+static void deviator(real *x)
+{
+    const real mean = (x[0] + x[1] + x[2]) / 3;
+    for (int c = 0; c < 3; c++) x[c] -= mean;
+}
+
+/* Returns the present state of point i. m: constants of its material, which has a law. */
+static struct flow_start point_state(const struct particles *p, const struct elastic *m, int64_t i)
+{
+    struct flow_start state = {.strain = p->plastic_strain[i]};
+    const real T = p->temperature ? p->temperature[i] : m->law->johnson_cook.T_room;
+    real back[SYM_MAX] = {0};
+    lanes slope;
+    for (int k = 0; k < symmetric_component_count(p->dim); k++) {
+        const int c = law_place[p->dim][k];
+        state.relative[c] = p->mesh_stress[k][i];
+        state.elastic[c] = p->mesh_stress[k][i] + p->plastic_correction[k][i];
+        if (p->back_stress[0]) back[c] = p->back_stress[k][i];
+    }
+    if (p->dim == 2) back[2] = -back[0] - back[1];
+    if (m->space == SPACE_PLANE_STRAIN) {
+        state.relative[2] = m->law->poisson * (state.relative[0] + state.relative[1]) + p->out_of_plane[i];
+        state.elastic[2] = m->law->poisson * (state.elastic[0] + state.elastic[1]);
+    }
+    deviator(state.relative), deviator(state.elastic);
+    for (int c = 0; c < SYM_MAX; c++) state.relative[c] -= back[c];
+    state.bound = law_flow_stress(m->law, lanes_broadcast(state.strain), lanes_broadcast(T), &slope)[0];
+    return state;
+}
+
+/* Returns the angle between the directions of flow at the beginning and at the end of the flow of a point that flows in
+ * a load step [rad]. The flow begins where the trial stress, which grows in proportion from the start of the step,
+ * reaches the yield surface. */
+static real turn_between(const struct flow_start *start, const struct flow_start *end)
+{
+    real trial[SYM_MAX], first[SYM_MAX];
+    for (int c = 0; c < SYM_MAX; c++) trial[c] = end->elastic[c] - start->elastic[c];
+    const real A = tensor_scalar_product(trial, trial), B = tensor_scalar_product(start->relative, trial);
+    const real C = real_min(tensor_scalar_product(start->relative, start->relative) - square(start->bound) / 1.5, 0);
+    const real share = A > 0 ? real_min((sqrt(B * B - A * C) - B) / A, 1) : 0;
+    for (int c = 0; c < SYM_MAX; c++) first[c] = start->relative[c] + share * trial[c];
+    const real size = sqrt(tensor_scalar_product(first, first) * tensor_scalar_product(end->relative, end->relative));
+    return size > 0 ? acos(real_max(-1, real_min(1, tensor_scalar_product(first, end->relative) / size))) : 0;
+}
+
+void flow_turn_measure(struct statics *s, const struct particles *p, const struct elastic *m, int64_t step)
+{
+    if (!p->mesh_stress[0] || p->dim < 2) return;
+    const bool known = s->flow_start != NULL;
+    if (!known) s->flow_start = NEW("statics.flow_start", p->n, struct flow_start);
+    for (int64_t i = 0; i < p->n; i++) {
+        const struct elastic *own = &m[p->material[i]];
+        if (!own->law) continue;
+        const struct flow_start now = point_state(p, own, i);
+        const bool flows = known && now.strain > s->flow_start[i].strain;
+        const real angle = flows ? turn_between(&s->flow_start[i], &now) : 0;
+        s->flow_start[i] = now;
+        if (!(angle > s->turn.angle)) continue;
+        s->turn = (struct flow_turn){.angle = angle, .step = step};
+        particle_reference_position(p, i, s->turn.position);
+    }
+}
+
+void flow_turn_warn(const struct flow_turn *turn, int dim, struct warnings *to)
+{
+    const real angle = turn->angle / DEGREE;
+    char text[320], z[40] = "";
+    if (dim > 2) snprintf(z, sizeof z, ", z = %.4g", turn->position[2]);
+    snprintf(text, sizeof text,
+             "the direction of plastic flow turns by %.0f degrees within load step %lld, near x = %.4g, y = %.4g%s m, "
+             "and stresses there may be off by %.0f %%: use more load steps (steps.number; twice as many halve the "
+             "error)",
+             angle, (long long)turn->step, turn->position[0], turn->position[1], z,
+             real_min(ERROR_PER_DEGREE * angle, ERROR_MOST));
+    if (angle > TURN_MOST) warnings_add_and_print(to, text);
+}

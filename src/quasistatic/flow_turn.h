@@ -1,0 +1,21 @@
+/* The turn of the direction of plastic flow within a load step. The return mapping of a load step has one direction of
+ * flow, that at the end of the step (kernels/laws/law_update.c), so that steps of any size are exact where this
+ * direction is constant, and of first order in the turn elsewhere. */
+#ifndef CLEAVE_FLOW_TURN
+#define CLEAVE_FLOW_TURN
+
+#include "base/warnings.h"
+#include "kernels/kernels.h"
+#include "quasistatic/statics.h"
+
+/* Measures by how much the direction of flow has turned at each point since the last call, from where the trial stress
+ * of the load step reached the yield surface to the end of the step. Updates the largest turn so far in s->turn, and
+ * stores the present state as the start of the next load step. The first call stores the state only. m: elastic
+ * constants of all materials; step: number of the load step. Does nothing if no point of p yields, or in 1D, where the
+ * direction of flow only changes its sign. */
+void flow_turn_measure(struct statics *s, const struct particles *p, const struct elastic *m, int64_t step);
+
+/* Warns of a largest turn with which stresses may be off by more than 5 %. */
+void flow_turn_warn(const struct flow_turn *turn, int dim, struct warnings *to);
+
+#endif
