@@ -11,7 +11,8 @@
 #define ARMSTRONG "k + C/gamma (1 - exp(-gamma a)); stable: k + C/gamma tanh(gamma da/2)"
 #define PRANDTL "equations of Prandtl & Reuss"
 #define LOCKED "MPM3D-F90, linear shapes, November 2026; own dilatations of the points, as there"
-#define FINER "own result with half the spacing; pressure: below 0.6 GPa, MPM3D-F90 1.36, half the flow stress"
+#define FINER "own, half the spacing; MPM3D-F90, locked: 16.24, 6.56 mm, 1.36 GPa"
+#define COOK "quadratic finite elements in plane strain, 27.4 to 27.6 um"
 #define HILL "Hill 1950"
 #define HILL_RADIAL "Hill 1950; nu 0.3: radial integration of Prandtl & Reuss, 800 elements, both readings"
 #define HEATING "T* = 1 - exp(-beta R W/(rho c (T_melt - T_room)))"
@@ -79,6 +80,12 @@ const struct laws_case laws_cases[] = {
      {{"front, elastic part", "a", 1.5021, 0.015}, {"front, plastic strain", "a", 1.5011, 0.015}}},
     {"thick cylinder, front at 1.8 a", HILL_RADIAL, laws_cylinder, true, {1.8},
      {{"front, elastic part", "a", 1.8155, 0.03}, {"front, plastic strain", "a", 1.8137, 0.03}}},
+    {"Cook's membrane, nu 0.4999, load steps", COOK, laws_cook, true, {0, 0, 0.75},
+     {{"corner", "um", 27.5, 0.8}}},
+    {"Cook's membrane in space, load steps", COOK, laws_cook, true, {1, 0, 0.75},
+     {{"corner", "um", 27.5, 0.8}}},
+    {"Cook's membrane, current frame", COOK, laws_cook, true, {0, 1, 1.5}, {{"corner", "um", 27.5, 2}}},
+    {"Cook's membrane in space, current frame", COOK, laws_cook, true, {1, 1, 1.5}, {{"corner", "um", 27.5, 2}}},
     {"copper bar, 400 + 100 a MPa, 227 m/s, gimp", WILKINS, laws_bar_wilkins, true, {0},
      {{"length", "mm", 21.4, 0.1}, {"foot", "mm", 7.1, 0.3}, {"energy balance", "%", 0, 0.3}}},
     {"copper bar, 227 m/s, linear", WILKINS, laws_bar_wilkins, true, {1},

@@ -83,6 +83,8 @@ status laws_energy(const struct laws_case *c, double *found);
 status laws_bar_wilkins(const struct laws_case *c, double *found);
 status laws_bar_copper(const struct laws_case *c, double *found);
 status laws_bar_johnson_cook(const struct laws_case *c, double *found);
+status laws_cook(const struct laws_case *c,
+                 double *found); /* given: 1 in space, 1 in the current frame, spacing [mm] */
 status laws_torsion(const struct laws_case *c, double *found); /* given: angle over that of first yield */
 status laws_beam(const struct laws_case *c, double *found); /* given: 1 in plane strain, curvature over first yield */
 status laws_sphere(const struct laws_case *c, double *found);

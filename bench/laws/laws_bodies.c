@@ -92,6 +92,50 @@ status laws_bar_johnson_cook(const struct laws_case *c, double *found)
     return OK;
 }
 
+/* ---- a body whose volume hardly changes -------------------------------------------------------------------------- */
+
+/* Cook's membrane in plane strain, and as a slab of two points across its depth that does not move along z. */
+static const char *const cook[] = {
+    "name: cook\nvariables: {h: 1 mm}\nspace: plane strain\nthickness: 5 mm\nduration: 1 s\nmethod: mpm\n"
+    "material: {young: 70 MPa, poisson: 0.4999, density: 1000}\nparticles: {spacing: h}\n"
+    "body: {polygon: {corners: [[0, 0], [48 mm, 44 mm], [48 mm, 60 mm], [0, 44 mm]]}}\nboundary:\n"
+    "  - {name: wall, fixed: all, region: {box: {from: [-inf, -inf], to: [h, inf]}}}\n"
+    "  - {name: end, traction: [0, 6.25 kPa], face: x+, region: {box: {from: [45 mm, -inf], to: [inf, inf]}}}\n",
+    "name: cook\nvariables: {h: 1 mm}\nspace: solid\nduration: 1 s\nmethod: mpm\n"
+    "material: {young: 70 MPa, poisson: 0.4999, density: 1000}\nparticles: {spacing: h}\n"
+    "body: {extrude: {shape: {polygon: {corners: [[0, 0], [48 mm, 44 mm], [48 mm, 60 mm], [0, 44 mm]]}}, from: 0, "
+    "to: 2*h}}\nboundary:\n"
+    "  - {name: wall, fixed: all, region: {box: {from: [-inf, -inf, -inf], to: [h, inf, inf]}}}\n"
+    "  - {name: end, traction: [0, 6.25 kPa, 0], face: x+, region: {box: {from: [45 mm, -inf, -inf], to: [inf, inf, "
+    "inf]}}}\n"
+    "  - {name: sides, fixed: [z], region: {box: {from: [-inf, -inf, -inf], to: [inf, inf, inf]}}}\n"};
+
+status laws_cook(const struct laws_case *c, double *found)
+{
+    struct run e;
+    struct scene s;
+    struct bench_overrides o = {0};
+    const bool solid = c->given[0] == 1, current = c->given[1] == 1;
+    const real corner[DIM_MAX] = {48e-3, 60e-3, 0};
+    bench_override(&o, "variables.h", "%g mm", c->given[2]);
+    bench_override(&o, "mpm.frame", current ? "current" : "reference");
+    bench_override(&o, "solver", current ? "relaxation" : "static");
+    if (!current) bench_override(&o, "steps.number", "1");
+    if (current) bench_override(&o, "solver_steps", "1000000");
+    if (current) bench_override(&o, "solver_tolerance", "1e-3");
+    bench_override(&o, "output.frames", "0");
+    TRY(bench_engine_make(&e, &s, "cook", cook[solid], bench_overrides_ready(&o), o.n));
+    const status ran = engine_run(&e);
+    const int64_t i = particles_nearest(&e.part, corner);
+    const struct load *end = &e.loads.load[1];
+    double area = 0; /* the steps of the lattice make the loaded face longer than 16 mm */
+    for (int64_t k = 0; k < end->n; k++) area += end->share[1][k];
+    const double depth = solid ? 2 * s.spacing : 5e-3;
+    found[0] = 1e6 * (e.part.x[1][i] - e.part.X[1][i]) * 16e-3 * depth / area;
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
 /* ---- bodies under static loads ----------------------------------------------------------------------------------- */
 
 #define YIELD 250e6 /* [Pa] */
