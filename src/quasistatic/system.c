@@ -50,11 +50,11 @@ static void mirror_forces_add(struct mesh *mesh)
     }
 }
 
-/* Adds the applied forces s->applied, the sums over all loads, to the forces p->f of the particles of the body. */
-static void applied_add(const struct statics *s, struct particles *p)
+/* Adds the applied forces s->applied, the sums over all loads, to the forces p->f of the loaded particles. */
+static void applied_add(const struct statics *s, const struct loads *loads, struct particles *p)
 {
     for (int d = 0; d < p->dim && s->applied[d]; d++)
-        for (int64_t i = 0; i < p->n; i++) p->f[d][i] += s->applied[d][i];
+        for (int64_t k = 0; k < loads->listed; k++) p->f[d][loads->list[k]] += s->applied[d][loads->list[k]];
 }
 
 /* Computes the forces on particles and mesh nodes at their present positions: of bonds, contact, loads and cells, as in
@@ -69,7 +69,7 @@ static void forces_present(struct run *e)
                           e->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
-    applied_add(e->statics, &e->part);
+    applied_add(e->statics, &e->loads, &e->part);
     if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
