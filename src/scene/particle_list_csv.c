@@ -16,6 +16,7 @@ struct csv {
     int fields, column[FIELDS_MAX]; /* enum list_column of each field of a line */
     real factor[FIELDS_MAX];        /* factor from the unit of the field to SI */
     int first[FIELDS_MAX];          /* index of the first item in the file: 1 for blocks, else 0 */
+    bool whole;   /* so far the volumes of a list without names are written as whole numbers, as blocks are */
     bool pending; /* the current line is the first entry, since the column names are in another line */
     int64_t room;
 };
@@ -267,7 +268,7 @@ static status csv_header(struct csv *c, struct particle_list *l)
     }
     if (*names && line_of_numbers(c->in.text)) return header_elsewhere(c, l, names, line);
     if (line_of_mesh(c->in.text)) {
-        l->head.unnamed = true;
+        l->head.unnamed = c->whole = true;
         return header_elsewhere(c, l, mesh, c->in.line);
     }
     if (line_of_numbers(c->in.text))
@@ -327,9 +328,9 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line, converts it to SI units and stores it as entry l->n of the column of the list l to which
- * field k belongs. field: text of the field. Returns REFUSED if it is no valid value. */
-static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
+/* Reads field k of a line, converts it to SI and stores it as entry l->n of its list column. field: text of the
+ * field. Returns REFUSED if it is no valid value. */
+static status csv_value(struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];
     const char *name = c->first[k] ? "block_id" : list_quantity[column].name;
@@ -342,6 +343,7 @@ static status csv_value(const struct csv *c, struct particle_list *l, int k, con
             "%.40s: without names the fourth column is block_id, a whole number; if it is the volume, give the list as "
             "{file: .., columns: [x, y, z, volume, block]}, else with [x, y, z, block, volume]",
             field);
+    if (column == COLUMN_VOLUME) c->whole = c->whole && !field[strspn(field, "0123456789")];
     if (column == COLUMN_MATERIAL && end == field && *field) return csv_name(c, l, field, to);
     if (end == field || *end != '\0' || strpbrk(field, "xX"))
         return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
@@ -375,13 +377,24 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     return OK;
 }
 
+/* Returns REFUSED for a list without names whose fourth and fifth columns are both whole numbers: either may be the
+ * block. */
+static status unnamed_check(const struct csv *c, const struct particle_list *l)
+{
+    if (!l->head.unnamed || !c->whole || l->n == 0) return OK;
+    return status_set(REFUSED,
+                      "%s:%lld:1: the fourth and the fifth column are whole numbers, and each may be the block or the "
+                      "volume; say which: {file: .., columns: [x, y, z, block, volume]} or [x, y, z, volume, block]",
+                      c->in.path, (long long)l->line[0]);
+}
+
 static status csv_entries(struct csv *c, struct particle_list *l, bool head)
 {
     TRY(l->form.columns ? csv_header_given(c, l) : csv_header(c, l));
     if (head) return OK;
     for (bool more = true;; c->pending = false) {
         if (!c->pending) TRY(csv_read_data_line(&c->in, &more));
-        if (!more) return OK;
+        if (!more) return unnamed_check(c, l);
         if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
         TRY(csv_grow(c, l));
         TRY(csv_entry(c, l));

@@ -111,10 +111,14 @@ static void bad_lists_are_refused(void **state)
         {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; numbers have a point, not a comma"},
         {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, and no line before them names the columns"},
         {"0,0,0,1,1\n", "bad.csv:1:1: numbers, and no line before them names the columns"},
-        {"0 0 0 3 1\n", "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
+        {"0 0 0 3 1.0\n",
+         "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
         {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
         {"0 0 0 3.0 2\n", "bad.csv:1:7: 3.0: without names the fourth column is block_id, a whole number; "
                           "if it is the volume, give the list as {file: .., columns: [x, y, z, volume, block]}, else"},
+        {"0 0 0 1 1\n1 0 0 1 2\n",
+         "bad.csv:1:1: the fourth and the fifth column are whole numbers, and each may be the "
+         "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
         {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
         {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
         {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at one position: (0, 0, 0) m"},
