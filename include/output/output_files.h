@@ -27,6 +27,10 @@ struct path run_frame_path(const char *folder, int number);
  * file has the name of such a folder; FAILED if a folder cannot be created. */
 status folder_make(const char *path);
 
+/* Creates the folder of the file `path` as folder_make does, because the folders in the argument of -o may be missing.
+ */
+status folder_make_above(const char *path);
+
 /* Ending of the names of temporary files. It contains the name of the program, so that files of other programs do not
  * have it. */
 #define ASIDE_ENDING ".cleave.tmp"

@@ -104,7 +104,7 @@ status export_check_file(const char *path, const char *sign, bool overwrite)
     char begin[1024] = "";
     size_t n = 0;
     if (path_is_folder(path)) return status_set(REFUSED, "%s: is a folder; -o FILE is expected", path);
-    if (!path_exists(path)) return OK;
+    if (!path_exists(path)) return folder_make_above(path);
     FILE *file = fopen(path, "rb");
     if (file) n = fread(begin, 1, sizeof begin, file), fclose(file);
     if (!memmem(begin, n, sign, strlen(sign)))

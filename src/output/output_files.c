@@ -309,6 +309,16 @@ status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
+status folder_make_above(const char *path)
+{
+    struct path above = {{0}};
+    const char *end = strrchr(path, '/');
+    if (!end || end == path) return OK;
+    if (end - path >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
+    snprintf(above.text, sizeof above.text, "%.*s", (int)(end - path), path);
+    return folder_make(above.text);
+}
+
 status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
                    file_visit_fn *visit)
 {

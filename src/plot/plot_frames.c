@@ -161,16 +161,15 @@ status pictures_folder_make(const char *path, bool overwrite)
 status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite)
 {
     const char *end = strrchr(option_argument, '/');
-    struct path above = {{0}};
     if (!*option_argument || strlen(option_argument) >= sizeof path->text)
         return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected",
                           printable_name(option_argument).text);
-    snprintf(above.text, sizeof above.text, "%.*s", end > option_argument ? (int)(end - option_argument) : 0,
-             option_argument);
-    if (above.text[0]) TRY(folder_make(above.text));
-    if (end > option_argument && !end[1])
+    TRY(folder_make_above(option_argument));
+    if (end > option_argument && !end[1]) {
+        struct path above;
+        snprintf(above.text, sizeof above.text, "%.*s", (int)(end - option_argument), option_argument);
         *path = path_join(above.text, name);
-    else if (path_is_folder(option_argument))
+    } else if (path_is_folder(option_argument))
         *path = path_join(option_argument, name);
     else
         snprintf(path->text, sizeof path->text, "%s", option_argument);

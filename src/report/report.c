@@ -41,7 +41,7 @@ static status page_destination(struct path *path, const struct report_request *r
                           printable_name(out).text);
     snprintf(path->text, sizeof path->text, "%s", out);
     for (size_t end = length; end > 1 && path->text[end - 1] == '/'; end--) path->text[end - 1] = '\0';
-    if (out[length - 1] == '/') TRY(folder_make(path->text));
+    TRY(folder_make_above(out));
     if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
     if (r->overwrite || !path_exists(path->text) || page_file_is_from_cleave(path->text)) return OK;
