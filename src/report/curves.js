@@ -61,18 +61,38 @@ function readColumns() {
     });
 }
 
-// Columns to begin with: the energies, and the length of the crack if one grows; with load steps the loads.
+const largestOf = (c) => Math.max(Math.abs(c.low), Math.abs(c.high)), varies = (c) => c.high > c.low;
+
+// Columns of the history by what matters: energies, forces, the length of the crack, then the others; of one unit the
+// largest values first, so that a column of zeros is last.
+function columnsByWeight() {
+    const kind = (c) => (c.unit === "J" ? 0 : c.unit === "N" ? 1 : c.name === "crack_length" ? 2 : 3);
+    const size = (c) => (Number.isFinite(largestOf(c)) ? largestOf(c) : 0);
+    const first = new Map(), order = history_.columns.map((c, k) => ({c, k}));
+    for (const {c, k} of order)
+        if (!first.has(c.unit)) first.set(c.unit, k); // units in the order of the file
+    return order
+        .sort((a, b) => kind(a.c) - kind(b.c) || first.get(a.c.unit) - first.get(b.c.unit) || size(b.c) - size(a.c) ||
+                  a.k - b.k)
+        .map(({c}) => c);
+}
+
+// Columns to begin with: energies and up to three forces, those that are more than a line above zero, and the length of
+// the crack if one grows.
 function columnsToBegin() {
-    const wanted = history_.columns.filter((c) => c.high > c.low && (c.unit === "J" || c.name === "crack_length"));
-    const loads = history_.columns.filter((c) => c.high > c.low && c.unit === "N").slice(0, 3);
-    return wanted.concat(loads);
+    const seen = (unit) => {
+        const own = columnsByWeight().filter((c) => varies(c) && c.unit === unit);
+        return own.filter((c) => largestOf(c) > 5e-4 * largestOf(own[0]));
+    };
+    return [...seen("J"), ...seen("N").slice(0, 3),
+        ...history_.columns.filter((c) => varies(c) && c.name === "crack_length")];
 }
 
 function showColumns() {
     const groups = new Map(), constant = [];
-    history_.columns.forEach((c, k) => {
-        if (k < 2 && /^(time|step|load_step)$/.test(c.name)) return;
-        if (!(c.high > c.low)) return constant.push(c.name + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
+    columnsByWeight().forEach((c) => {
+        if (history_.columns.indexOf(c) < 2 && /^(time|step|load_step)$/.test(c.name)) return;
+        if (!varies(c)) return constant.push(c.name + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
         if (!groups.has(c.unit)) groups.set(c.unit, []);
         groups.get(c.unit).push(c);
     });
@@ -84,7 +104,7 @@ function showColumns() {
                     checked: history_.shown.includes(c),
                     onchange: () => {
                         history_.shown =
-                            history_.columns.filter((o) => (o === c ? box.checked : history_.shown.includes(o)));
+                            columnsByWeight().filter((o) => (o === c ? box.checked : history_.shown.includes(o)));
                         drawCurves();
                     }
                 });
@@ -246,7 +266,7 @@ function showCurves() {
     readColumns();
     history_.shown = columnsToBegin();
     byId("over").append(...history_.columns.map((c, k) => element("option", {value: k}, c.name))
-                            .filter((o, k) => history_.columns[k].high > history_.columns[k].low));
+                            .filter((o, k) => varies(history_.columns[k])));
     showColumns();
     listenToCurves();
     drawCurves();

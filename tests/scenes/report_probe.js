@@ -63,6 +63,8 @@ async function probe() {
     HTMLCanvasElement.prototype.setPointerCapture = () => {};
     if (film) await probeFilm(seen);
     if (page.history) {
+        seen.curves_first = history_.shown.map((c) => [c.name, c.unit, largestOf(c)]);
+        seen.chips = [...document.querySelectorAll("#columns label")].map((l) => l.textContent);
         const sum = () => byId("plot").toDataURL().length, before = sum();
         document.querySelector("#columns input:not(:checked)").click();
         seen.column_added = sum() !== before;

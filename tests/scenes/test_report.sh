@@ -57,6 +57,11 @@ if [ -n "$browser" ]; then
     says opened "s['problems'] == [] and s['frames'] == 6 and s['shown_at_first'] == 5 and s['played_to'] == 5"
     says opened "'frame 0' in s['when_first'] and s['column_added']"
     says opened "s['crack_last'][0] - s['crack_last'][1] > 60 and s['whole_last'] == [226, 228, 231]"
+    # What matters comes first: energies, the largest one before others, then the crack; what is not an energy is last in the list.
+    says opened "[c[1] for c in s['curves_first'][:-1]] == ['J'] * (len(s['curves_first']) - 1) and len(s['curves_first']) > 3"
+    says opened "s['curves_first'][-1][0] == 'crack_length' and s['curves_first'][0][0] != 'kinetic'"
+    says opened "(lambda size: size == sorted(size, reverse=True))([c[2] for c in s['curves_first'][:-1]])"
+    says opened "s['chips'][0] == s['curves_first'][0][0] and s['chips'].index('crack_length') < s['chips'].index('momentum_x')"
     says opened "s['field'] == 'von_mises' and max(s['crack_von_mises']) < 100 and s['whole_von_mises'] != [226, 228, 231]"
 fi
 
