@@ -29,7 +29,7 @@ extern const char *const curve_colour[CURVE_COLOURS];
 
 /* Size of all pictures that this process draws. */
 struct picture_size {
-    int width, height; /* [pixel]; 0: the usual size of each picture */
+    int width, height; /* [pixel]; 0: the usual size of each picture; height 0 beside a width: what each needs */
     double dpi;        /* pixels of a PNG per inch, at PICTURE_DPI pixels of its size */
 };
 enum {
@@ -52,7 +52,11 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
  * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Returns true if the size set by picture_size_set is so narrow that there is no space for a key beside the panels. */
+/* Returns the number of pixels that an image in a picture of the given format has along an edge that is `pixels` long
+ * in its layout: more in pictures of a finer resolution, and in vector formats, which are enlarged. */
+int gnuplot_image_pixels(enum picture_format format, int pixels);
+
+/* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
 bool gnuplot_is_narrow(void);
 
 /* Writes the commands for the title of a picture, which begins `left` pixels from its left edge. A title that is too

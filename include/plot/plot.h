@@ -281,6 +281,11 @@ enum map map_of_field(const struct plot_field *field);
 void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
                                   const char *folder, int number);
 
+/* Adds the rigid bodies of the scene s, whose placements are at[s->rigids], to the particles c. low, high: box around
+ * the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
+void plotted_particles_place_rigids(struct plotted_particles *c, const struct scene *s,
+                                    const struct rigid_placement *at, const real *low, const real *high);
+
 /* Number of named values that part_colour can distinguish. */
 enum { CATEGORIES_MOST = 9 };
 
@@ -357,6 +362,11 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
  * painted in a faded colour, and the cubes of particles with damage of at least CRACK_DAMAGE are painted over it. */
 void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                            const struct plotted_particles *c, enum map map);
+
+/* Paints the faces of the pre-cracks of the view v over pixel[height][width] of a flat map of damage or of a field, as
+ * lines that move with the particles c beside them. Paints nothing in other maps. */
+void notches_paint(struct colour *pixel, int width, int height, const struct view *v, const struct plotted_particles *c,
+                   enum map map);
 
 /* Returns the colour of rigid bodies. */
 struct colour rigid_colour(void);

@@ -17,7 +17,11 @@ bool time_read(real *value, const char *text, char *message, size_t capacity);
  * message[capacity] receives the fault, as the rest of a sentence that begins with the text. */
 bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity);
 
-/* Returns the index of `text` among the words of a list of the form a|b|c, or -1 if it is not among them. */
+/* Returns the SI unit of numbers without a unit that are values of the key `path`, as it follows -s, such as
+ * materials.glass.young: its symbol, "" if the key has none or is unknown. */
+const char *scene_key_unit(const char *path);
+
+/* Returns the index of `text` in the words a|b|c, or -1. */
 int word_index_in_list(const char *words, const char *text);
 
 /* Returns that one of the n > 0 names name[n] that has the smallest edit distance to `word`; the first one if there are

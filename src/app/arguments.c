@@ -36,9 +36,59 @@ status option_read_count(int *count, const char *option, const char *text, int l
                : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
 }
 
+/* Reads one length of a size of pictures from *text into *pixels, and moves *text behind it. *factor: pixels per unit
+ * of the length, by the unit mm or none. Returns false for any other text. */
+static bool picture_length_read(double *pixels, double *factor, const char **text)
+{
+    char *end;
+    *pixels = strtod(*text, &end);
+    const bool number = end != *text;
+    *factor = strncmp(end, "mm", 2) == 0 ? PICTURE_DPI / 25.4 : 1;
+    *pixels *= *factor;
+    *text = *factor != 1 ? end + 2 : end;
+    return number;
+}
+
+status option_read_picture_size(struct picture_size *size, const char *option, const char *text)
+{
+    enum { WIDTH_LEAST = 300, HEIGHT_LEAST = 226, MOST = 10000 };
+    double width, height = 0, factor, own;
+    const char *at = text;
+    bool good = picture_length_read(&width, &factor, &at) && width >= WIDTH_LEAST && width <= MOST;
+    if (good && *at == 'x') {
+        at++;
+        good = picture_length_read(&height, &own, &at) && own == factor && height >= HEIGHT_LEAST && height <= MOST;
+    }
+    if (!good || *at)
+        return status_set(REFUSED,
+                          "%s %s: WxH from 300x226 to 10000x10000 or WmmxHmm from 53mmx40mm is expected, or the width "
+                          "alone; letters leave less no space",
+                          option, printable_name(text).text);
+    size->width = (int)width, size->height = (int)height;
+    return OK;
+}
+
+status option_read_dpi(struct picture_size *size, const char *option, const char *text)
+{
+    char *end;
+    const double value = strtod(text, &end);
+    if (end == text || *end || !(value > 0 && value <= 1200))
+        return status_set(REFUSED, "%s %s: a number above 0, up to 1200, is expected", option,
+                          printable_name(text).text);
+    size->dpi = value;
+    return OK;
+}
+
 status option_has_value(const char *option, bool has_value, const char *usage)
 {
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
+}
+
+status option_picture(struct picture_size *size, const char *option, const char *value, const char *usage)
+{
+    TRY(option_has_value(option, value != NULL, usage));
+    return strcmp(option, "--dpi") ? option_read_picture_size(size, option, value)
+                                   : option_read_dpi(size, option, value);
 }
 
 status arguments_refuse_second_scene(const char *scene, const char *word)

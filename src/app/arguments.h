@@ -2,6 +2,7 @@
 #ifndef CLEAVE_ARGUMENTS
 #define CLEAVE_ARGUMENTS
 
+#include "plot/gnuplot.h"
 #include "scene/scene.h"
 
 enum { THREADS_MOST = 4096 }; /* of a run; and runs at once */
@@ -18,9 +19,22 @@ struct run_arguments {
  * message, unless it is a number from `least` to `most`. */
 status option_read_count(int *count, const char *option, const char *text, int least, int most);
 
-/* Checks that a word follows the option `option` on the command line. has_value: true if one does. Returns OK if
- * has_value is true. Otherwise returns REFUSED, with a message that names the option and shows the usage line "cleave "
- * + `usage`. */
+/* Reads the size of pictures from the text that follows the option `option`: width and height as 1200x800 [pixel] or as
+ * 90mmx60mm, or the width alone, 90mm, with a height that fits (0 in *size). Returns REFUSED, with a message, unless
+ * the width is from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space
+ * beside its letters. */
+status option_read_picture_size(struct picture_size *size, const char *option, const char *text);
+
+/* Reads the resolution of pictures [pixel/inch] from the text that follows the option `option`. Returns REFUSED, with a
+ * message, unless it is a number above 0, up to 1200. */
+status option_read_dpi(struct picture_size *size, const char *option, const char *text);
+
+/* Reads the value of the option --size or --dpi of a study. value: NULL if the option has none; usage: usage line.
+ * Returns REFUSED, with a message, if it is missing or no size or resolution. */
+status option_picture(struct picture_size *size, const char *option, const char *value, const char *usage);
+
+/* Checks that the option `option` is followed by a value. Returns OK if has_value is true, else REFUSED, with a message
+ * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */
 status option_has_value(const char *option, bool has_value, const char *usage);
 
 /* Refuses a surplus word of a command that reads one scene: always returns REFUSED. scene: the scene that was read

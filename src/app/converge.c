@@ -20,6 +20,7 @@ struct converge_arguments {
     struct varied_key *key; /* overrides, each with one value */
     const char **wanted;
     int keys, wanteds;
+    struct picture_size size;                      /* of pictures */
     char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* name of the folder without -o */
 };
 
@@ -65,6 +66,8 @@ static status converge_option(struct converge_arguments *a, const char *word, co
         return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
+    else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
+        return option_picture(&a->size, word, value, usage);
     else
         a->wanted[a->wanteds++] = value;
     return OK;
@@ -72,7 +75,8 @@ static status converge_option(struct converge_arguments *a, const char *word, co
 
 static status converge_words(struct converge_arguments *a, int argc, char **argv)
 {
-    static const char *const taking[] = {"-o", "-s", "-j", "-t", "--runs", "--levels", "--budget", "--of"};
+    static const char *const taking[] = {"-o",       "-s",       "-j",   "-t",     "--runs",
+                                         "--levels", "--budget", "--of", "--size", "--dpi"};
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         bool takes = false;
@@ -135,11 +139,13 @@ status command_converge(int argc, char **argv)
 {
     struct converge_arguments a = {.key = NEW("converge.keys", argc, struct varied_key),
                                    .wanted = NEW("converge.wanted", argc, const char *),
+                                   .size.dpi = PICTURE_DPI,
                                    .wish = {.runs = RUNS_USUAL,
                                             .levels = LEVELS_USUAL,
                                             .budget = BUDGET_USUAL,
                                             .options.stop = stop_signals_install()}};
     status done = converge_words(&a, argc, argv);
+    picture_size_set(a.size);
     struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};
     a.wish.override = override;

@@ -141,25 +141,20 @@ static status read_crop(struct plot_words *w, const char *text)
                                       printable_name(text).text, what);
 }
 
-/* Reads a positive number of at most `most` into *value. option: its name, for the message. Returns REFUSED for other
- * texts. */
-static status read_positive(double *value, const char *option, const char *text, double most)
-{
-    char *end;
-    *value = strtod(text, &end);
-    if (end != text && !*end && *value > 0 && *value <= most) return OK;
-    return status_set(REFUSED, "plot: %s %s: a number above 0, up to %g, is expected", option,
-                      printable_name(text).text, most);
-}
-
+/* Reads the value of --magnify, a number above 0. REFUSED for other texts. */
 static status read_magnify(struct plot_words *w, const char *text)
 {
-    return read_positive(&w->request.projection.magnify, "--magnify", text, 1e12);
+    char *end;
+    double *value = &w->request.projection.magnify;
+    *value = strtod(text, &end);
+    if (end != text && !*end && *value > 0 && *value <= 1e12) return OK;
+    return status_set(REFUSED, "plot: --magnify %s: a number above 0, up to 1e12, is expected",
+                      printable_name(text).text);
 }
 
 static status read_dpi(struct plot_words *w, const char *text)
 {
-    return read_positive(&w->size.dpi, "--dpi", text, 1200);
+    return option_read_dpi(&w->size, "plot: --dpi", text);
 }
 
 static status read_fps(struct plot_words *w, const char *text)
@@ -172,22 +167,7 @@ static status read_fps(struct plot_words *w, const char *text)
  * beside its letters. */
 static status read_picture_size(struct plot_words *w, const char *text)
 {
-    enum { WIDTH_LEAST = 300, HEIGHT_LEAST = 226, MOST = 10000 };
-    double size[2], factor = 1;
-    char *end;
-    size[0] = strtod(text, &end);
-    if (strncmp(end, "mm", 2) == 0) factor = PICTURE_DPI / 25.4, end += 2;
-    const bool cross = *end == 'x';
-    size[1] = cross ? strtod(end + 1, &end) : 0;
-    if (factor != 1) end = strncmp(end, "mm", 2) == 0 ? end + 2 : "?";
-    for (int k = 0; k < 2; k++) size[k] *= factor;
-    if (!cross || *end || !(size[0] >= WIDTH_LEAST && size[1] >= HEIGHT_LEAST && size[0] <= MOST && size[1] <= MOST))
-        return status_set(REFUSED,
-                          "plot: --size %s: WxH from 300x226 to 10000x10000 or WmmxHmm from 53mmx40mm is expected; "
-                          "letters leave less no space",
-                          printable_name(text).text);
-    w->size.width = (int)size[0], w->size.height = (int)size[1];
-    return OK;
+    return option_read_picture_size(&w->size, "plot: --size", text);
 }
 
 static status read_colours(struct plot_words *w, const char *text)
@@ -277,10 +257,9 @@ static status words_together(const struct plot_words *w)
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
-    if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table || r->title))
-        return status_set(REFUSED,
-                          "plot: --scene draws a scene before it runs: it has no range, colours, crop, title or "
-                          "magnified displacements");
+    if (w->scene.scene && (r->range[0] || r->cropped || r->projection.magnify > 0 || r->table))
+        return status_set(REFUSED, "plot: --scene draws a scene before it runs: it has no range, colours, crop or "
+                                   "magnified displacements");
     if (r->fps && !picture_is_film(r->format))
         return status_set(REFUSED, "plot: --fps is for films; --format mp4 or gif makes one");
     if (r->range[0] && !r->field) return status_set(REFUSED, "plot: --range goes with --field, whose values it limits");

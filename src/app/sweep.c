@@ -20,7 +20,8 @@ struct sweep_arguments {
     bool list, collect;
     const char *of[FIGURES_MOST]; /* figures of the pictures */
     int asked;
-    char *words; /* text of study_options_make */
+    struct picture_size size; /* of pictures */
+    char *words;              /* text of study_options_make */
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -63,6 +64,8 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
             TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--of"))
             TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
+        else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
+            TRY(option_picture(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
@@ -164,9 +167,11 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 status command_sweep(int argc, char **argv)
 {
     struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key),
+                                .size.dpi = PICTURE_DPI,
                                 .options.stop = stop_signals_install()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
+    picture_size_set(a.size);
     if (done == OK) {
         a.words = study_options_make(argc, argv, a.scene);
         done = sweep_all(&s, &a);

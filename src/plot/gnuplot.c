@@ -142,6 +142,18 @@ static void gnuplot_release(struct gnuplot *g)
     *g = (struct gnuplot){0};
 }
 
+/* Factor on the height of a narrow picture of curves, whose key is below its panel. */
+static const double CURVES_HIGHER = 1.35;
+
+/* Returns the height of a picture that is laid out for width x height [pixel]: the one that the user has chosen or,
+ * where only a width is chosen, the one that goes with it. letters: factor on the size of letters [1]. */
+static int height_for(int width, int height, double letters)
+{
+    const double scale = usual.width ? (double)usual.width / width : 1;
+    if (usual.height) return usual.height;
+    return (int)lround(scale * height * (gnuplot_is_narrow() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
+}
+
 /* Opens gnuplot for the picture `path` of the given format. width, height: size of the picture [pixel]; letters: factor
  * on the size of letters [1]. Returns REFUSED if `path` contains control characters, FAILED if gnuplot cannot be
  * started. */
@@ -171,10 +183,11 @@ static status open_with_letters(struct gnuplot *g, const char *path, enum pictur
         gnuplot_release(g);
         return s;
     }
-    set_terminal(g, format, usual.width ? usual.width : width, usual.width ? usual.height : height, letters);
+    const int high = height_for(width, height, letters);
+    set_terminal(g, format, usual.width ? usual.width : width, high, letters);
     set_style(g->to);
     g->width = usual.width && letters == 1 ? usual.width : width;
-    g->height = usual.width && letters == 1 ? usual.height : height;
+    g->height = usual.width && letters == 1 ? high : height;
     return OK;
 }
 
@@ -186,6 +199,15 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height)
 {
     return open_with_letters(g, path, format, width, height, usual.width ? (double)usual.width / width : 1);
+}
+
+/* Least resolution of images in vector formats [pixel/inch]: journals want 300 to 600. */
+static const double IMAGE_DPI = 432;
+
+int gnuplot_image_pixels(enum picture_format format, int pixels)
+{
+    const bool vector = format == PICTURE_SVG || format == PICTURE_PDF;
+    return (int)fmax(lround((vector ? fmax(usual.dpi, IMAGE_DPI) : usual.dpi) / PICTURE_DPI * pixels), 1);
 }
 
 bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }

@@ -4,17 +4,80 @@
 
 #include "plot/plot.h"
 
-/* Size of a picture with panels in rows and columns, and where the panels are in it. */
+/* Entries of the key of a picture of maps: colours and what they mean. A transparent colour: text alone. */
+struct map_key {
+    int n;
+    struct category of[CATEGORIES_MOST + 2];
+};
+
+/* What a picture of maps shows. title: may be "". */
+struct maps_shown {
+    enum map map;
+    const struct view *view;
+    const char *title;
+    struct map_key key;
+    enum picture_format format;
+    bool outside; /* panels are outside views, without axes at their left */
+};
+
+/* Size of a picture with panels in rows and columns, and where the panels, the colour bar and the key are in it. */
 struct layout {
     int columns, rows;
     int panel_width, panel_height; /* [pixel] */
     int width, height;             /* size of the picture [pixel] */
     int left, above, below, gap;   /* margins of the panels; distance of columns [pixel] */
+    int title;                     /* distance of the title from the left edge [pixel] */
     int right;                     /* width of the colour bar or key on the right [pixel] */
+    bool bar_under, key_beside; /* colour bar below the panels, else on their right; key on their right, else below */
+    int axes;                   /* height of tics and label below the panels [pixel] */
+    int entries, entry;         /* number of entries of the key below the panels; width of one [pixel] */
+    int key_columns;            /* number of entries in a row of the key */
 };
 
-/* Writes the gnuplot commands that set the margins of one panel of a picture. The size of the panel is that of the
- * layout. left, above: distances of its upper left corner from the left and the upper edge of the picture [pixel]. */
+/* Sizes [pixel]. GAP_Y: distance of rows of panels. BAR_FROM, BAR_WIDE: position of the colour bar beside the panels,
+ * and its width; BAR_STRIP: height of the bar below the panels with its numbers and its label. KEY_SQUARE: width of an
+ * entry of the key without its text; KEY_ROW: distance of its rows; KEY_LEFT, KEY_UNDER: blank beside and below it;
+ * KEY_LETTER: mean width of its letters. */
+enum { GAP_Y = 42, BAR_FROM = 26, BAR_FROM_NARROW = 16, BAR_WIDE = 16, BAR_STRIP = 62 };
+enum { KEY_SQUARE = 40, KEY_ROW = 22, KEY_LEFT = 14, KEY_UNDER = 6 };
+static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
+
+/* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
+ * and few empty positions. In narrow pictures (gnuplot_is_narrow) the colour bar, or the key of named values, is below
+ * the panels if they are larger then. panels: their number; aspect: height over width of a panel. */
+struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect);
+
+/* Returns true if a map of the kind `map` has a colour bar. */
+bool map_has_bar(enum map map);
+
+/* Returns the width of the longest of the numbers at tics between `low` and `high` [pixel]. */
+double numbers_width(double low, double high, double tics, const char *format);
+
+/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
+ * that there are two at least: a single one gives no scale. */
+double tics_across(double low, double high, double pixels);
+
+/* Returns the width that a colour bar with its numbers and its label takes on the right of panels in a narrow picture
+ * [pixel]. panels: height of all rows of panels [pixel]. */
+int bar_width_beside(const struct maps_shown *m, int panels);
+
+/* Collects the key of a picture: kinds of particles, fragments or named values of the map, and rigid bodies if `rigid`
+ * is true. */
+void map_key_make(struct map_key *key, enum map map, const struct view *view, bool rigid);
+
+/* Writes the gnuplot commands that draw the key of a picture in the place that the layout has for it. */
+void map_key_draw(FILE *to, const struct layout *layout, const struct map_key *key);
+
+/* Writes the gnuplot commands that draw the colour bar of a picture in the place that the layout has for it, with the
+ * share of the particles whose values are beyond its ends. particles: number of particles of a frame. */
+void map_bar_draw(FILE *to, const struct layout *layout, const struct maps_shown *m, int64_t particles);
+
+/* Writes the gnuplot margins of a box of the given width and height. left, above: its upper left corner. All lengths
+ * are in pixels. */
+void box_write_margins(FILE *to, const struct layout *l, double left, double above, double width, double height);
+
+/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, above: position
+ * of its upper left corner, from the left and upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *to, const struct layout *layout, double left, double above);
 
 /* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. c: particles of the

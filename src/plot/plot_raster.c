@@ -62,38 +62,9 @@ static double distance_within(const struct outline *s, const double *off, double
     return far <= s->half + beside ? hypot(xi[0], xi[1]) : INFINITY;
 }
 
-/* Colours of pre-cracks, which are drawn as lines because a pre-crack that is a slit of the mesh causes no damage.
- * FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
-static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
-static const double FACE_HALF = 0.7; /* half width of the line [pixel] */
-
-/* Returns the pre-crack of the view that is within the distance `reach` [m] of the reference position of particle i.
- * Returns NULL if there is none, or if maps of the kind `map` do not show pre-cracks. */
-static const struct crack *face_at(const struct view *view, const struct plotted_particles *c, int64_t i, double reach,
-                                   enum map map)
-{
-    if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0]) return NULL;
-    const double X[2] = {c->reference[0][i], c->reference[1][i]};
-    for (int k = 0; k < view->notches; k++)
-        if (view->notch[k].n == 2 && segment_distance(view->notch[k].corner[0], view->notch[k].corner[1], X, 2) < reach)
-            return &view->notch[k];
-    return NULL;
-}
-
-/* Returns true if a point of particle i is within `half` [m] of the pre-crack `face` in the reference state. off[2]:
- * drawn position of the point relative to the centre of the particle [m]; s: shape of the particle. Returns false if
- * `face` is NULL. */
-static bool on_crack_face(const struct crack *face, const struct plotted_particles *c, int64_t i,
-                          const struct outline *s, const double *off, double half)
-{
-    double X[2];
-    for (int k = 0; k < 2; k++) X[k] = c->reference[k][i] + s->inverse[k][0] * off[0] + s->inverse[k][1] * off[1];
-    return face && segment_distance(face->corner[0], face->corner[1], X, 2) < half;
-}
-
-/* Paints particle i on all pixels that it covers, except those on which a particle of higher rank is painted. The rank
- * is higher the nearer the centre of the particle is to the pixel. If pixels are larger than particles, it is higher
- * the more damaged the particle is. */
+/* Paints particle i on all pixels that it covers, except those with a particle of better rank. The rank is better the
+ * nearer the centre of the particle is to the pixel or, if pixels are larger than particles, the more damaged the
+ * particle is. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct plotted_particles *c, int64_t i,
                            enum map map)
 {
@@ -110,7 +81,6 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
         to[k] = (int)fmin(floor(at[k] + reach[k] - 0.5), size[k] - 1);
     }
     const struct colour colour = particle_colour(view, c, i, map);
-    const struct crack *face = face_at(view, c, i, 2 * outline.half, map);
     for (int row = from[1]; row <= to[1]; row++) {
         off[1] = (row + 0.5 - at[1]) / v->per_metre[1];
         for (int column = from[0]; column <= to[0]; column++) {
@@ -120,9 +90,7 @@ static void paint_particle(struct canvas *v, const struct view *view, const stru
             const int64_t q = (int64_t)row * v->width + column;
             if (!isfinite(far) || rank >= v->rank[q]) continue;
             v->rank[q] = rank;
-            v->pixel[q] = on_crack_face(face, c, i, &outline, off, FACE_HALF / v->per_metre[0])
-                              ? (map == MAP_DAMAGE ? FACE : GAP)
-                              : colour;
+            v->pixel[q] = colour;
         }
     }
 }
@@ -143,6 +111,7 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
         pixel[q] = (struct colour){255, 255, 255, 0};
     }
     for (int64_t i = 0; i < c->n; i++) paint_particle(&v, view, c, i, map);
+    notches_paint(pixel, width, height, view, c, map);
     rigids_paint_flat(pixel, width, height, view, c);
     memory_free(v.rank);
 }

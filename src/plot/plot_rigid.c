@@ -15,27 +15,33 @@ enum { MARCH_MOST = 300 };
 
 struct colour rigid_colour(void) { return RIGID; }
 
+void plotted_particles_place_rigids(struct plotted_particles *c, const struct scene *s,
+                                    const struct rigid_placement *at, const real *low, const real *high)
+{
+    c->rigids = s->rigids, c->dim = s->dim;
+    c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
+    for (int b = 0; b < s->rigids; b++) {
+        struct rigid_shown *r = &c->rigid[b];
+        *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
+        for (int d = 0; d < s->dim; d++) {
+            r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
+            r->low[d] = low[d], r->high[d] = high[d];
+        }
+        r->bounded = rigid_box_shown(r->shape, s->dim, r->low, r->high);
+    }
+}
+
 void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
                                   const char *folder, int number)
 {
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
-    if (rigids_read_frame(at, s->rigids, folder, number)) {
-        real low[DIM_MAX], high[DIM_MAX];
-        for (int d = 0; d < f->dim; d++) {
-            low[d] = INFINITY, high[d] = -INFINITY;
-            for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
-        }
-        c->rigids = s->rigids, c->dim = f->dim;
-        c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
-        for (int b = 0; b < s->rigids; b++) {
-            struct rigid_shown *r = &c->rigid[b];
-            *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
-            for (int d = 0; d < f->dim; d++) r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
-            memcpy(r->low, low, sizeof low), memcpy(r->high, high, sizeof high);
-            r->bounded = rigid_box_shown(r->shape, f->dim, r->low, r->high);
-        }
+    real low[DIM_MAX], high[DIM_MAX];
+    for (int d = 0; d < f->dim; d++) {
+        low[d] = INFINITY, high[d] = -INFINITY;
+        for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
     }
+    if (rigids_read_frame(at, s->rigids, folder, number)) plotted_particles_place_rigids(c, s, at, low, high);
     memory_free(at);
 }
 

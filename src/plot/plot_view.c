@@ -105,29 +105,43 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
     return v;
 }
 
-/* Returns the range of the values of all particles without extremes. It is the smallest range that contains the reduced
- * ranges of all of cloud[clouds]: of each cloud the share `share` of the values is left out at each end, or `few`
- * values if these are more. */
-static struct span values_bulk(const struct plotted_particles *cloud, int clouds, double share, int64_t few)
+/* EXTREME: share of the values beyond the end of the colours, at least EXTREMES_LEAST values; HOT: largest share of a
+ * hot spot, such as the particles beside a contact, that may be so much beyond the others that the end of the colours
+ * is HOT_TIMES the value that this share exceeds. */
+static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
+enum { EXTREMES_LEAST = 3 };
+
+/* Returns the end of the colours of one cloud: the magnitude above `low` (of fields of both signs the magnitude) that
+ * few particles exceed, of those particles alone where it is not 0: a body is mostly at rest before a wave arrives, and
+ * yields in a small part. sample[SAMPLE_MOST]: work array. Returns 0 if there is none. */
+static double magnitude_of(float *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
-    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
-    struct span s = {INFINITY, -INFINITY};
-    for (int c = 0; c < clouds; c++) {
-        const struct span bulk = bulk_of(sample, cloud[c].value, cloud[c].n, share, few);
-        s.from = fmin(s.from, bulk.from), s.to = fmax(s.to, bulk.to);
+    const int64_t stride = c->n / SAMPLE_MOST + 1;
+    int64_t n = 0;
+    for (int64_t i = 0; i < c->n; i += stride) {
+        const double w = scale == BOTH_SIGNS ? fabs(c->value[i]) : c->value[i] - low;
+        if (isfinite(w) && w > 0) sample[n++] = (float)w;
     }
-    memory_free(sample);
-    return s;
+    if (n == 0) return 0;
+    array_sort(sample, n, sizeof *sample, plot_view_ascending);
+    const int64_t least = EXTREMES_LEAST < n / 20 ? EXTREMES_LEAST : n / 20,
+                  part = (int64_t)(EXTREME * (double)(n - 1));
+    const double end = sample[n - 1 - (part > least ? part : least)],
+                 hot = sample[n - 1 - (int64_t)(HOT * (double)(n - 1))];
+    return fmin(end, HOT_TIMES * hot);
 }
 
 void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds)
 {
-    struct span s = values_bulk(cloud, clouds, 0.002, 3);
-    if (!(s.to > s.from)) s = values_bulk(cloud, clouds, 0, 0); /* include the values of a few particles */
-    if (field->scale != FROM_LEAST) s.from = fmin(s.from, 0), s.to = fmax(s.to, 0);
-    if (field->scale == BOTH_SIGNS) s.to = fmax(-s.from, s.to), s.from = -s.to;
-    v->field = field, v->low = s.from, v->high = s.to;
-    if (!(v->high > v->low)) v->high = v->low + 1; /* all values are equal */
+    float *sample = NEW("plot.sample", SAMPLE_MOST, float);
+    double low = field->scale == FROM_LEAST ? INFINITY : 0, high = 0;
+    for (int c = 0; c < clouds && field->scale == FROM_LEAST; c++)
+        low = fmin(low, bulk_of(sample, cloud[c].value, cloud[c].n, EXTREME, EXTREMES_LEAST).from);
+    for (int c = 0; c < clouds; c++) high = fmax(high, magnitude_of(sample, &cloud[c], field->scale, low));
+    memory_free(sample);
+    if (!isfinite(low)) low = 0;
+    if (!(high > 0)) high = 1; /* all values are equal */
+    v->field = field, v->low = field->scale == BOTH_SIGNS ? -high : low, v->high = low + high;
 }
 
 /* Reads one end of the colour scale of a field from `text`, a number with a unit of the field, into *value. Returns
@@ -232,6 +246,10 @@ bool matrix_invert(const double matrix[3][3], double inverse[3][3])
 struct colour map_colour(const struct view *v, enum map map, double a)
 {
     if (map == MAP_KIND) return colour_of_peridynamic_particle(a);
+    const bool signs =
+        map == MAP_FIELD && v->field && v->field->scale == BOTH_SIGNS && (!v->table || v->table == COLOURS_DIVERGING);
+    if (signs && v->low <= 0 && v->high >= 0) /* the middle colour is that of 0 */
+        a = 0.5 + 0.5 * (v->low + a * (v->high - v->low)) / fmax(-v->low, v->high);
     if (map == MAP_FIELD && v->field)
         return colour_from_table(v->table                        ? v->table
                                  : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING

@@ -167,9 +167,9 @@ static struct acting acting_of(const struct run *e, const struct load *l, const 
     return most;
 }
 
-/* Writes the line that describes boundary condition b in the key into text[TEXT]: name, kind, largest value, components
- * or face, and number of particles. acting: state of the load at its largest magnitude. */
-static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting)
+/* Writes the description of a boundary condition for the key into text[TEXT]: name, kind, largest value, components or
+ * face and, unless `plain` is true, the number of particles. acting: state of the load at its largest magnitude. */
+static void describe_boundary(char *text, const struct boundary *b, int dim, const struct acting *acting, bool plain)
 {
     char face[16], many[64];
     int length = snprintf(text, TEXT, "%.40s:", b->name);
@@ -195,7 +195,7 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
         if (b->components >> d & 1) length = add_words(text, length, (const char *[]){" x", " y", " z"}[d]);
     if (b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING) length = add_words(text, length, face);
     snprintf(many, sizeof many, " (%lld)", (long long)acting->particles);
-    add_words(text, length, many);
+    if (!plain) add_words(text, length, many);
 }
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
@@ -316,7 +316,7 @@ static void boundary_mark(struct marks *m, int number)
     struct acting acting = {.particles = l->n};
     uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
     if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
-    describe_boundary(text, b, s->dim, &acting);
+    describe_boundary(text, b, s->dim, &acting, m->plain);
     marks_begin_block(m);
     if (b->kind == BOUNDARY_MIRROR) {
         mirror_plane_mark(m, b);

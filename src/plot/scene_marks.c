@@ -65,10 +65,33 @@ void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Sends the outline of the crack c to the current data block as a line, which is closed for a polygon in 3D. */
+/* Cuts the ends of a straight crack in the plane, end[2][DIM_MAX] [m], to the part that has particles within a spacing:
+ * a crack is often given longer than the body. Leaves a crack without such particles as it is. */
+static void crack_cut(const struct particles *p, double spacing, real end[2][DIM_MAX])
+{
+    const real along[2] = {end[1][0] - end[0][0], end[1][1] - end[0][1]}, length = hypot(along[0], along[1]);
+    real from = INFINITY, to = -INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        const real x = p->X[0][i] - end[0][0], y = p->X[1][i] - end[0][1];
+        const real s = (x * along[0] + y * along[1]) / length, off = (x * along[1] - y * along[0]) / length;
+        if (fabs(off) > spacing || s < -0.5 * spacing || s > length + 0.5 * spacing) continue;
+        from = fmin(from, s - 0.5 * spacing), to = fmax(to, s + 0.5 * spacing);
+    }
+    from = fmax(from, 0), to = fmin(to, length);
+    for (int d = 0; d < 2 && from < to; d++)
+        end[1][d] = end[0][d] + along[d] * to / length, end[0][d] += along[d] * from / length;
+}
+
+/* Sends the outline of a crack as a line, which is closed for a polygon in 3D. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
-    for (int k = 0; k < c->n; k++) marks_add_point(m, c->corner[k], NULL);
+    real end[2][DIM_MAX];
+    const bool straight = m->engine->part.dim == 2 && c->n == 2;
+    if (straight) {
+        memcpy(end, c->corner, sizeof end);
+        crack_cut(&m->engine->part, m->engine->scene->spacing, end);
+    }
+    for (int k = 0; k < c->n; k++) marks_add_point(m, straight ? end[k] : c->corner[k], NULL);
     if (c->n > 2) marks_add_point(m, c->corner[0], NULL);
     mark_break(m);
 }

@@ -13,6 +13,8 @@ struct marks {
     double metre;                 /* length of one unit of the axes [m] */
     double from[2], to_corner[2]; /* visible rectangle [m] */
     double arrow;                 /* length of the longest arrow [m] */
+    const char *title;            /* title of the picture; NULL: the usual one */
+    bool plain;                   /* the key has no numbers of particles */
     int blocks;                   /* number of data blocks so far */
     int keys, letters;            /* number of lines of the key so far, and of letters of the longest one */
 };

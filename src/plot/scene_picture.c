@@ -19,12 +19,17 @@
  * below the panel [pixel]. */
 enum { PICTURE_LEFT = 100, PICTURE_KEY = 400, PICTURE_ABOVE = 66, PICTURE_BELOW = 66, KEY_LINE = 23 };
 enum { LEFT_NARROW = 74, RIGHT_NARROW = 18, ABOVE_NARROW = 44, BELOW_NARROW = 82, KEY_LINE_NARROW = 18 };
-enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90 };
-enum { RIGID_POINTS = 60000, RIGID_ACROSS = 40, TEXT_ROOM = 200 };
+enum { PANEL_WIDEST = 860, PANEL_HIGHEST = 760, PANEL_LOWEST = 90, ABOVE_UNTITLED = 18 };
+
+/* Key: largest size of its letters, their width over their size, width of an entry without its text, and blank beside
+ * the key of a narrow picture [pixel]. In such a picture with several columns: width of an entry without its text and
+ * of a letter [pixel], and the share by which gnuplot takes letters for wider. */
+static const double KEY_LETTERS = 12, LETTER_WIDE = 0.56, SAMPLE = 50, KEY_BESIDE = 6;
+static const double SAMPLE_NARROW = 44, LETTER_NARROW = 6, LETTERS_WIDER = 0.15;
+enum { TEXT_ROOM = 200 };
 
 /* Brightness of peridynamic particles relative to material points of the same body [1]. */
 static const double PERIDYNAMIC = 0.72;
-static const struct colour RIGID = {120, 120, 126, 255};
 
 /* Half height of the particles of a bar over its length. */
 static const double BAR_HALF = 0.02;
@@ -70,57 +75,31 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
     }
 }
 
-/* Computes a lattice of sites in the bounding box of a rigid body. For an unbounded body the box is that of the
- * particles, enlarged at each side. shape: shape of the body. Stores the lower corner of the lattice in from[dim] [m],
- * the number of sites along each axis in count[dim] and their distance in *step [m]. Returns the number of sites. */
-static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
-                           int64_t *count, double *step)
+/* Adds the rigid bodies of the scene at their places at the start to the cloud c; in one dimension each is a particle
+ * of its length. */
+static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s, const struct particles *part)
 {
-    real to[DIM_MAX];
-    double sites = 1, thinnest = INFINITY;
-    if (!region_bounding_box(shape, s->dim, from, to))
-        for (int d = 0; d < s->dim; d++) {
-            const real beside = 0.08 * particles_bounding_box_longest_edge(part);
-            particles_coordinate_range(part, part->n, d, &from[d], &to[d]);
-            from[d] -= beside, to[d] += beside;
-        }
-    for (int d = 0; d < s->dim; d++) thinnest = fmin(thinnest, to[d] - from[d]);
-    *step = fmin(s->spacing, thinnest / RIGID_ACROSS);
-    for (int d = 0; d < s->dim; d++) sites *= (to[d] - from[d]) / *step;
-    if (sites > RIGID_POINTS) *step *= pow(sites / RIGID_POINTS, 1.0 / s->dim);
-    int64_t n = 1;
-    for (int d = 0; d < s->dim; d++) n *= count[d] = (int64_t)ceil((to[d] - from[d]) / *step);
-    return n;
-}
-
-static void cloud_add_rigid(struct plotted_particles *c, const struct scene *scene, const struct particles *part,
-                            const struct region *shape)
-{
-    const int dim = scene->dim;
-    real from[DIM_MAX] = {0};
-    int64_t count[DIM_MAX];
-    double step;
-    const int64_t n = rigid_sites(scene, part, shape, from, count, &step);
-    for (int64_t k = 0; k < n; k++) {
-        real X[DIM_MAX] = {0};
-        int64_t rest = k;
-        for (int d = 0; d < dim; rest /= count[d], d++) X[d] = from[d] + step * ((double)(rest % count[d]) + 0.5);
-        if (region_contains(shape, X, dim, 0)) cloud_add(c, X, dim, step, RIGID);
+    struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
+    real low[DIM_MAX], high[DIM_MAX];
+    for (int d = 0; d < s->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
+    for (int b = 0; b < s->rigids; b++)
+        for (int d = 0; d < DIM_MAX; d++) at[b].turn[d][d] = 1;
+    plotted_particles_place_rigids(c, s, at, low, high);
+    for (int b = 0; b < c->rigids && s->dim == 1; b++) {
+        const struct rigid_shown *r = &c->rigid[b];
+        const real middle[DIM_MAX] = {0.5 * (r->low[0] + r->high[0])};
+        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_colour());
     }
+    memory_free(at);
 }
 
-/* Collects everything in a run that is drawn as a square or cube: its particles, the points of coarse cells, and rigid
- * bodies as lattices of points. Release c with plotted_particles_free. */
+/* Collects everything in a run that is drawn as a square or cube: its particles and the points of coarse cells; and
+ * rigid bodies. Release c with plotted_particles_free. */
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
-    real from[DIM_MAX];
-    int64_t count[DIM_MAX];
-    double step;
     const bool hollow = coarse_cell_points_make(e->frame, &e->part, s->material, false);
-    int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++)
-        room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);
+    const int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0) + s->rigids;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .spacing = s->spacing,
@@ -134,7 +113,7 @@ static void scene_cloud(struct plotted_particles *c, struct run *e, const struct
     c->colour = NEW("plot.colour", room, struct colour);
     cloud_add_particles(c, e->scene, &e->part, &e->part, NULL);
     if (hollow) cloud_add_particles(c, e->scene, &e->part, &e->frame->shown.part, e->frame->shown.spacing);
-    for (int b = s->bodies; b < s->bodies + s->rigids; b++) cloud_add_rigid(c, e->scene, &e->part, &s->body[b].shape);
+    cloud_add_rigids(c, s, &e->part);
     if (s->dim == 1) c->tall = BAR_HALF * (c->to[0] - c->from[0]);
 }
 
@@ -174,17 +153,23 @@ static void key_of_parts(struct marks *m)
         const int64_t n = count_part(&e->part, e->scene, k);
         const char *name = s->materials > 1 ? s->material[k].name : s->bodies > 1 ? s->body[k].name : s->material->name;
         if (n == 0) continue;
-        snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
-                 e->part.n < e->part.n_body ? " are made" : "");
+        if (m->plain)
+            snprintf(text, sizeof text, "%.48s", name);
+        else
+            snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
+                     e->part.n < e->part.n_body ? " are made" : "");
         marks_add_colour_key(m, part_colour(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
-        snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
+        if (m->plain)
+            snprintf(text, sizeof text, "darker: peridynamic");
+        else
+            snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
         marks_add_colour_key(m, colour_shaded(part_colour(0), PERIDYNAMIC), text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        marks_add_colour_key(m, RIGID, text);
+        marks_add_colour_key(m, rigid_colour(), text);
     }
 }
 
@@ -205,19 +190,30 @@ static double arrow_length(const struct plotted_particles *c)
     return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
-/* Returns the layout of a picture with the view v and a key of `lines` lines. If panel and key do not fit into the size
- * that the user has chosen (picture_size_set), the picture is larger and has the same shape. */
-static struct layout scene_layout(const struct view *v, int lines)
+/* Returns the number of entries in a row of the key with the marks m. wide: width of the panel [pixel], which gnuplot
+ * does not exceed with several columns. */
+static int key_columns(const struct marks *m, double wide)
+{
+    return (int)fmax(floor(wide / (SAMPLE_NARROW + LETTER_NARROW * fmax(m->letters, 1))), 1);
+}
+
+/* Returns the layout of a picture with the view v and the key of the marks m. untitled: there is no title; outside: of
+ * a solid, which has no axes at its left. If panel and key do not fit into the size that the user has chosen
+ * (picture_size_set), returns the layout of a larger picture of the same shape. */
+static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
 {
     const bool narrow = gnuplot_is_narrow();
     const struct picture_size given = picture_size_get();
     struct layout l = {.columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
     l.below = PICTURE_BELOW;
-    if (narrow) l.left = LEFT_NARROW, l.above = ABOVE_NARROW, l.right = RIGHT_NARROW;
+    if (narrow) l.left = outside ? RIGHT_NARROW : LEFT_NARROW, l.above = ABOVE_NARROW, l.right = RIGHT_NARROW;
+    l.key_columns = narrow ? key_columns(m, given.width - l.left - l.right) : 1;
+    const int lines = (m->keys + l.key_columns - 1) / l.key_columns;
     if (narrow) l.below = BELOW_NARROW + KEY_LINE_NARROW * lines;
+    if (untitled) l.above = ABOVE_UNTITLED;
     const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
     const double widest = given.width ? given.width - l.left - l.right : PANEL_WIDEST;
-    const double highest = given.width ? given.height - l.above - l.below : PANEL_HIGHEST;
+    const double highest = given.height ? given.height - l.above - l.below : PANEL_HIGHEST;
     const double width = fmin(widest, highest / aspect);
     l.panel_width = (int)fmax(lround(width), PANEL_LOWEST);
     l.panel_height = (int)fmax(lround(width * aspect), PANEL_LOWEST);
@@ -225,8 +221,10 @@ static struct layout scene_layout(const struct view *v, int lines)
     l.height = l.above + l.panel_height + l.below;
     if (!narrow && l.height < 60 + KEY_LINE * lines) l.height = 60 + KEY_LINE * lines;
     if (given.width > 0) {
-        const double scale = fmax(1, fmax((double)l.width / given.width, (double)l.height / given.height));
-        l.width = (int)lround(scale * given.width), l.height = (int)lround(scale * given.height);
+        const double high = given.height ? (double)l.height / given.height : 0;
+        const double scale = fmax(1, fmax((double)l.width / given.width, high));
+        l.width = (int)lround(scale * given.width);
+        if (given.height) l.height = (int)lround(scale * given.height);
     }
     return l;
 }
@@ -235,23 +233,29 @@ static struct layout scene_layout(const struct view *v, int lines)
  * are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
 static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
 {
-    static const double LARGE = 12, LETTER_WIDE = 0.56, SAMPLE = 50;
     const bool narrow = gnuplot_is_narrow();
-    const double x = narrow ? 6 : l->left + l->panel_width + 14, room = l->width - x - SAMPLE;
-    const double size = fmin(LARGE, room / (LETTER_WIDE * fmax(m->letters, 1)));
+    const double x = narrow ? KEY_BESIDE : l->left + l->panel_width + 14,
+                 room = (l->width - x) / l->key_columns - SAMPLE;
+    const double size =
+        l->key_columns > 1 ? KEY_LETTERS : fmin(KEY_LETTERS, room / (LETTER_WIDE * fmax(m->letters, 1)));
     fprintf(to,
-            "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
+            "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols %d maxrows %d samplen 2 spacing 1.15 "
+            "width %.3g "
             "font ',%.3g'\n",
-            x / l->width, 1 - (narrow ? l->above + l->panel_height + BELOW_NARROW - 4 : 58.0) / l->height, size);
+            x / l->width, 1 - (narrow ? l->above + l->panel_height + BELOW_NARROW - 4.0 : l->above - 8.0) / l->height,
+            l->key_columns, (m->keys + l->key_columns - 1) / l->key_columns,
+            l->key_columns > 1 ? -LETTERS_WIDER * m->letters : 0.0, size);
 }
 
-static void draw_scene_title(const struct gnuplot *g, const struct scene *s, const struct particles *part)
+/* Writes the title of the picture of a scene: `title`, or if it is NULL the name of the scene and its particles. */
+static void draw_scene_title(const struct gnuplot *g, const struct scene *s, const struct particles *part,
+                             const char *title)
 {
     const struct unit metre = unit_for_length(s->spacing);
     char text[TEXT_ROOM];
     snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
              (long long)part->n_body, s->spacing / metre.factor, metre.name);
-    gnuplot_write_title(g, text, gnuplot_is_narrow() ? LEFT_NARROW : PICTURE_LEFT);
+    gnuplot_write_title(g, title ? title : text, gnuplot_is_narrow() ? LEFT_NARROW : PICTURE_LEFT);
 }
 
 static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
@@ -271,14 +275,15 @@ static void set_panel(FILE *to, const struct layout *l, const struct view *v, co
 /* Writes one gnuplot plot command that draws the image of the particles c, and the marks over it. marks: elements of
  * the plot command for the marks; metre: unit of the axes. */
 static void plot_scene(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
-                       const struct unit *metre, const char *marks)
+                       const struct unit *metre, const char *marks, enum picture_format format)
 {
     double step[2], from[2];
-    const int size[2] = {l->panel_width, l->panel_height};
+    const int size[2] = {gnuplot_image_pixels(format, l->panel_width), gnuplot_image_pixels(format, l->panel_height)};
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
     cubes_paint_particles(pixel, size[0], size[1], v, c, MAP_DAMAGE);
+    if (!c->position[2] && c->dim > 1) rigids_paint_flat(pixel, size[0], size[1], v, c);
     panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
@@ -302,18 +307,20 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
                              const char *elements)
 {
     struct gnuplot g;
-    const struct layout l = scene_layout(v, m->keys);
+    const struct layout l = scene_layout(v, m, m->title && !m->title[0], c->position[2]);
     TRY(gnuplot_open_scaled(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("unset grid\n", g.to);
-    draw_scene_title(&g, m->engine->scene, &m->engine->part);
+    draw_scene_title(&g, m->engine->scene, &m->engine->part, m->title);
     fputs(data, g.to);
     set_panel(g.to, &l, v, c, metre);
     set_scene_key(g.to, &l, m);
-    plot_scene(g.to, &l, v, c, metre, elements);
+    plot_scene(g.to, &l, v, c, metre, elements, sheet.format);
     return gnuplot_close(&g);
 }
 
-static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c)
+/* Draws the run e, whose particles are in the cloud c. title: NULL for the usual one. Returns FAILED if gnuplot does.
+ */
+static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;
     size_t length = 0, bytes = 0;
@@ -325,7 +332,9 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
                       .engine = e,
                       .camera = c->camera,
                       .metre = metre.factor,
-                      .arrow = arrow};
+                      .arrow = arrow,
+                      .title = title,
+                      .plain = gnuplot_is_narrow()};
     if (m.to && m.plot) draw_marks(&m);
     bool whole = m.to && fclose(m.to) == 0;
     whole = m.plot && fclose(m.plot) == 0 && whole;
@@ -360,7 +369,7 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);
     const int64_t drawn = e->part.n;
-    const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
+    const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c, r->title);
     plotted_particles_free(&c);
     TRY(drew);
     if (r->quiet) return OK;

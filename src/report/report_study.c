@@ -12,6 +12,7 @@
 #include "output/pictures.h"
 #include "output/summary_read.h"
 #include "report_parts.h"
+#include "scene/words.h"
 #include "study/study.h"
 
 /* Largest numbers of pictures and of warnings on the page; capacity of a warning [byte]. */
@@ -91,8 +92,8 @@ static void write_warnings(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
-/* Adds the units of the columns of sweep.csv to the page. They are determined from the header of the history of the
- * first run that has one. folder: folder of the study. */
+/* Adds the units of the columns of sweep.csv to the page: of the varied keys those of numbers without a unit, of
+ * figures those in the header of the history of the first run that has one. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;
@@ -104,8 +105,13 @@ static void write_study_units(struct page *p, const char *folder)
     if (file_read_whole(path_join(folder, "sweep.csv").text, &table, &length) != OK) return;
     table[strcspn(table, "\r\n")] = '\0';
     json_open(&p->json, "units", '{');
+    bool keys = true; /* the varied keys are before the figures, of which `steps` is the first */
     for (char *rest = table, *column; (column = strsep(&rest, ","));) {
-        study_result_unit(unit, sizeof unit, header, column);
+        keys = keys && strcmp(column, "steps") != 0;
+        if (keys)
+            snprintf(unit, sizeof unit, "%s", scene_key_unit(column));
+        else
+            study_result_unit(unit, sizeof unit, header, column);
         if (unit[0]) json_write_text(&p->json, column, unit);
     }
     json_close(&p->json, '}');

@@ -41,6 +41,19 @@ function readStudy() {
 
 const at = (row, name) => row[study.columns.indexOf(name)];
 
+// Returns the unit of the numbers of a varied key: the one that they are given with, else that of numbers without one.
+function unitOfKey(key) {
+    const cells = study.rows.map((row) => at(row, key)),
+          plain = cells.every((c) => c !== "" && Number.isFinite(Number(c)));
+    return plain ? study.units[key] || "" : (cells[0].match(/[^0-9.eE+-]+.*$/) || [""])[0].trim();
+}
+
+// Returns the name of a varied key with its unit if its values are numbers without one.
+function keyWithUnit(key) {
+    const plain = study.rows.every((row) => Number.isFinite(Number(at(row, key)))), unit = unitOfKey(key);
+    return key + (plain && unit ? " [" + unit + "]" : "");
+}
+
 // ---- table ----------------------------------------------------------------------------------------------------------
 
 function shownFigures() {
@@ -75,7 +88,7 @@ function showSweepTable() {
         return {name, unit: unitFor(Math.max(0, ...values.map(Math.abs)), study.units[name] || "")};
     });
     const heads = figures.map(({name, unit}) => name + (unit.name ? " [" + unit.name + "]" : ""));
-    tableOf(["run", "state", ...study.keys, ...heads],
+    tableOf(["run", "state", ...study.keys.map(keyWithUnit), ...heads],
         study.rows.map((row) => [...["run", "state", ...study.keys].map(
                                      (name) => ({text: at(row, name) || "", value: cellValue(at(row, name))})),
                            ...figures.map(({name, unit}) => ({
@@ -154,7 +167,7 @@ function drawStudy() {
     const [low, high] = spread(points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)])), [left,
         right] = sweep ? padded(...spread(points.map((p) => p.x))) : [0, 1.05 * spread(points.map((p) => p.x))[1]];
     const yUnit = unitFor(Math.max(Math.abs(low), Math.abs(high)), unit), key = sweep ? study.keys[study.x] : "spacing";
-    const given = sweep && !study.words ? (at(study.rows[0], key).match(/[^0-9.eE+-]+.*$/) || [""])[0].trim() : "";
+    const given = sweep && !study.words ? unitOfKey(key) : "";
     const xUnit = sweep ? {factor: 1, name: given} : unitFor(right, "m"),
           area = axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50}, [left, right], padded(low, high));
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];

@@ -47,6 +47,23 @@ const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name)
     return first;
 }
 
+const char *scene_key_unit(const char *path)
+{
+    const char *end = strrchr(path, '.'), *leaf = end ? end + 1 : path, *any = NULL;
+    const size_t group = strcspn(path, ".[");
+    bool unique = true;
+    for (int k = 0; k < keys_count; k++) {
+        if (keys[k].type == KEY_GROUP || strcmp(key_leaf(&keys[k]), leaf) != 0) continue;
+        const char *symbol = unit_rows[keys[k].unit].symbol;
+        const size_t own = strcspn(keys[k].path, ".");
+        /* `materials` of a path is the group `material` */
+        if (own <= group && group <= own + 1 && strncmp(keys[k].path, path, own) == 0) return symbol;
+        unique = unique && (!any || strcmp(any, symbol) == 0);
+        any = symbol;
+    }
+    return any && unique ? any : "";
+}
+
 int word_index_in_list(const char *words, const char *text)
 {
     size_t length = strlen(text);

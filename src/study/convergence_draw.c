@@ -91,24 +91,77 @@ static double tics_apart(double most)
     return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
+/* Layout of the panels of figures [pixel]: size of the picture; columns of panels, and the width and height of one with
+ * its texts; the margins of a panel for these. The key is on the right or, in narrow pictures, below the panels. */
+struct figures_layout {
+    int width, height, columns, rows;
+    double cell_wide, cell_high, left, right, title, below;
+};
+
+/* Sizes of the key, and of a panel with its texts in the usual picture [pixel]. */
+enum { KEY_WIDE = 250, KEY_HIGH = 52, CELL_WIDE = 420, CELL_HIGH = 360 };
+
+/* Lays out `shown` panels. g: size of the picture; NULL: the usual one. In a picture of a given size the panels are in
+ * as many columns as make them largest. */
+static struct figures_layout figures_layout_make(int shown, const struct gnuplot *g)
+{
+    const bool narrow = gnuplot_is_narrow();
+    const int wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE, rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
+    struct figures_layout best = {.width = g ? g->width : KEY_WIDE + CELL_WIDE * wide, .columns = wide};
+    double largest = 0;
+    best.height = g ? g->height : CELL_HIGH * rows;
+    best.left = narrow ? 76 : 106, best.right = narrow ? 16 : 24, best.title = narrow ? 34 : 44,
+    best.below = narrow ? 52 : 68;
+    for (int columns = 1; columns <= shown; columns++) {
+        struct figures_layout l = best;
+        l.columns = columns, l.rows = (shown + columns - 1) / columns;
+        l.cell_wide = (double)(l.width - (narrow ? 0 : KEY_WIDE)) / columns;
+        l.cell_high = (double)(l.height - (narrow ? KEY_HIGH : 0)) / l.rows;
+        const double room[2] = {l.cell_wide - l.left - l.right, l.cell_high - l.title - l.below};
+        const double size = room[0] > 0 && room[1] > 0 ? fmin(room[0], 1.5 * room[1]) : 0;
+        if (columns > 1 && !(size > largest)) continue;
+        largest = size;
+        best = l;
+    }
+    return best;
+}
+
+/* Writes the margins of panel number k, and the place of the key with the first one. */
+static void figure_place(FILE *to, const struct figures_layout *l, int k)
+{
+    const double x = k % l->columns * l->cell_wide, y = l->height - k / l->columns * l->cell_high;
+    fprintf(to,
+            "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
+            "set bmargin at screen %.5f\n",
+            (x + l->left) / l->width, (x + l->cell_wide - l->right) / l->width, (y - l->title) / l->height,
+            (y - l->cell_high + l->below) / l->height);
+    if (k > 0)
+        fputs("unset key\n", to);
+    else if (gnuplot_is_narrow())
+        fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2\n", 8.0 / l->width,
+                (KEY_HIGH - 4.0) / l->height);
+    else
+        fprintf(to, "set key at screen %.5f,%.5f left top\n", 1 - (double)KEY_WIDE / l->width,
+                1 - l->title / l->height);
+}
+
 static status draw_figures(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
-    const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST, wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE;
-    const int rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE, width = 350 + 420 * wide;
+    const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST;
+    const struct figures_layout usual = figures_layout_make(shown, NULL);
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence.png");
     const double coarsest = 1e3 * s->spacings.at[s->spacings.levels - 1][0]; /* [mm] */
-    TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, width, 80 + 360 * rows));
+    TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, usual.width, usual.height));
+    const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
-            "set multiplot layout %d,%d margins char 11, char 29, char 4, char 3 spacing char 12, char 6\n"
-            "set format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\n"
-            "set key at screen %.5f,0.93 left top\nset pointintervalbox 0\n"
+            "set multiplot\nset format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\nset pointintervalbox 0\n"
             "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\nset xtics %g\n",
-            rows, wide, -0.05 * coarsest, 1 - 250.0 / width, tics_apart(coarsest));
+            -0.05 * coarsest, tics_apart(coarsest));
     for (int k = 0; k < shown; k++) {
+        figure_place(g.to, &l, k);
         plot_figure(g.to, &figure[k], k);
-        fputs("unset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
@@ -216,6 +269,7 @@ static void extent_widen(struct extent *e)
 
 /* Height of a picture of paths, PATHS_WIDE wide, and the margins of its panel [pixel]. */
 enum { PATHS_WIDE = 900, PATHS_LEFT = 90, PATHS_RIGHT = 150, PATHS_ABOVE = 50, PATHS_BELOW = 70, PATHS_HIGH = 900 };
+enum { PATHS_LEFT_NARROW = 74, PATHS_RIGHT_NARROW = 100, PATHS_ABOVE_NARROW = 40, PATHS_BELOW_NARROW = 54 };
 
 static int paths_height(const struct extent *e)
 {
@@ -269,13 +323,16 @@ static status draw_paths(const struct convergence_study *s)
     const int height = paths_height(&e);
     status done = gnuplot_open(&g, picture.text, PICTURE_PNG, PATHS_WIDE, height);
     if (done == OK) {
+        const bool narrow = gnuplot_is_narrow();
+        const double left = narrow ? PATHS_LEFT_NARROW : PATHS_LEFT, above = narrow ? PATHS_ABOVE_NARROW : PATHS_ABOVE;
+        const double right = narrow ? PATHS_RIGHT_NARROW : PATHS_RIGHT,
+                     below = narrow ? PATHS_BELOW_NARROW : PATHS_BELOW;
         fputs(data, g.to);
         fprintf(g.to,
                 "set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset title 'paths of the longest tip, all "
                 "runs'\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
                 "set bmargin at screen %.4f\n",
-                (double)PATHS_LEFT / PATHS_WIDE, 1 - (double)PATHS_RIGHT / PATHS_WIDE, 1 - (double)PATHS_ABOVE / height,
-                (double)PATHS_BELOW / height);
+                left / g.width, 1 - right / g.width, 1 - above / g.height, below / g.height);
         for (int d = 0; d < 2 && plots.drawn > 0; d++)
             fprintf(g.to, "set %crange [%.7g:%.7g]\n", "xy"[d], 1e3 * e.low[d], 1e3 * e.high[d]);
         fprintf(g.to,

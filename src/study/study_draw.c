@@ -7,142 +7,23 @@
 #include "output/output_files.h"
 #include "plot/plot.h"
 #include "scene/words.h"
-#include "study_internal.h"
+#include "study_picture.h"
 
-enum { PANELS_MOST = 6, LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4, NOTE_ROOM = 200 };
+enum { LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4 };
 
-/* Sizes in the pictures of a study [pixel]: width and height of a panel; width of a character; height of a line of
- * text; width of the numbers at an axis; height of a title; height of tics and label below the axis; width of a colour
- * bar. */
-enum { WIDE = 320, HIGH = 220, CHARACTER = 10, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
+/* Sizes in the pictures of a study [pixel]: usual and least width and height of a panel; height of a line of text;
+ * width of the numbers at an axis; height of a title; height of tics and label below the axis; width of a colour bar.
+ */
+enum { WIDE = 320, HIGH = 220, LEAST = 60, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
-/* Role of a varied key in a picture. NONE: it has a single value. ACROSS: its values are along the horizontal axis.
- * LINES: each of its values has a line. HELD: the picture shows only the runs with its first value. CHANCE: it has no
- * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
-enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
+/* Returns the width of a character in the pictures of a study [pixel]. */
+static int character(void) { return gnuplot_is_narrow() ? 8 : 10; }
 
 /* Statistics of the runs that are combined to one point of a line: mean and scatter of a figure, and number of runs. */
 struct point_of {
     double mean, scatter;
     int runs;
 };
-
-/* One picture: study, figures, roles of the keys, layout. */
-struct study_picture {
-    const struct study_table *table;
-    const struct study *study;
-    const struct varied_key *key;
-    int keys;
-    int **value_at;      /* [keys][runs] index of the key's value in a run; -1: another value */
-    enum key_role *role; /* [keys] */
-    int across, lines;   /* index of the key along the axis; number of lines, at least 1 */
-    int figure[PANELS_MOST], panels;
-    bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
-    const char *unit;
-    const char *header;                     /* header of history.csv with the units of figures */
-    int left, right, below, legend, height; /* margins of a panel; width right of all panels; height of the picture
-                                             * [pixel] */
-    int width, notes;
-    char note[2][NOTE_ROOM];
-};
-
-/* ---- selection --------------------------------------------------------------------------------------------------- */
-
-/* Returns true if figure f (a number in summary.json) of the table differs between the runs of a study. */
-static bool figure_varies(const struct study_table *t, int f)
-{
-    double least = INFINITY, most = -INFINITY;
-    int known = 0;
-    for (int c = 0; c < t->cases; c++) {
-        if (isnan(t->value[f][c])) continue;
-        least = fmin(least, t->value[f][c]), most = fmax(most, t->value[f][c]);
-        known++;
-    }
-    return known > 1 && most - least > 1e-9 * fmax(fabs(most), fabs(least));
-}
-
-static void panel_add(struct study_picture *p, int f)
-{
-    if (f < 0 || p->panels == PANELS_MOST || !figure_varies(p->table, f)) return;
-    for (int k = 0; k < p->panels; k++)
-        if (p->figure[k] == f) return;
-    p->figure[p->panels++] = f;
-}
-
-/* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
- * energies, and the duration. Figures that are equal in all runs are left out. */
-static void panels_choose(struct study_picture *p)
-{
-    static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
-                                        "crack.tip_speed_mean"};
-    const struct study_table *t = p->table;
-    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_find_result(t, first[k]));
-    if (p->panels == PANELS_MOST) return;
-    for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(p, f);
-    for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_result_is_technical(t->figure[f])) panel_add(p, f);
-    panel_add(p, study_find_result(t, "loop_seconds"));
-}
-
-/* Chooses the figures with the names of[asked] for the panels. Returns REFUSED if the table of the study lacks one. */
-static status panels_of(struct study_picture *p, const char *const *of, int asked)
-{
-    const struct study_table *t = p->table;
-    for (int k = 0; k < asked && k < PANELS_MOST; k++) {
-        const int f = study_find_result(t, of[k]);
-        if (f < 0)
-            return status_set(REFUSED, "sweep: --of %s: there is no such figure in sweep.csv; do you mean %s?",
-                              printable_name(of[k]).text,
-                              word_nearest(of[k], (const char *const *)t->figure, t->figures));
-        p->figure[p->panels++] = f;
-    }
-    return OK;
-}
-
-/* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
- * combined to one point with a bar. */
-static bool key_is_chance(const char *key)
-{
-    return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
-}
-
-/* Stores in value_at[k][r] which value key[k] has in run r of a study: its index, or -1 if the value is not in the list
- * of the key. Allocates the value_at[k]; the caller releases them. */
-static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
-{
-    for (int k = 0; k < keys; k++) {
-        value_at[k] = NEW("study.value_at", s->n, int);
-        int last = 0;
-        for (int c = 0; c < s->n; c++) {
-            const char *own = study_case_value(&s->at[c], key[k].key);
-            int tried = 0;
-            while (tried < key[k].values && strcmp(key[k].value[last], own) != 0) {
-                last = (last + 1) % key[k].values;
-                tried++;
-            }
-            value_at[k][c] = tried < key[k].values ? last : -1;
-        }
-    }
-}
-
-/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, while there are
- * at most lines_most lines. Further keys are shown with their first value only. */
-static void roles_choose(struct study_picture *p, int lines_most)
-{
-    p->lines = 1;
-    p->chance = false;
-    for (int k = 0; k < p->keys; k++) {
-        const int values = p->key[k].values;
-        p->role[k] = k == p->across                   ? ROLE_ACROSS
-                     : values < 2                     ? ROLE_NONE
-                     : key_is_chance(p->key[k].key)   ? ROLE_CHANCE
-                     : p->lines * values > lines_most ? ROLE_HELD
-                                                      : ROLE_LINES;
-        if (p->role[k] == ROLE_LINES) p->lines *= values;
-        p->chance |= p->role[k] == ROLE_CHANCE;
-    }
-}
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
@@ -204,18 +85,33 @@ static void line_title(char *text, size_t capacity, const struct study_picture *
     }
 }
 
-/* Writes the names of the keys that have the given role in the picture into text[capacity], for example
- * `material.young, load`. with_value: true to add the first value of each key. */
+/* Returns the unit of the values of a key that are numbers without a unit: an SI unit; "" for other values. */
+static const char *unit_unsaid(const struct varied_key *key)
+{
+    const char *unit = "";
+    return varied_key_is_number(key, &unit) && !*unit ? scene_key_unit(key->key) : "";
+}
+
+/* Writes the name of a key to text[capacity], with the unit of its values if they have none themselves. */
+static void key_text(char *text, size_t capacity, const struct varied_key *key)
+{
+    const char *unit = unit_unsaid(key);
+    snprintf(text, capacity, *unit ? "%s [%s]" : "%s%s", key->key, unit);
+}
+
+/* Writes the names of the keys with the given role, as `material.young, load`, into text[capacity]. with_value: adds
+ * the first value of each key. */
 static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
     *text = '\0';
     for (int k = 0; k < p->keys; k++) {
-        char value[LABEL_ROOM];
+        char value[LABEL_ROOM], name[NOTE_ROOM];
         if (p->role[k] != role) continue;
         study_value_label(value, &p->key[k], 0);
+        key_text(name, sizeof name, &p->key[k]);
         if (used < capacity)
-            used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", p->key[k].key,
+            used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", name,
                                      with_value ? " = " : "", with_value ? value : "");
     }
 }
@@ -260,31 +156,59 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
 
 /* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
-static bool words_touch(const struct varied_key *key)
+static bool words_touch(const struct study_picture *p, const struct varied_key *key)
 {
-    return tics_shown(key) * (study_longest_label(key) + 2) * CHARACTER > WIDE;
+    return tics_shown(key) * (study_longest_label(key) + 2) * character() > p->wide;
 }
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
 
-/* Return the number of columns, and of rows, in which the panels are arranged. */
-static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
-static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
+static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
+
+/* Sets the columns of panels, and the size of a panel before its margins are known. */
+static void panels_arrange(struct study_picture *p)
+{
+    const struct picture_size given = picture_size_get();
+    const int most = gnuplot_is_narrow() ? 1 + (p->panels > 2) : COLUMNS_MOST;
+    p->columns = p->panels < most ? p->panels : most;
+    p->wide = WIDE, p->high = HIGH;
+    if (given.width) p->wide = given.width / p->columns - NUMBERS;
+}
+
+/* Sets the size of the picture from that of the panels or, in a picture of a given size, the size of the panels from
+ * that of the picture. */
+static void size_settle(struct study_picture *p)
+{
+    const struct picture_size given = picture_size_get();
+    const int around = TITLE + p->below, rows = panel_rows(p);
+    p->width = p->columns * (p->left + p->wide + p->right) + p->legend;
+    if (given.width) {
+        p->width = given.width;
+        p->wide = (int)fmax((given.width - p->legend) / p->columns - p->left - p->right, LEAST);
+        p->high = (int)fmax(given.height ? (given.height - p->notes * ROW) / rows - around : 0.7 * p->wide, LEAST);
+    }
+    p->height = given.height ? given.height : rows * (around + p->high) + p->notes * ROW;
+    for (int k = 0; k < p->notes && !given.width; k++) {
+        const int wide = ((int)strlen(p->note[k]) + 2) * character();
+        p->width = wide > p->width ? wide : p->width;
+    }
+}
 
 /* Computes the margins of the panels, the width of the legend and the size of the picture from the lengths of their
  * texts. up: key along the vertical axis of a map; NULL for a picture with lines. */
 static void room_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
+    panels_arrange(p);
     const struct varied_key *across = &p->key[p->across];
-    const int along = study_longest_label(across) * CHARACTER;
+    const int along = study_longest_label(across) * character();
     const bool words = up || !p->numbers;
-    p->left = up ? (study_longest_label(up) + 7) * CHARACTER : NUMBERS;
-    p->right = up ? COLOURS : words ? 2 * CHARACTER + along / 2 : 3 * CHARACTER;
+    p->left = up ? (study_longest_label(up) + 7) * character() : gnuplot_is_narrow() ? 8 * character() : NUMBERS;
+    p->right = up ? COLOURS : words ? 2 * character() + along / 2 : 3 * character();
     p->below = BELOW;
-    if (words && words_touch(across)) {
+    if (words && words_touch(p, across)) {
         p->below += (int)(slope * along) - ROW / 2;
-        if (!up) p->right = 2 * CHARACTER;
+        if (!up) p->right = 2 * character();
         if (p->left < (int)(run * along)) p->left = (int)(run * along);
     }
     char text[256];
@@ -295,14 +219,9 @@ static void room_find(struct study_picture *p, const struct varied_key *up)
         line_title(text, sizeof text, p, l);
         longest = (int)strlen(text) + 5 > longest ? (int)strlen(text) + 5 : longest;
     }
-    p->legend = longest > 0 ? (longest + 2) * CHARACTER : 0;
+    p->legend = longest > 0 ? (longest + 2) * character() : 0;
     notes_find(p, up != NULL);
-    p->width = panel_columns(p) * (p->left + WIDE + p->right) + p->legend;
-    for (int k = 0; k < p->notes; k++) {
-        const int wide = ((int)strlen(p->note[k]) + 2) * CHARACTER;
-        p->width = wide > p->width ? wide : p->width;
-    }
-    p->height = panel_rows(p) * (TITLE + HIGH + p->below) + p->notes * ROW;
+    size_settle(p);
 }
 
 static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
@@ -314,7 +233,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
           "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
           g->to);
     for (int k = 0; k < p->notes; k++)
-        screen_label(g->to, p, p->note[k], CHARACTER, (p->notes - k - 0.4) * ROW, "left");
+        screen_label(g->to, p, p->note[k], character(), (p->notes - k - 0.4) * ROW, "left");
     return OK;
 }
 
@@ -334,24 +253,27 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
  * axis shows the values of the figure. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
 {
-    const int column = panel % COLUMNS_MOST, row = panel / COLUMNS_MOST;
-    const int x = column * (p->left + WIDE + p->right) + p->left;
-    const int y = p->height - row * (TITLE + HIGH + p->below) - TITLE;
+    const int column = panel % p->columns, row = panel / p->columns;
+    const int x = column * (p->left + p->wide + p->right) + p->left;
+    const int y = p->height - row * (TITLE + p->high + p->below) - TITLE;
     const char *figure = p->table->figure[p->figure[panel]];
     const struct unit unit = panel_unit(p, panel);
     char text[512];
     fprintf(to, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)x / p->width,
-            (double)(x + WIDE) / p->width);
+            (double)(x + p->wide) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
-            (double)(y - HIGH) / p->height);
+            (double)(y - p->high) / p->height);
     snprintf(text, sizeof text, *unit.name ? "%s [%s]" : "%s%s", figure, unit.name);
-    const double room = p->left + WIDE + p->right - CHARACTER, wide = 9.5 * (double)strlen(text);
+    const double room = p->left + p->wide + p->right - character(), wide = 0.95 * character() * (double)strlen(text);
     fputs("set title ", to);
     gnuplot_quote(to, text);
     fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
-    snprintf(text, sizeof text, *p->unit ? "%s [%s]" : "%s%s", p->key[p->across].key, p->unit);
-    screen_label(to, p, text, x + 0.5 * WIDE, y - HIGH - p->below + 0.9 * ROW, "center");
-    if (up) screen_label(to, p, up, x - p->left + 0.8 * ROW, y - 0.5 * HIGH, "center rotate by 90");
+    if (*p->unit)
+        snprintf(text, sizeof text, "%s [%s]", p->key[p->across].key, p->unit);
+    else
+        key_text(text, sizeof text, &p->key[p->across]);
+    screen_label(to, p, text, x + 0.5 * p->wide, y - p->high - p->below + 0.9 * ROW, "center");
+    if (up) screen_label(to, p, up, x - p->left + 0.8 * ROW, y - 0.5 * p->high, "center rotate by 90");
 }
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
@@ -423,9 +345,9 @@ static status draw_lines(struct study_picture *p)
     if (p->numbers)
         send_number_tics(g.to, &p->key[p->across]);
     else
-        send_tics(g.to, "x", &p->key[p->across], words_touch(&p->key[p->across]));
+        send_tics(g.to, "x", &p->key[p->across], words_touch(p, &p->key[p->across]));
     keys_text(text, sizeof text, p, ROLE_LINES, false);
-    const int x = p->width - p->legend + CHARACTER;
+    const int x = p->width - p->legend + character();
     if (p->lines > 1) screen_label(g.to, p, text, x, p->height - 0.6 * TITLE, "left");
     fprintf(g.to, "set key at screen %.5f,%.5f left top vertical maxrows %d\n", (double)x / p->width,
             1 - (double)TITLE / p->height, LINES_MOST);
@@ -446,12 +368,14 @@ static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];
     struct gnuplot g;
+    char name[NOTE_ROOM];
+    key_text(name, sizeof name, key_up);
     roles_choose(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
     room_find(p, key_up);
     p->unit = "";
     TRY(picture_open(&g, p, "map.png"));
-    send_tics(g.to, "x", across, words_touch(across));
+    send_tics(g.to, "x", across, words_touch(p, across));
     send_tics(g.to, "y", key_up, false);
     fputs("unset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset offsets\n", g.to);
     fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, key_up->values - 0.5);
@@ -464,7 +388,7 @@ static status draw_study_map(struct study_picture *p, int up)
                 fprintf(g.to, "%d %d %.10g\n", v, l, point[l * across->values + v].mean / factor);
         memory_free(point);
         fputs("EOD\n", g.to);
-        panel_begin(g.to, p, panel, key_up->key);
+        panel_begin(g.to, p, panel, name);
         fprintf(g.to, "plot $m%d using 1:2:3 with image notitle\nunset label\n", panel);
     }
     fputs("unset multiplot\n", g.to);

@@ -12,12 +12,18 @@
 static const struct {
     const char *begin, *end, *unit;
 } unit_of_name[] = {
-    {"", "_deg", "degree"},   {"", "_time", "s"},        {"", "_seconds", "s"}, {"time", "", "s"},
-    {"began", "", "s"},       {"ended", "", "s"},        {"speed", "", "m/s"},  {"tip_speed", "", "m/s"},
-    {"velocity_", "", "m/s"}, {"stress_", "", "Pa"},     {"force_", "", "N"},   {"mass_", "", "kg"},
-    {"", "_work", "J"},       {"", "_energy", "J"},      {"", "_error", ""},    {"length", "", "m"},
-    {"growth", "", "m"},      {"displacement", "", "m"}, {"position", "", "m"}, {"patch", "", "m"},
-    {"origin_", "", "m"},
+    {"", "_deg", "degree"},    {"", "_time", "s"},
+    {"", "_seconds", "s"},     {"time", "", "s"},
+    {"began", "", "s"},        {"ended", "", "s"},
+    {"speed", "", "m/s"},      {"tip_speed", "", "m/s"},
+    {"velocity_", "", "m/s"},  {"stress_", "", "Pa"},
+    {"force_", "", "N"},       {"mass_", "", "kg"},
+    {"", "_work", "J"},        {"", "_energy", "J"},
+    {"", "_error", ""},        {"length", "", "m"},
+    {"growth", "", "m"},       {"displacement", "", "m"},
+    {"position", "", "m"},     {"patch", "", "m"},
+    {"origin_", "", "m"},      {"release_rate", "", "J/m^2"},
+    {"crack_area", "", "m^2"},
 };
 
 static bool name_fits(const char *name, const char *begin, const char *end)

@@ -134,6 +134,8 @@ refused "from 53mmx40mm" results/strip --size 52mmx60mm
 refused "from 53mmx40mm" results/strip --size 85mmx39mm
 refused "viridis" results/strip --colours rainbow
 refused "for films" results/strip --fps 10
+refused "the width alone" results/strip --size 52mm
+refused "the width alone" results/strip --size 85mmx300
 refused "magnified" --scene strip.yaml --magnify 3
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
 # not grow.
@@ -261,6 +263,7 @@ if command -v python3 >/dev/null; then
         for edge in "$2" "$3" "$4" "$5"; do between "$1: blank pixels at an edge" "$edge" 2 150; done
         between "$1: blank pixels before the label of the vertical axis" "$2" 2 60
     }
+    pixels() { python3 -c 'import struct, sys; print(*struct.unpack(">II", open(sys.argv[1], "rb").read()[16:24]))' "$1"; }
     mkdir tips
     cat >tips/history.csv <<'END'
 time [s],step,kinetic [J],strain [J],plastic [J],fracture [J],contact [J],damped [J],absorbed [J],viscous [J],external_work [J],balance_error [1],crack_length [m],pd_share [1],left.K_I [Pa m^0.5],left.K_II [Pa m^0.5],left.contour_spread [1],growth.K_eq [Pa m^0.5],growth.x [m],growth.y [m],growth.length [m],pull.force_x [N],pull.force_y [N],pull.displacement_x [m],pull.displacement_y [m]
@@ -297,9 +300,42 @@ END
     "$cleave" plot minute --size 85mmx60mm -o minute/ >out 2>err
     uncut minute/energy.png
     holds "the label of the error has a place beside wide numbers" grep -a -q "set label 'error \[%\]' at screen 0.02" all
-    "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --budget 2s -o finer >out 2>err
+    "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 -o finer >out 2>err
     set -- $(python3 "$root/tests/scenes/picture_margins.py" finer/pictures/convergence.png)
     between "the key of a convergence study is whole: blank pixels beside it" "$2" 2 150
+    # Pictures of studies have the size that is asked for, too.
+    "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --size 85mmx60mm -o finer >out 2>err
+    is "converge --size: $(cat err)" $? 0
+    "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of energy.kinetic --size 85mmx60mm -o sized >out 2>err
+    is "sweep --size: $(cat err)" $? 0
+    for picture in finer/pictures/convergence.png sized/pictures/particles.spacing.png; do
+        is "$picture: its size" "$(pixels $picture)" "481 340"
+        uncut $picture
+    done
+    # In a column of a journal the panel takes most of the width: colour bar or names are below it, and the height is what they need.
+    "$cleave" run block.yaml -q -o halves -s duration=0.1us -s output.frames=1 -s 'bodies=[{name: lower, shape: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 3 mm]}}},
+        {name: upper, shape: {box: {from: [0, 0, 3 mm], to: [12 mm, 8 mm, 6 mm]}}}]' >out 2>err
+    for case in "results/strip von_mises" "both kind" "results/block damage" "halves body"; do
+        : >all
+        "$cleave" plot ${case% *} --field ${case#* } --times last --size 85mm -o column.png >out 2>err
+        is "$case in a column: $(cat err)" $? 0
+        between "$case in a column: width of the panel" "$(grep -a 'set [lr]margin' all | awk 'NR == 1 { l = $5 } NR == 2 { print $5 - l }')" 0.7 0.97
+        uncut column.png
+        set -- $(pixels column.png) $(python3 "$root/tests/scenes/picture_margins.py" column.png)
+        is "$case in a column: width" "$1" 481
+        between "$case in a column: blank below" "$6" 2 40
+    done
+    "$cleave" plot results/block --field damage --times last --size 53mmx40mm -o small.png >out 2>err
+    is "the smallest picture: $(cat err)" $? 0
+    uncut small.png
+    # A figure of a paper: no title, no numbers of particles in the key, which has two columns.
+    : >all
+    "$cleave" plot --scene strip.yaml --size 85mm --title '' -o figure.png >out 2>err
+    is "plot --scene --size 85mm: $(cat err)" $? 0
+    holds "no title" grep -a -q "set label 1 '' at" all
+    holds "no numbers of particles" grep -a -q "title 'grip: held x y'" all
+    holds "two columns" grep -a -q "set key .*maxcols 2" all
+    uncut figure.png
     for size in 85mmx150mm 180mmx250mm; do
         : >all
         "$cleave" plot both --size $size -o "keys$size/" >out 2>err

@@ -29,6 +29,7 @@ END
 
 cat >"$work/test.py" <<'END'
 import os
+import shutil
 import sys
 
 import numpy as np
@@ -172,6 +173,21 @@ holds("a lone particle", np.allclose(deformation_gradients(places[:1], parted[:1
 square = corners_of(frame)[210]
 holds("corners", square.shape == (4, 2) and np.allclose(square.mean(axis=0), frame.positions[210, :2], atol=1e-9)
       and np.allclose(np.ptp(square, axis=0), 1e-3, rtol=0.02))
+
+# colours and their ends are those of the program: its tables, and what `cleave plot` prints
+import re
+from cleave import _draw
+source = open(os.path.join(sys.argv[2], "src/plot/colours.c")).read()
+for table, own in (("diverging", _draw._DIVERGING), ("damage_stops", _draw._DAMAGE)):
+    rows = re.findall(r"{([^{}]*)}", re.search(r"struct stop %s\[\] = {(.*?)\n};" % table, source, re.S).group(1))
+    stops = [[float(number) for number in row.split(",")] for row in rows]
+    holds("colours: " + table, [[at, *colour] for at, colour in own] == stops)
+if shutil.which("gnuplot"):
+    for field in ("damage", "von_mises", "stress_yy", "speed", "velocity_y", "pressure", "displacement"):
+        said = cleave.call("plot", run.folder, "--field", field, "--times", "last", "--size", "300x226", "-o", work + "/colours.png")
+        ends = [float(end) for end in re.search(r"colours from (\S+) to (\S+)", said).groups()]
+        values = _draw._values_of(frame, field)[0]
+        holds("ends of the colours of " + field, np.allclose(_draw._limits(values, field, None), ends, rtol=2e-4))
 
 # packages that only some functions need: one line says which and how to get it
 for name, need in (("matplotlib.pyplot", lambda: run.plot()), ("pandas", frame.to_pandas), ("pandas", history.to_pandas),
@@ -362,7 +378,7 @@ holds("places at rest of a line", line.frames[-1].reference.shape == (20, 3) and
 print(checks)
 END
 
-told=$(CLEAVE=$cleave PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=src/python "$python" "$work/test.py" "$work") || exit 1
+told=$(CLEAVE=$cleave PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=src/python "$python" "$work/test.py" "$work" "$root") || exit 1
 checks=$((checks + told))
 
 # Once installed, it finds the program that was installed with it.

@@ -12,7 +12,16 @@ from ._fields import scale_of
 from ._rigid import outlines_of
 from ._shape import corners_of
 
-_EXTREME = 0.002                         # share of the values beyond either end of the colour bar
+# The colours and their ends are those of `cleave plot` (src/plot/colours.c, plot_view.c).
+_EXTREME, _FEW = 0.002, 3                # share and number of the values beyond the end of the colour bar
+_HOT, _HOT_TIMES = 0.01, 1.5             # a hot spot of this share takes the colour bar up to so much beyond the others
+_DAMAGE = [(0.0, (226, 228, 231)), (0.12, (246, 220, 190)), (0.35, (240, 160, 110)), (0.6, (214, 80, 62)), (0.8, (158, 24, 42)),
+           (1.0, (84, 2, 24))]
+_DIVERGING = [(k / 10, colour) for k, colour in enumerate([
+    (5, 48, 97), (33, 102, 172), (67, 147, 195), (146, 197, 222), (200, 217, 228), (226, 226, 226), (240, 209, 192), (244, 165, 130),
+    (214, 96, 77), (178, 24, 43), (103, 0, 31)])]
+_SIGNED = re.compile(r"(displacement|velocity)_[xyz]$|(stress|strain)_[xyz]{2}$|pressure$|principal_stress|principal_directions|strength_share")
+_FROM_LEAST = ("temperature", "density")
 _BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
 
 
@@ -40,27 +49,51 @@ def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
     values, words, unit = frame[name], name.replace("_", " "), frame.unit(name)
     if name == "stress":
         return frame["von_mises"], "von Mises stress", unit
+    if name == "principal_stress":
+        return values[:, 0], "principal stress", unit                # the largest one
     if values.ndim > 1:
         return np.linalg.norm(values[:, :3], axis=1), "|%s|" % words, unit
     return values.astype(float), {"von_mises": "von Mises stress"}.get(name, words), unit
 
 
-def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
-    """Returns the ends of the colour bar: those given, else all values but the extremes, from 0 where none is negative, symmetric
-    about 0 where both signs matter."""
+def _colours_of(name: str, asked: Optional[str], low: float, high: float) -> Any:
+    """Returns the colour map of a field between the values `low` and `high`: the one asked for, else that of `cleave plot`, whose middle
+    colour is that of 0 where both signs matter."""
+    if asked is not None:
+        return asked
+    if name != "damage" and not _SIGNED.match(name):
+        return "viridis"
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+    stops = _DAMAGE if name == "damage" else _DIVERGING
+    table = LinearSegmentedColormap.from_list("cleave", [(at, tuple(part / 255 for part in colour)) for at, colour in stops])
+    if name == "damage" or low == -high or not low <= 0 <= high:
+        return table
+    return ListedColormap(table(0.5 + 0.5 * np.linspace(low, high, 256) / max(-low, high)))
+
+
+def _bulk(values: np.ndarray) -> Tuple[np.ndarray, int]:
+    """Returns values in ascending order, and how many of them are beyond an end of the colour bar."""
+    ordered = np.sort(values[np.isfinite(values)])
+    return ordered, max(int(_EXTREME * (len(ordered) - 1)), min(_FEW, len(ordered) // 20))
+
+
+def _limits(values: np.ndarray, name: str, given: Any) -> Tuple[float, float]:
+    """Returns the ends of the colour bar: those given, else for damage 0 and at least 0.5, for other fields all values but the extremes,
+    from 0 or, where both signs have a meaning, symmetric about 0."""
     if given is not None:
         return float(given[0]), float(given[1])
-    finite = values[np.isfinite(values)]
-    if len(finite) == 0:
-        return 0.0, 1.0
-    low, high = np.quantile(finite, [_EXTREME, 1 - _EXTREME])
-    if low == high:
-        low, high = finite.min(), finite.max()
-    if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
-        low, high = -max(-low, high), max(-low, high)
-    elif 0 <= finite.min() and low < 0.5 * high:
-        low = 0.0
-    return float(low), float(high if high > low else low + 1.0)
+    if name == "damage":
+        return 0.0, float(np.ceil(10 * max(0.5, min(values.max(initial=0), 1)) - 1e-3) / 10)
+    low = 0.0
+    if name in _FROM_LEAST and len(values):
+        ordered, beyond = _bulk(values)
+        low = float(ordered[beyond]) if len(ordered) else 0.0
+    above = np.abs(values) if _SIGNED.match(name) else values - low
+    ordered, beyond = _bulk(above[above > 0])
+    high = 1.0
+    if len(ordered):
+        high = min(float(ordered[-1 - beyond]), _HOT_TIMES * float(ordered[-1 - int(_HOT * (len(ordered) - 1))]))
+    return (-high, high) if _SIGNED.match(name) else (low, low + high)
 
 
 def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], float, str]:
@@ -145,7 +178,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     if magnify != 1:
         words.append("displacements times %g" % magnify)
     values, label, unit = _values_of(frame, name)
-    low, high = _limits(values, limits)
+    low, high = _limits(values, name, limits)
     factor, shown = scale_of(max(abs(low), abs(high)), unit)
     corners = corners_of(frame, magnify, axes)
     outlines = outlines_of(frame, magnify, axes, at)
@@ -153,7 +186,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     wide, high_up = np.ptp(seen, axis=0)
     ax = _axes_of(ax, high_up / wide)
     long, metres = scale_of(float(max(wide, high_up)) / 4, "m")
-    squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low == -high else "viridis"),
+    squares = PolyCollection(long * corners, array=factor * values, cmap=_colours_of(name, colours, low, high),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)
     ax.add_collection(squares)

@@ -34,7 +34,8 @@ class Error(Exception):
 class SceneError(Error):
     """Reports a fault of a scene and where it is.
 
-    file, line, column  location in the scene file, from 1; None for a fault of an override
+    file, line, column  location in the scene file, from 1; of a missing key that of its parent, which for an item of a list and for the
+                        scene itself is where the first entry is; None for a fault of an override
     key                 key at this location, or the one that is missing, as "boundary.0.traction": of overrides and of scenes that are
                         dictionaries; else None
     message             the fault and its remedy

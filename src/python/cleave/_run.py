@@ -232,7 +232,7 @@ class Run:
         magnify     factor on displacements [1]
         limits      lowest and highest value of the colour bar [SI unit of the field]; default: all values but the extreme
                     0.2 % at either end; symmetric about 0 if the smaller sign reaches 20 % of the larger
-        colours     name of a colour map of matplotlib; default: viridis, or coolwarm if symmetric
+        colours     name of a colour map of matplotlib; default: that of `cleave plot` for the field
         colour_bar  False: draws none
         slice       plane of the section of a solid: {"z": 4e-3} [m]; default: normal to the shortest side of the body, through
                     the particle with the most damage, else the middle

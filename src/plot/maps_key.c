@@ -1,0 +1,206 @@
+/* Colour bar and key of pictures of maps. */
+#include <math.h>
+#include <string.h>
+
+#include "curves_parts.h"
+#include "maps_parts.h"
+
+/* BAR_STEPS: number of colours of the bar; its image has BAR_ACROSS lines because gnuplot draws no image of a single
+ * line. BAR_HIGHEST: greatest length of a vertical bar [pixel]. */
+enum { BAR_STEPS = 256, BAR_ACROSS = 2, BAR_HIGHEST = 360 };
+
+/* Positions beside or below the bar [pixel]. NUMBERS: width of tics and blanks beside the numbers of a vertical bar;
+ * LABEL_HALF: half height of a line of its label; UNDER_LABEL: of the label of a bar below the panels, from its upper
+ * edge; BAR_LOW: height of such a bar. */
+enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12 };
+
+static double letter_wide(void) { return gnuplot_is_narrow() ? 7.4 : 9; }
+static int bar_from(void) { return gnuplot_is_narrow() ? BAR_FROM_NARROW : BAR_FROM; }
+
+/* ---- colour bar -------------------------------------------------------------------------------------------------- */
+
+/* Scale of the colour bar: label, ends and distance of tics in the unit of the label, format of its numbers. */
+struct bar_scale {
+    char label[64];
+    double low, high, tics;
+    const char *format;
+};
+
+static struct bar_scale bar_scale_of(const struct view *view, enum map map)
+{
+    struct bar_scale s = {.high = view->top, .tics = view->top > 0.6 ? 0.2 : 0.1, .format = "%.1f"};
+    snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
+    if (map != MAP_FIELD) return s;
+    const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
+    const bool plain = !*view->field->unit;
+    s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
+    s.tics = tic_distance(s.high - s.low, 300, 50);
+    s.format = "%g";
+    plot_field_label(s.label, sizeof s.label, view->field);
+    const size_t length = strlen(s.label);
+    if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
+    return s;
+}
+
+/* Returns the distance of the tics of a vertical bar of the given length [pixel]. */
+static double bar_tics(const struct bar_scale *s, int length)
+{
+    return fmax(s->tics, tic_distance(s->high - s->low, length, gnuplot_is_narrow() ? 22 : 28));
+}
+
+/* Returns the length of a vertical bar [pixel]: the height of the panels, but at most BAR_HIGHEST, and at least the
+ * length of the label without its unit if the picture is high enough. panels: height of all rows of panels; room:
+ * height of the picture below the upper edge of the bar [pixel]. */
+static int bar_length(const struct bar_scale *s, int panels, int room)
+{
+    const int label = (int)fmin(letter_wide() * (double)strcspn(s->label, "["), room - 40);
+    return panels >= BAR_HIGHEST ? BAR_HIGHEST : panels > label ? panels : label;
+}
+
+/* Returns the unit in the label of a vertical bar that is written in a line of its own, because the label is longer
+ * than the bar; NULL if it is not. length: of the bar [pixel]. */
+static const char *bar_second_line(const struct bar_scale *s, int length)
+{
+    return letter_wide() * (double)strlen(s->label) > length ? strstr(s->label, " [") : NULL;
+}
+
+int bar_width_beside(const struct maps_shown *m, int panels)
+{
+    const struct bar_scale s = bar_scale_of(m->view, m->map);
+    double numbers = 0;
+    for (int length = 40; length <= BAR_HIGHEST; length *= 2)
+        numbers = fmax(numbers, numbers_width(s.low, s.high, bar_tics(&s, length), s.format));
+    const int length = bar_length(&s, panels, BAR_HIGHEST);
+    const double lines = bar_second_line(&s, length) ? 1 : 0;
+    return (int)(BAR_FROM_NARROW + BAR_WIDE + NUMBERS_NARROW + numbers + LABEL_HALF + lines * letter_wide());
+}
+
+/* Writes the text at an end of the colour bar that says which share of the particles is beyond it, if any are. x, y:
+ * position of the text from the upper left corner of the picture [pixel]; adjust: `left` or `right`. */
+static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int end, double x,
+                        double y, const char *adjust)
+{
+    if (view->beyond[end] == 0) return;
+    fprintf(to, "set label '%.2g %% %s' at screen %.6g,%.6g %s font ',10' textcolor rgb '#555555'\n",
+            100.0 * (double)view->beyond[end] / (double)particles, end ? "above" : "below", x / l->width,
+            1 - y / l->height, adjust);
+}
+
+/* Writes the label of a vertical bar, and its unit in a second line if the label is longer than the bar. x, y: centre
+ * of the first line, from the upper left corner of the picture; length: of the bar [pixel]. */
+static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_scale *s, double x, double y, int length)
+{
+    const char *unit = bar_second_line(s, length);
+    const size_t first = unit ? (size_t)(unit - s->label) : strlen(s->label);
+    for (int line = 0; line < (unit ? 2 : 1); line++)
+        fprintf(to, "set label '%.*s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
+                line ? (int)strlen(unit + 1) : (int)first, line ? unit + 1 : s->label,
+                (x + letter_wide() * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
+}
+
+/* Draws the colour bar as a narrow panel on the right, beside the first row. */
+static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
+                            int64_t particles)
+{
+    struct colour pixel[BAR_STEPS * BAR_ACROSS];
+    const int panels = l->rows * l->panel_height + (l->rows - 1) * GAP_Y;
+    const int length = bar_length(s, panels, l->height - l->above);
+    const double from[2] = {0, s->low}, step[2] = {1.0 / BAR_ACROSS, (s->high - s->low) / BAR_STEPS};
+    const double x = l->width - l->right + bar_from(), tics = bar_tics(s, length);
+    for (int k = 0; k < BAR_STEPS * BAR_ACROSS; k++)
+        pixel[k] = map_colour(m->view, m->map, (k / BAR_ACROSS + 0.5) / BAR_STEPS);
+    box_write_margins(to, l, x, l->above, BAR_WIDE, length);
+    fprintf(to, "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n",
+            s->low, s->high, s->low, s->high, tics, s->format);
+    draw_bar_label(to, l, s,
+                   x + BAR_WIDE + (gnuplot_is_narrow() ? NUMBERS_NARROW : NUMBERS) +
+                       numbers_width(s->low, s->high, tics, s->format),
+                   l->above + 0.5 * length, length);
+    for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
+        draw_beyond(to, l, m->view, particles, end, x - 6, end ? l->above - 12 : l->above + length + 14, "left");
+    panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
+}
+
+/* Draws the colour bar below the panels, as wide as these, with its label below the numbers. */
+static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
+                           int64_t particles)
+{
+    struct colour pixel[BAR_ACROSS * BAR_STEPS];
+    const double x = l->left, wide = l->width - l->left - l->right;
+    const double y = l->above + l->rows * l->panel_height + (l->rows - 1) * GAP_Y + l->axes;
+    const double from[2] = {s->low, 0}, step[2] = {(s->high - s->low) / BAR_STEPS, 1.0 / BAR_ACROSS};
+    for (int k = 0; k < BAR_ACROSS * BAR_STEPS; k++)
+        pixel[k] = map_colour(m->view, m->map, (k % BAR_STEPS + 0.5) / BAR_STEPS);
+    box_write_margins(to, l, x, y, wide, BAR_LOW);
+    fprintf(to, "set yrange [0:1]\nset xrange [%.9g:%.9g]\nset xtics out %.9g format '%s' offset 0,0.5\n", s->low,
+            s->high, fmax(s->tics, tics_across(s->low, s->high, wide)), s->format);
+    fprintf(to, "set label '%s' at screen %.6g,%.6g center textcolor rgb '#333333'\n", s->label,
+            (x + 0.5 * wide) / l->width, 1 - (y + UNDER_LABEL) / l->height);
+    for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
+        draw_beyond(to, l, m->view, particles, end, end ? x + wide + 4 : x - 4, y + UNDER_LABEL,
+                    end ? "right" : "left");
+    panel_write_image(to, pixel, BAR_STEPS, BAR_ACROSS, from, step, "");
+}
+
+void map_bar_draw(FILE *to, const struct layout *l, const struct maps_shown *m, int64_t particles)
+{
+    const struct bar_scale s = bar_scale_of(m->view, m->map);
+    fputs("unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
+          "unset grid\nunset label\n",
+          to);
+    (l->bar_under ? draw_bar_under : draw_bar_beside)(to, l, m, &s, particles);
+}
+
+/* ---- key --------------------------------------------------------------------------------------------------------- */
+
+static void map_key_add(struct map_key *key, struct colour colour, const char *name)
+{
+    struct category *of = &key->of[key->n++];
+    of->colour = colour;
+    snprintf(of->name, sizeof of->name, "%s", name);
+}
+
+void map_key_make(struct map_key *key, enum map map, const struct view *view, bool rigid)
+{
+    const struct categories *named = view->categories;
+    char more[32];
+    key->n = 0;
+    if (map == MAP_KIND) {
+        map_key_add(key, colour_of_material_points(), "material points");
+        map_key_add(key, colour_of_peridynamic_particle(0.25), "peridynamics");
+    } else if (map == MAP_FRAGMENT) {
+        map_key_add(key, fragment_colour(0), "the heaviest");
+        map_key_add(key, fragment_colour(-1), "no bond left");
+    } else if (map == MAP_CATEGORY) {
+        for (int k = 0; k < named->n; k++) map_key_add(key, named->of[k].colour, named->of[k].name);
+        snprintf(more, sizeof more, "and %d more", named->more);
+        if (named->more > 0) map_key_add(key, (struct colour){0}, more);
+    }
+    if (rigid) map_key_add(key, rigid_colour(), "rigid");
+}
+
+/* Draws an entry of the key: a square in its colour, unless that is transparent, and its text. x, y: position from the
+ * upper left corner of the picture [pixel]. */
+static void key_entry(FILE *to, const struct layout *l, double x, double y, const struct category *e)
+{
+    if (e->colour.alpha > 0)
+        fprintf(to,
+                "set object rectangle from screen %.6g,%.6g to screen %.6g,%.6g fs solid border rgb '#888888' "
+                "fc rgb '#%02x%02x%02x'\n",
+                x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width, 1 - (y - 8) / l->height, e->colour.red,
+                e->colour.green, e->colour.blue);
+    fputs("set label ", to);
+    gnuplot_quote(to, e->name);
+    fprintf(to, " at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n", (x + 21) / l->width,
+            1 - (y - 1) / l->height);
+}
+
+void map_key_draw(FILE *to, const struct layout *l, const struct map_key *key)
+{
+    const double below = l->above + l->rows * l->panel_height + (l->rows - 1) * GAP_Y + l->axes;
+    const double y = l->key_beside ? l->above + 8 : below + (l->bar_under ? BAR_STRIP : 0) + KEY_UNDER + 2;
+    const double x = l->key_beside ? l->width - l->right + bar_from() : gnuplot_is_narrow() ? KEY_LEFT : l->left;
+    const int columns = l->key_beside ? 1 : l->key_columns;
+    for (int k = 0; k < key->n; k++)
+        key_entry(to, l, x + k % columns * l->entry, y + k / columns * KEY_ROW, &key->of[k]);
+}

@@ -1,0 +1,112 @@
+/* Layout of pictures of maps: margins, panels in rows and columns, places of the colour bar and of the key. */
+#include <math.h>
+#include <string.h>
+
+#include "curves_parts.h"
+#include "maps_parts.h"
+
+/* Margins of the panels, and gaps between them, in usual and in narrow pictures [pixel]. *_OUTSIDE: of outside views,
+ * which have no axes at their left, and their directions below them; *_UNTITLED: without a title; EDGE: on the right
+ * without a bar or key; RIGHT_MOST: with a key of long names. */
+enum { LEFT = 104, LEFT_OUTSIDE = 40, RIGHT = 136, RIGHT_MOST = 420, EDGE = 34, ABOVE = 84, UNTITLED = 56, BELOW = 70 };
+enum { GAP_X = 34, GAP_NARROW = 26 };
+enum { LEFT_NARROW = 74, LEFT_OUTSIDE_NARROW = 14, EDGE_NARROW = 22, ABOVE_NARROW = 62, UNTITLED_NARROW = 40 };
+enum { BELOW_NARROW = 62, BELOW_OUTSIDE_NARROW = 78 };
+
+/* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
+enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
+static const double SHAPE_WANTED = 0.72;  /* height over width of the picture */
+static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */
+static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
+
+bool map_has_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
+
+/* Returns a layout in which only the margins of the panels are set, without the rows of bar and key below them. under:
+ * bar or named values are below the panels; panels: height of all rows of panels [pixel]. */
+static struct layout margins_of(const struct maps_shown *m, bool under, int panels)
+{
+    const bool narrow = gnuplot_is_narrow(), bar = map_has_bar(m->map), titled = m->title[0];
+    const double letter = narrow ? KEY_LETTER_NARROW : KEY_LETTER;
+    size_t longest = 0;
+    for (int k = 0; k < m->key.n; k++)
+        longest = strlen(m->key.of[k].name) > longest ? strlen(m->key.of[k].name) : longest;
+    struct layout l = {.left = m->outside ? LEFT_OUTSIDE : LEFT,
+                       .above = titled ? ABOVE : UNTITLED,
+                       .axes = BELOW,
+                       .right = bar ? RIGHT : EDGE,
+                       .gap = GAP_X};
+    if (narrow)
+        l = (struct layout){.left = m->outside ? LEFT_OUTSIDE_NARROW : LEFT_NARROW,
+                            .above = titled ? ABOVE_NARROW : UNTITLED_NARROW,
+                            .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
+                            .right = under || !bar ? EDGE_NARROW : bar_width_beside(m, panels),
+                            .gap = GAP_NARROW};
+    l.title = l.left;
+    l.entry = (int)(KEY_SQUARE + letter * (double)longest);
+    l.bar_under = bar && under;
+    l.key_beside = m->map == MAP_CATEGORY && !under;
+    l.entries = l.key_beside ? 0 : m->key.n;
+    if (l.key_beside) l.right = (int)fmin(l.entry + BAR_FROM, RIGHT_MOST);
+    return l;
+}
+
+/* Sets the number of entries in a row of the key below the panels, and the lower margin, for a picture of the given
+ * width [pixel]. */
+static void strip_set(struct layout *l, int width)
+{
+    l->key_columns = (int)fmax((width - KEY_LEFT) / fmax(l->entry, 1), 1);
+    const int lines = (l->entries + l->key_columns - 1) / l->key_columns;
+    l->below = l->axes + (l->bar_under ? BAR_STRIP : 0) + (lines > 0 ? lines * KEY_ROW + KEY_UNDER : 0);
+}
+
+/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
+ * panel; margins: layout with the margins of the panels. */
+static struct layout layout_of(int columns, int panels, double aspect, const struct layout *margins)
+{
+    struct layout l = *margins;
+    l.columns = columns, l.rows = (panels + columns - 1) / columns;
+    const struct picture_size given = picture_size_get();
+    const int width = given.width ? given.width : panels == 1 ? WIDTH_SINGLE : WIDTH;
+    const double height = given.height ? given.height : given.width ? fmin(HEIGHT_MAX, TALL_MOST * width) : HEIGHT_MAX;
+    const int between_x = (columns - 1) * l.gap, between_y = (l.rows - 1) * GAP_Y;
+    strip_set(&l, width);
+    double panel = fmax((width - l.left - l.right - between_x) / columns, PANEL_MIN);
+    panel = fmin(panel, fmax((height - l.above - l.below - between_y) / l.rows, PANEL_MIN) / aspect);
+    l.panel_width = (int)fmax(lround(panel), PANEL_MIN);
+    l.panel_height = (int)fmax(lround(panel * aspect), PANEL_MIN);
+    l.width = l.left + l.right + between_x + columns * l.panel_width;
+    const int more = given.width - l.width;
+    if (given.width) l.width = given.width, l.left += more / 2, l.right += more - more / 2; /* centred */
+    strip_set(&l, l.width);
+    l.height = given.height ? given.height : l.above + l.below + between_y + l.rows * l.panel_height;
+    return l;
+}
+
+/* Returns the layout with one margin for the bar on the right: a flat one has its unit in a line of its own, for which
+ * the height of the panels must be known. */
+static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect)
+{
+    struct layout margins = margins_of(m, under, 0), l = layout_of(columns, panels, aspect, &margins);
+    margins = margins_of(m, under, l.rows * l.panel_height + (l.rows - 1) * GAP_Y);
+    return layout_of(columns, panels, aspect, &margins);
+}
+
+struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect)
+{
+    const bool choice = gnuplot_is_narrow() && (map_has_bar(m->map) || m->map == MAP_CATEGORY);
+    const bool fixed = picture_size_get().height || gnuplot_is_narrow(); /* columns of journals may be tall */
+    struct layout best = {0};
+    double best_cost = INFINITY;
+    for (int under = 0; under < 1 + choice; under++)
+        for (int columns = 1; columns <= panels; columns++) {
+            const struct layout l = layout_settled(m, under, columns, panels, aspect);
+            const double area = (double)l.panel_width * l.panel_height;
+            const double shape = fixed ? 0 : fabs(log((double)l.height / l.width / SHAPE_WANTED));
+            double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER;
+            cost += 0.2 * (l.rows * l.columns - panels); /* empty panels */
+            if (cost >= best_cost) continue;
+            best_cost = cost;
+            best = l;
+        }
+    return best;
+}

@@ -1,0 +1,151 @@
+/* Draws pre-cracks of plane bodies over a map. Each face of a pre-crack is a line that follows the particles beside it,
+ * because a pre-crack that is a slit of the mesh causes no damage. Where both lines meet they are one, as long as the
+ * gap between them is not visible. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "plot/plot.h"
+
+/* Colours of the faces. FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
+static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
+static const double LINE_HALF = 0.7; /* half width of a line [pixel] */
+static const double GAP_SEEN = 3;    /* distance of the faces from which the gap between them is left open [pixel] */
+
+/* BESIDE: largest distance of the particles whose motion is that of a face [spacings]; RUBBLE: damage above which a
+ * particle has no part of a face. */
+static const double BESIDE = 1.05, RUBBLE = 0.65;
+
+/* Displacements of the faces of a pre-crack, by sections of one spacing along it. u[side][2 * section + axis]: sum of
+ * the displacements of the particles beside the section [m]; weight[side][section]: their number, by nearness. */
+struct faces {
+    double from[2], along[2], length, section;
+    double begin, end; /* part of the length along which there are particles [m] */
+    int sections;
+    double *u[2], *weight[2];
+};
+
+/* Returns the position along the pre-crack [m] of a point X[2] [m], and stores its distance from the line [m], positive
+ * on the left. */
+static double place_along(const struct faces *f, const double *X, double *off)
+{
+    const double x = X[0] - f->from[0], y = X[1] - f->from[1];
+    *off = f->along[0] * y - f->along[1] * x;
+    return f->along[0] * x + f->along[1] * y;
+}
+
+/* Adds the motion of particle i, if it is beside the pre-crack, to the section beside it: the drawn displacement of the
+ * point of the face that is nearest to the particle in the reference state. */
+static void face_add_motion(struct faces *f, const struct plotted_particles *c, int64_t i)
+{
+    const double X[2] = {c->reference[0][i], c->reference[1][i]}, *axis[2] = {c->camera.right, c->camera.up};
+    double off, u[2];
+    const double s = place_along(f, X, &off);
+    const double reach = BESIDE * (c->size ? c->size[i] : c->spacing);
+    if (fabs(off) > reach || s < -0.5 * f->section || s > f->length + 0.5 * f->section || c->damage[i] > RUBBLE) return;
+    const double xi[2] = {off * f->along[1], -off * f->along[0]}; /* from the particle to the face */
+    for (int a = 0; a < 2; a++) {
+        u[a] = c->position[a][i] - X[a];
+        for (int b = 0; b < 2 && c->gradient; b++) {
+            double F = 0;
+            for (int m = 0; m < 9; m++) F += axis[a][m / 3] * (double)c->gradient[9 * i + m] * axis[b][m % 3];
+            u[a] += (F - (a == b)) * xi[b];
+        }
+    }
+    const int side = off < 0, at = (int)fmin(fmax(s / f->section, 0), f->sections - 1);
+    const double near = 1 / (0.1 + fabs(off) / reach);
+    for (int a = 0; a < 2; a++) f->u[side][2 * at + a] += near * u[a];
+    f->weight[side][at] += near;
+    f->begin = fmin(f->begin, fmax(s - 0.5 * reach / BESIDE, 0)),
+    f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
+}
+
+/* Computes the drawn position of the face `side` at the position s [m] along the pre-crack: linear between the middles
+ * of its sections. Returns false if no particle is beside it there. */
+static bool face_at(const struct faces *f, int side, double s, double *x)
+{
+    const double middle = s / f->section - 0.5;
+    const int low = (int)fmin(fmax(floor(middle), 0), f->sections - 1), high = (int)fmin(low + 1, f->sections - 1);
+    const int own = (int)fmin(fmax(s / f->section, 0), f->sections - 1);
+    if (!(f->weight[side][own] > 0)) return false;
+    const int at[2] = {f->weight[side][low] > 0 ? low : own, f->weight[side][high] > 0 ? high : own};
+    const double part = fmin(fmax(middle - low, 0), 1);
+    for (int a = 0; a < 2; a++) {
+        x[a] = f->from[a] + s * f->along[a];
+        for (int k = 0; k < 2; k++) x[a] += (k ? part : 1 - part) * f->u[side][2 * at[k] + a] / f->weight[side][at[k]];
+    }
+    return true;
+}
+
+/* Paints the pixels within LINE_HALF of the line between the points a[2] and b[2] [pixel]. */
+static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
+{
+    int low[2], high[2];
+    const int size[2] = {width, height};
+    for (int k = 0; k < 2; k++) {
+        const double from = fmin(a[k], b[k]) - LINE_HALF, to = fmax(a[k], b[k]) + LINE_HALF;
+        if (!(to >= 0 && from <= size[k])) return; /* outside the picture, or NaN */
+        low[k] = (int)fmax(floor(from), 0), high[k] = (int)fmin(floor(to), size[k] - 1);
+    }
+    for (int row = low[1]; row <= high[1]; row++)
+        for (int column = low[0]; column <= high[0]; column++)
+            if (segment_distance(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= LINE_HALF)
+                pixel[(int64_t)row * width + column] = c;
+}
+
+/* Paints the faces f into pixel[height][width] of the view v. */
+static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
+                        struct colour colour)
+{
+    const double per_metre = width / (v->to[0] - v->from[0]);
+    const int steps = (int)fmin(ceil(f->length * per_metre), 2.0 * (width + height)) + 1;
+    double last[2][2];
+    bool was[2] = {false, false};
+    for (int k = 0; k <= steps; k++) {
+        double x[2][2];
+        bool is[2];
+        for (int side = 0; side < 2; side++) {
+            is[side] = face_at(f, side, f->begin + (f->end - f->begin) * k / steps, x[side]);
+            for (int a = 0; a < 2 && is[side]; a++)
+                x[side][a] = (x[side][a] - v->from[a]) * (a ? height : width) / (v->to[a] - v->from[a]);
+        }
+        if (!is[0] || !is[1]) is[0] = is[1] = false; /* beside the body */
+        for (int side = 0; side < 2; side++) {
+            if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour);
+            last[side][0] = x[side][0], last[side][1] = x[side][1], was[side] = is[side];
+        }
+        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN)
+            line_paint(pixel, width, height, x[0], x[1], colour);
+    }
+}
+
+/* Prepares the faces of a pre-crack with the two ends `corner` [m]. section: length of its sections [m]. */
+static void faces_make(struct faces *f, const struct crack *crack, double section)
+{
+    *f = (struct faces){.from = {crack->corner[0][0], crack->corner[0][1]}};
+    for (int a = 0; a < 2; a++) f->along[a] = crack->corner[1][a] - crack->corner[0][a];
+    f->length = hypot(f->along[0], f->along[1]);
+    for (int a = 0; a < 2; a++) f->along[a] /= f->length;
+    f->sections = (int)fmin(fmax(ceil(f->length / section - 1e-6), 1), 1e6);
+    f->section = f->length / f->sections;
+    f->begin = f->length, f->end = 0;
+    for (int side = 0; side < 2; side++) {
+        f->u[side] = NEW("plot.faces", 2 * (int64_t)f->sections, double);
+        f->weight[side] = NEW("plot.faces", f->sections, double);
+    }
+}
+
+void notches_paint(struct colour *pixel, int width, int height, const struct view *v, const struct plotted_particles *c,
+                   enum map map)
+{
+    if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0] || !(c->spacing > 0)) return;
+    for (int k = 0; k < v->notches; k++) {
+        struct faces f;
+        if (v->notch[k].n != 2 || !(hypot(v->notch[k].corner[1][0] - v->notch[k].corner[0][0],
+                                          v->notch[k].corner[1][1] - v->notch[k].corner[0][1]) > 0))
+            continue;
+        faces_make(&f, &v->notch[k], 2 * c->spacing);
+        for (int64_t i = 0; i < c->n; i++) face_add_motion(&f, c, i);
+        faces_paint(pixel, width, height, v, &f, map == MAP_DAMAGE ? FACE : GAP);
+        for (int side = 0; side < 2; side++) memory_free(f.u[side]), memory_free(f.weight[side]);
+    }
+}

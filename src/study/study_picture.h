@@ -1,0 +1,53 @@
+/* One picture of a study: what it shows. */
+#ifndef CLEAVE_STUDY_PICTURE
+#define CLEAVE_STUDY_PICTURE
+
+#include "study_internal.h"
+
+enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
+
+/* Role of a varied key in a picture. NONE: it has a single value. ACROSS: its values are along the horizontal axis.
+ * LINES: each of its values has a line. HELD: the picture shows only the runs with its first value. CHANCE: it has no
+ * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
+enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
+
+/* One picture: study, figures, roles of the keys, layout. */
+struct study_picture {
+    const struct study_table *table;
+    const struct study *study;
+    const struct varied_key *key;
+    int keys;
+    int **value_at;      /* [keys][runs] index of the key's value in a run; -1: another value */
+    enum key_role *role; /* [keys] */
+    int across, lines;   /* index of the key along the axis; number of lines, at least 1 */
+    int figure[PANELS_MOST], panels;
+    bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
+    const char *unit;
+    const char *header;                     /* header of history.csv with the units of figures */
+    int columns, wide, high;                /* columns of panels; width and height of a panel [pixel] */
+    int left, right, below, legend, height; /* margins of a panel; width right of all panels; height of the picture
+                                             * [pixel] */
+    int width, notes;
+    char note[2][NOTE_ROOM];
+};
+
+/* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
+ * energies, and the duration. Figures that are equal in all runs are left out. */
+void panels_choose(struct study_picture *p);
+
+/* Chooses the figures with the names of[asked] for the panels. Returns REFUSED if a name is not in the table. */
+status panels_of(struct study_picture *p, const char *const *of, int asked);
+
+/* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
+ * combined to one point with a bar. */
+bool key_is_chance(const char *key);
+
+/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 for another value. The
+ * caller frees each value_at[k]. */
+void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys);
+
+/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
+ * while there are at most lines_most lines. Of further keys only the first value is shown. */
+void roles_choose(struct study_picture *p, int lines_most);
+
+#endif
