@@ -24,7 +24,7 @@ struct circle_specimen {
     const char *name, *path, *text;
     double from[2], to[2], radius;
     struct scene_override turned;
-    double area;
+    double loaded, area;
     double (*measure)(const char *folder, const struct circle_run *r);
 };
 enum circle_specimens {
@@ -41,8 +41,9 @@ enum circle_specimens {
 };
 extern const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS];
 
-/* Largest number of spacings, of turned lattices, and of overrides of a case. */
-enum { CIRCLE_SPACINGS = 4, CIRCLE_LATTICES = 2, CIRCLE_OVERRIDES = 2 };
+/* Largest number of spacings, of turned lattices, and of overrides of a case, of which the last is the load P of a
+ * notched strip. */
+enum { CIRCLE_SPACINGS = 3, CIRCLE_LATTICES = 2, CIRCLE_OVERRIDES = 2, CIRCLE_LOAD = CIRCLE_OVERRIDES - 1 };
 
 /* A case: a problem of the nine circles with an expected value. circle, figure: names of the problem and of the
  * measured value. expected, tolerance: expected value and permitted deviation in `unit`. surface: true if bonds begin
@@ -72,18 +73,27 @@ extern const int circle_cases_count;
  * ended; degrees: angle of its lattice. table: receives a row after the run. */
 struct circle_run {
     const struct circle_case *of;
-    double spacing, found;
+    double spacing, section, found;
     int degrees;
     struct bench_table *table;
 };
 
-/* Returns "holds" or "MISSED" depending on whether the measured value of a run is within the tolerance of its case, or
- * "-" if the expected value does not apply to it, as the crack is too short or the horizon too long. */
+/* Returns true if a case has runs. */
+static inline bool circle_has_runs(const struct circle_case *c) { return c->spacing[0] > 0 || c->turned[0] > 0; }
+
+/* Returns "holds" or "MISSED" by the tolerance of the case, or "-" where its expected value does not apply. */
 const char *circle_verdict(const struct circle_run *r);
 
-/* Writes the particles of the body of specimen s to the CSV file `path`, with columns x, y [m] and volume [m^3], on a
- * square lattice rotated by `degrees`. spacing [m]; the thickness is 1 mm. Returns FAILED if the file cannot be
- * written. */
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees);
+/* Particles of a specimen on a turned lattice. section: mean area of its section over the nominal one [1]; layer:
+ * volume of its loaded layer over the nominal one [1], or 1 if the specimen has none. */
+struct circle_list {
+    double section, layer;
+};
+
+/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `degrees`; columns
+ * x, y, volume. x = `middle` [m], the tip of a crack, is half-way between rows of a lattice turned by 45 degrees.
+ * spacing [m]; the thickness is 1 mm. Stores the sizes of the body in *list. FAILED if the file cannot be written. */
+status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees, double middle,
+                         struct circle_list *list);
 
 #endif

@@ -12,9 +12,9 @@
 
 #define GLASS "young: 70 GPa, density: 2440, energy_release_rate: 10, tensile_strength: 40 MPa"
 #define MATERIALS "materials:\n  - {name: glass, " GLASS "}\n  - {name: grip, young: 70 GPa, density: 2440}\n"
-#define PULLED                                                                                                         \
-    "duration: 24 us\nmethod: pd\ncontact: {between: none}\nparticles: {spacing: h}\n"                                 \
-    "output: {frames: 0, samples: 200}\n" MATERIALS
+#define PULLED(duration)                                                                                               \
+    "duration: " duration "\nmethod: pd\ncontact: {between: none}\nparticles: {spacing: h}\n"                          \
+    "output: {frames: 0, samples: 400}\n" MATERIALS
 #define REACTION "probes: [{reaction: {boundary: top}}]\n"
 #define STATIC "duration: 1 s\nmethod: pd\nsolver: static\noutput: {frames: 0}\n" MATERIALS
 #define BODY(shape, grip)                                                                                              \
@@ -26,17 +26,17 @@
 /* Scene of a strip under tension. The specimens loaded in the same manner begin at 0.9 of the strain at which their
  * strength is reached, and are strained further by half of that strain in 40 us, between grips that do not break. */
 static const char strip[] =
-    "space: plane stress\nthickness: 1 mm\n" PULLED REACTION
-    "variables: {h: 0.1 mm, e: 40 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us), nu: 1/3}\n"
+    "space: plane stress\nthickness: 1 mm\n" PULLED("100 us") REACTION
+    "variables: {h: 0.1 mm, e: 40 MPa/70 GPa, rate: 0.5*e/(40 us), nu: 1/3}\n"
     BODY("{box: {from: [-2.5 mm, -6 mm], to: [2.5 mm, 6 mm]}}",
          "[{all: true}, {subtract: {box: {from: [-3 mm, -4.8 mm], to: [3 mm, 4.8 mm]}}}]")
-    "initial: [{displacement_gradient: [[-nu*start, 0], [0, start]], velocity_gradient: [[-nu*rate, 0], [0, rate]]}]\n"
+    "initial: [{velocity_gradient: [[-nu*rate, 0], [0, rate]]}]\n"
     "boundary:\n"
     "  - {name: top, velocity: [free, 5.7 mm*rate], region: {box: {from: [-3 mm, 5.7 mm], to: [3 mm, 6 mm]}}}\n"
     "  - {velocity: [free, -5.7 mm*rate], region: {box: {from: [-3 mm, -6 mm], to: [3 mm, -5.7 mm]}}}\n";
 
 static const char disc[] =
-    "space: plane stress\nthickness: 1 mm\n" PULLED REACTION
+    "space: plane stress\nthickness: 1 mm\n" PULLED("24 us") REACTION
     "variables: {h: 0.1 mm, e: (1 - 1/3)*27 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us)}\n"
     BODY("{disc: {centre: [0, 0], radius: 2.5 mm}}", "{ring: {centre: [0, 0], radius: 3 mm, inner: 1.7 mm}}")
     "initial: [{displacement_gradient: [[start, 0], [0, start]], velocity_gradient: [[rate, 0], [0, rate]]}]\n"
@@ -48,8 +48,8 @@ static const char disc[] =
     "    region: [{region: rim}, {intersect: {half-space: {point: [0, 0], normal: [0, 1]}}}]\n";
 
 static const char sheared[] =
-    "space: plane stress\nthickness: 1 mm\n" PULLED REACTION
-    "variables: {h: 0.1 mm, e: (1 + 1/3)*44.4 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us)}\n"
+    "space: plane stress\nthickness: 1 mm\n" PULLED("48 us") REACTION
+    "variables: {h: 0.1 mm, e: (1 + 1/3)*44.4 MPa/70 GPa, start: 0.6*e, rate: 0.5*e/(40 us)}\n"
     BODY("{box: {from: [-2 mm, -2 mm], to: [2 mm, 2 mm]}}",
          "[{all: true}, {subtract: {box: {from: [-1.4 mm, -1.4 mm], to: [1.4 mm, 1.4 mm]}}}]")
     "initial: [{displacement_gradient: [[-start, 0], [0, start]], velocity_gradient: [[-rate, 0], [0, rate]]}]\n"
@@ -63,7 +63,7 @@ static const char sheared[] =
  * cube. */
 #define EQUAL(value) "[[" value ", 0, 0], [0, " value ", 0], [0, 0, " value "]]"
 static const char cube[] =
-    "space: solid\n" PULLED "probes: [{point: {name: centre, at: [0, 0, 0]}}]\n"
+    "space: solid\n" PULLED("11 us") "probes: [{point: {name: centre, at: [0, 0, 0]}}]\n"
     "variables: {h: 0.1 mm, e: (1 - 2/4)*27.8 MPa/70 GPa, start: 0.9*e, rate: 0.5*e/(40 us)}\n"
     BODY("{box: {from: [-0.8 mm, -0.8 mm, -0.8 mm], to: [0.8 mm, 0.8 mm, 0.8 mm]}}",
          "[{all: true}, {subtract: {ball: {centre: [0, 0, 0], radius: 0.5 mm}}}]")
@@ -72,10 +72,11 @@ static const char cube[] =
     "    region: [{all: true}, {subtract: {box: {from: [-0.6 mm, -0.6 mm, -0.6 mm], "
     "to: [0.6 mm, 0.6 mm, 0.6 mm]}}}]\n";
 
-/* Scene of half a strip with an edge notch. The load grows to 0.65 P in 15 us and to 1.35 P in 80 us more. */
-#define RAMP "time: {table: [[0, 0], [15 us, 0.65], [95 us, 1.35]]}"
+/* Scene of half a strip with an edge notch. The load grows to 0.85 P in 15 us and to 1.1 P in 110 us more: a ramp four
+ * times as steep adds 3 to 5 % to the load at which the crack has run. */
+#define RAMP "time: {table: [[0, 0], [15 us, 0.85], [125 us, 1.1]]}"
 static const char notch[] =
-    "space: plane stress\nthickness: 1 mm\nduration: 95 us\nmethod: pd\ndamping: 1.5e6\n"
+    "space: plane stress\nthickness: 1 mm\nduration: 125 us\nmethod: pd\ndamping: 1.5e6\n"
     "contact: {between: none}\nparticles: {spacing: h}\nprobes: [{tip: {at: [notch, 0]}}]\n"
     "output: {frames: 0, samples: 800}\n" MATERIALS
     "variables: {h: 0.1 mm, notch: 1 mm, P: 10.89 MPa}\n"
@@ -118,38 +119,45 @@ static const char cantilever[] =
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest absolute value of a column of the history that a run has written to `folder`; NAN if the history
- * cannot be read. */
+#define SETTLED 1e-6 /* time at which waves from a strain given at the start have crossed a body [s] */
+
+/* Returns the largest value of a column of the history in `folder`, from the time SETTLED until the column has fallen
+ * to half of it: broken bodies swing. Returns NAN if the history cannot be read. */
 static double column_peak(const char *folder, const char *column)
 {
     struct history h;
-    double peak = NAN;
+    double peak = 0;
     if (history_read(&h, folder) != OK) return NAN;
-    const int at = history_find_column(&h, column);
-    for (int64_t k = 0; k < h.rows; k++) peak = fmax(peak, fabs(history_value_at(&h, k, at)));
+    const int at = history_find_column(&h, column), time = history_find_column(&h, "time");
+    for (int64_t k = 0; k < h.rows; k++) {
+        const double value = history_value_at(&h, k, at);
+        if (history_value_at(&h, k, time) < SETTLED) continue;
+        if (value < 0.5 * peak) break;
+        peak = fmax(peak, value);
+    }
     history_free(&h);
     return peak;
 }
 
-/* Returns the load of a notched strip over its expected value P at the time when the column `column` of the history in
- * `folder` first exceeds `limit` [1]; NAN if it never does. limit: in the unit of the column. */
-static double load_share(const char *folder, const char *column, double limit)
+/* Returns the load of a notched strip [MPa] when the column `column` of the history first exceeds `limit`; NAN if it
+ * does not. */
+static double load_at(const char *folder, const struct circle_run *r, const char *column, double limit)
 {
     struct history h;
     double share = NAN;
     if (history_read(&h, folder) != OK) return NAN;
     const int at = history_find_column(&h, column), time = history_find_column(&h, "time");
     for (int64_t k = 0; k < h.rows && isnan(share); k++)
-        if (history_value_at(&h, k, at) > limit) share = 0.65 + 0.7 * (history_value_at(&h, k, time) / 80e-6 - 0.1875);
+        if (history_value_at(&h, k, at) > limit) share = 0.85 + 0.25 * (history_value_at(&h, k, time) - 15e-6) / 110e-6;
     history_free(&h);
-    return share;
+    return strtod(r->of->set[CIRCLE_LOAD].value, NULL) * share;
 }
 
 /* Returns the largest mean stress during a run: the force on the boundary `top` over the cross section of the specimen
  * [MPa]. folder: output of the run r; NAN if it cannot be read. */
 static double stress_peak(const char *folder, const struct circle_run *r)
 {
-    return column_peak(folder, "reaction.force_y") / circle_specimen[r->of->specimen].area / 1e6;
+    return column_peak(folder, "reaction.force_y") / (r->section * circle_specimen[r->of->specimen].area) / 1e6;
 }
 
 /* Returns the largest stress yy at the centre of a body during a run [MPa]. folder: output of the run; r: not used; NAN
@@ -167,7 +175,7 @@ static double notch_load(const char *folder, const struct circle_run *r)
     if (history_read(&h, folder) != OK) return NAN;
     const double tip = h.rows > 0 ? history_value_at(&h, 0, history_find_column(&h, "tip.x")) : NAN;
     history_free(&h);
-    return r->of->expected * load_share(folder, "tip.x", tip + 0.5e-3);
+    return load_at(folder, r, "tip.x", tip + 0.5e-3);
 }
 
 /* Returns the load of a notched strip at which the energy of a crack of 0.5 mm has been dissipated [MPa]. It serves for
@@ -175,7 +183,7 @@ static double notch_load(const char *folder, const struct circle_run *r)
 static double short_notch_load(const char *folder, const struct circle_run *r)
 {
     const double halves = r->degrees ? 2 : 1;
-    return r->of->expected * load_share(folder, "fracture", halves * CIRCLE_TOUGHNESS * 0.25e-3 * 1e-3);
+    return load_at(folder, r, "fracture", halves * CIRCLE_TOUGHNESS * 0.25e-3 * 1e-3);
 }
 
 /* Returns the largest load of a notched strip in a run with load steps [MPa]. folder: output of the run; r: not
@@ -209,12 +217,12 @@ static double cantilever_load(const char *folder, const struct circle_run *r)
 
 /* clang-format off */
 const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
-    [CIRCLE_STRIP] = {"strip", NULL, strip, {-2.5e-3, -6e-3}, {2.5e-3, 6e-3}, 0, {0}, 5e-6, stress_peak},
-    [CIRCLE_DISC] = {"disc", NULL, disc, {-2.5e-3, -2.5e-3}, {2.5e-3, 2.5e-3}, 2.5e-3, {0}, 5e-6, stress_peak},
-    [CIRCLE_SQUARE] = {"square", NULL, sheared, {-2e-3, -2e-3}, {2e-3, 2e-3}, 0, {0}, 4e-6, stress_peak},
+    [CIRCLE_STRIP] = {"strip", NULL, strip, {-2.5e-3, -6e-3}, {2.5e-3, 6e-3}, 0, {0}, 0, 5e-6, stress_peak},
+    [CIRCLE_DISC] = {"disc", NULL, disc, {-2.5e-3, -2.5e-3}, {2.5e-3, 2.5e-3}, 2.5e-3, {0}, 0, 5e-6, stress_peak},
+    [CIRCLE_SQUARE] = {"square", NULL, sheared, {-2e-3, -2e-3}, {2e-3, 2e-3}, 0, {0}, 0, 4e-6, stress_peak},
     [CIRCLE_CUBE] = {.name = "cube", .text = cube, .measure = centre_peak},
-    [CIRCLE_NOTCH] = {"notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 5e-6, notch_load},
-    [CIRCLE_SHORT_NOTCH] = {"short_notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 5e-6,
+    [CIRCLE_NOTCH] = {"notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3, 5e-6, notch_load},
+    [CIRCLE_SHORT_NOTCH] = {"short_notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3, 5e-6,
                             short_notch_load},
     [CIRCLE_NOTCH_STEPS] = {.name = "notch_steps", .path = "inputs/strength_notch.yaml", .measure = steps_load},
     [CIRCLE_PURE_SHEAR] = {.name = "pure_shear", .text = pure_shear, .measure = shear_opening},
@@ -224,22 +232,36 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees)
+/* Adds a particle at y [m] to the sums of a list: of its section, weighted by a triangle over the middle half of the
+ * body's height, and of its loaded layer. volume [m^3]. */
+static void list_add(struct circle_list *list, const struct circle_specimen *s, double y, double volume)
+{
+    const double reach = 0.5 * s->to[1], width = s->to[0] - s->from[0], section = 1e-3 * width;
+    list->section += volume * fmax(0, 1 - fabs(y) / reach) / (reach * section);
+    if (s->loaded > 0 && y > s->to[1] - s->loaded) list->layer += volume / (s->loaded * section);
+}
+
+status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees, double middle,
+                         struct circle_list *list)
 {
     char *text = NULL;
     size_t length = 0;
     const double along = cos(degrees * M_PI / 180), across = sin(degrees * M_PI / 180);
-    const int most = (int)ceil(hypot(s->to[0] - s->from[0], s->to[1] - s->from[1]) / spacing);
+    const int most = (int)ceil((hypot(s->to[0] - s->from[0], s->to[1] - s->from[1]) + fabs(middle)) / spacing);
     FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
     fprintf(to, "x,y,volume\n");
+    *list = (struct circle_list){0, s->loaded > 0 ? 0 : 1};
     for (int p = -most; p <= most; p++)
         for (int q = -most; q <= most; q++) { /* no particle is on y = 0 */
-            const double x = spacing * (along * (p + 0.5) - across * q), y = spacing * (across * (p + 0.5) + along * q);
+            const double x = middle + spacing * (along * (p + 0.5) - across * q);
+            const double y = spacing * (across * (p + 0.5) + along * q), volume = 1e-3 * spacing * spacing;
             const bool in = x > s->from[0] && x < s->to[0] && y > s->from[1] && y < s->to[1];
-            if (in && (s->radius == 0 || hypot(x, y) < s->radius))
-                fprintf(to, "%.17g,%.17g,%.17g\n", x, y, 1e-3 * spacing * spacing);
+            if (!in || (s->radius > 0 && hypot(x, y) >= s->radius)) continue;
+            fprintf(to, "%.17g,%.17g,%.17g\n", x, y, volume);
+            list_add(list, s, y, volume);
         }
+    if (s->radius > 0) list->section = 1; /* a triangle over a disc is no section */
     const status written = fclose(to) == 0 ? file_write_whole(path, text, length)
                                            : status_set(FAILED, "cannot write %s: out of memory", path);
     free(text);

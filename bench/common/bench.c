@@ -35,7 +35,7 @@ static const struct bench benches[] = {
     {"uncertainty", bench_uncertainty, false, "error bars of cleave converge beside exact values"},
     {"pilot", bench_pilot, false, "errors of method: auto beside the requested ones"},
     {"laws", bench_laws, false, "metals that flow beside closed forms and published values"},
-    {"circles", bench_circles, false, "strength: the nine circles of elastic brittle fracture"},
+    {"circles", bench_circles, false, "strength: the nine circles of brittle fracture; circles=NAME: a part"},
     {"slow", bench_slow, false, "load steps beside linear elastic fracture mechanics"},
     {"experiments", bench_experiments, true, "published experiments and other codes; hours"}};
 /* clang-format on */
@@ -46,10 +46,30 @@ static const struct {
     const char *old, *name;
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
-/* Beginnings of arguments that select a part of a bench. After `accuracy=`: the name of a problem, or another
- * argument of bench_accuracy_of. After `stability=`: `lasting`, or a part of the name of a case, of which only the
- * long map is then made. */
-static const char accuracy_of[] = "accuracy=", stability_of[] = "stability=";
+/* Arguments NAME=WORD that select a part of a bench. The word of `accuracy`: the name of a problem, or another argument
+ * of bench_accuracy_of. That of `stability`: `lasting`, or a part of the name of a case, of which only the long map is
+ * then made. That of `circles`: a part of the names of circles. */
+struct bench_part {
+    const char *start;
+    status (*call)(const char *word, bool quick);
+    const char *word; /* the word that is given, or NULL */
+};
+static const struct bench_part bench_parts[] = {{"circles=", bench_circles_of, NULL},
+                                                {"stability=", bench_stability_of, NULL},
+                                                {"accuracy=", bench_accuracy_of, NULL}};
+enum { PARTS = COUNT_OF(bench_parts) };
+
+/* Stores the word of an argument that selects a part of a bench in part[PARTS]. Returns false if it selects none. */
+static bool part_mark(const char *argument, struct bench_part *part)
+{
+    for (int k = 0; k < PARTS; k++) {
+        const size_t length = strlen(part[k].start);
+        if (strncmp(argument, part[k].start, length) != 0) continue;
+        part[k].word = argument + length;
+        return true;
+    }
+    return false;
+}
 
 static status bench_mark(const char *word, bool *asked)
 {
@@ -94,24 +114,22 @@ static void benches_print(void)
 status command_bench(int argc, char **argv)
 {
     bool asked[BENCHES] = {false}, quick = false, readme = false, any = false, all = false;
-    const char *only = NULL, *lasting = NULL;
+    struct bench_part part[PARTS];
+    memcpy(part, bench_parts, sizeof part);
     for (int k = 1; k < argc; k++) {
         const bool faster = !strcmp(argv[k], "--quick"), written = !strcmp(argv[k], "--readme");
         quick |= faster, readme |= written;
         if (faster || written) continue;
         if (!strcmp(argv[k], "all"))
             all = true;
-        else if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of)))
-            only = argv[k] + strlen(accuracy_of);
-        else if (!strncmp(argv[k], stability_of, strlen(stability_of)))
-            lasting = argv[k] + strlen(stability_of);
-        else
+        else if (!part_mark(argv[k], part))
             TRY(bench_mark(argv[k], asked));
         any = true;
     }
     if (!any) return benches_print(), OK;
     for (int k = 0; k < BENCHES; k++)
         if (asked[k] || (all && !benches[k].apart)) TRY(bench_call(&benches[k], quick, readme));
-    if (lasting) TRY(bench_stability_of(lasting, quick));
-    return only ? bench_accuracy_of(only, quick) : OK;
+    for (int k = 0; k < PARTS; k++)
+        if (part[k].word) TRY(part[k].call(part[k].word, quick));
+    return OK;
 }

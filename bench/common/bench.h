@@ -337,8 +337,11 @@ status bench_laws(bool quick);
  * only. */
 status bench_circles(bool quick);
 
-/* Compares static runs with load steps with linear elastic fracture mechanics (bench_slow.c). quick: fewer cases and
- * coarse spacings. */
+/* Runs and prints only those cases of bench_circles whose circle's name contains `only`, as `notch 1.5`. REFUSED if
+ * there is none. */
+status bench_circles_of(const char *only, bool quick);
+
+/* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
 status bench_slow(bool quick);
 
 /* Measures how start time, length, angle and energy of cracks depend on the time step (bench_steps.c). quick: short

@@ -19,12 +19,13 @@ static const char *verdict_on(const struct circle_case *c, double spacing, doubl
 }
 
 /* A value on the edge of the tolerance holds, one beyond it and none at all are missed. A notch of 0.5 mm has three
- * horizons up to a spacing of 0.0553 mm. */
+ * horizons up to a spacing of 0.0553 mm; a case with a limit of its own has that one alone: 0.345 l is 0.0501 mm. */
 static void verdicts_follow_the_tolerance(void **state)
 {
     (void)state;
     const struct circle_case c = {.expected = 27, .tolerance = 1},
-                             notch = {.expected = 17.83, .tolerance = 0.89, .crack = 0.5};
+                             notch = {.expected = 17.83, .tolerance = 0.89, .crack = 0.5},
+                             limited = {.expected = 35, .tolerance = 5, .crack = 0.1, .horizon = 0.345};
     assert_string_equal(verdict_on(&c, 0.1, 28), "holds");
     assert_string_equal(verdict_on(&c, 0.1, 26), "holds");
     assert_string_equal(verdict_on(&c, 0.1, 28.01), "MISSED");
@@ -33,6 +34,9 @@ static void verdicts_follow_the_tolerance(void **state)
     assert_string_equal(verdict_on(&notch, 0.056, 17.83), "-");
     assert_string_equal(verdict_on(&notch, 0.055, 17.83), "holds");
     assert_string_equal(verdict_on(&notch, 0.055, 12), "MISSED");
+    assert_string_equal(verdict_on(&limited, 0.051, 12), "-");
+    assert_string_equal(verdict_on(&limited, 0.05, 12), "MISSED");
+    assert_string_equal(verdict_on(&limited, 0.05, 30), "holds");
 }
 
 /* Each of the nine circles has a case, and each case has runs from coarse to fine or a reason for none. */
@@ -43,8 +47,9 @@ static void each_circle_has_runs_or_a_reason(void **state)
     for (int k = 0; k < circle_cases_count; k++) {
         const struct circle_case *c = &circle_cases[k];
         seen[c->circle[0] - '0'] = true;
-        assert_true((c->spacing[0] > 0) == (c->why == NULL));
-        assert_true(c->why || (c->expected > 0 && c->tolerance > 0 && c->tolerance < 0.15 * c->expected));
+        const bool runs = circle_has_runs(c);
+        assert_true(runs || c->why);
+        assert_true(!runs || (c->expected > 0 && c->tolerance > 0 && c->tolerance < 0.15 * c->expected));
         for (int j = 1; j < CIRCLE_SPACINGS; j++) {
             assert_true(c->spacing[j] < c->spacing[j - 1] || c->spacing[j] == 0);
             assert_true(c->turned[j] < c->turned[j - 1] || c->turned[j] == 0);
@@ -54,21 +59,23 @@ static void each_circle_has_runs_or_a_reason(void **state)
     for (int k = 1; k <= 9; k++) assert_true(seen[k]);
 }
 
-/* Writes a specimen as a list of particles on a lattice of the spacing [m] that is turned by `degrees`, checks that the
- * particles lie on the lattice and that none is on y = 0, and returns the sum of their volumes [m^3]. */
-static double volume_of_list(const struct circle_specimen *specimen, double spacing, int degrees)
+/* Writes a specimen as a list of particles on a lattice of the spacing [m] that is turned by `degrees` about `middle`
+ * [m], checks that the particles lie on the lattice and that none is on y = 0, and returns the sum of their volumes
+ * [m^3]. Stores the sizes of the body in *list. */
+static double volume_of_list(const struct circle_specimen *specimen, double spacing, int degrees, double middle,
+                             struct circle_list *list)
 {
     const double c = cos(degrees * M_PI / 180), s = sin(degrees * M_PI / 180);
     char path[] = "/tmp/test_circles_XXXXXX", line[128];
     const int file = mkstemp(path);
     assert_true(file >= 0 && close(file) == 0);
-    assert_int_equal(circle_list_write(path, specimen, spacing, degrees), OK);
+    assert_int_equal(circle_list_write(path, specimen, spacing, degrees, middle, list), OK);
     FILE *from = fopen(path, "r");
     double x, y, volume, sum = 0;
     assert_non_null(fgets(line, sizeof line, from));
     assert_string_equal(line, "x,y,volume\n");
     while (fscanf(from, "%lf,%lf,%lf", &x, &y, &volume) == 3) {
-        const double along = (c * x + s * y) / spacing, across = (c * y - s * x) / spacing;
+        const double along = (c * (x - middle) + s * y) / spacing, across = (c * y - s * (x - middle)) / spacing;
         assert_true(fabs(along - floor(along) - 0.5) < 1e-9);
         assert_true(fabs(across - round(across)) < 1e-9);
         assert_true(fabs(y) > (degrees == 45 ? 0.3 : 1e-4) * spacing);
@@ -88,9 +95,26 @@ static void turned_bodies_have_their_volume(void **state)
     const double area[] = {5e-3 * 12e-3, M_PI * 2.5e-3 * 2.5e-3};
     for (int k = 0; k < 2; k++)
         for (int j = 0; j < 2; j++) {
-            const double volume = volume_of_list(&circle_specimen[specimen[k]], spacing, degrees[j]);
+            struct circle_list list;
+            const double volume = volume_of_list(&circle_specimen[specimen[k]], spacing, degrees[j], 0, &list);
             assert_true(fabs(volume / (area[k] * thickness) - 1) < 0.01);
+            assert_true(list.layer == 1);
         }
+}
+
+/* On a lattice turned by 45 degrees rows are spacing/sqrt(2) apart. Of spacing 0.1 mm, with a gap in the middle, a
+ * strip 5 mm wide has 70 of them, 0.99 of its section, and one that is notched by 1 mm has 14 in the notch, 57 before
+ * it, and 7 in the loaded layer of 0.5 mm. */
+static void turned_bodies_tell_their_section(void **state)
+{
+    (void)state;
+    struct circle_list list;
+    const double row = 0.1e-3 / sqrt(2);
+    volume_of_list(&circle_specimen[CIRCLE_STRIP], 0.1e-3, 45, 0, &list);
+    assert_true(fabs(list.section / (70 * row / 5e-3) - 1) < 1e-3); /* sum over rows in place of the integral */
+    volume_of_list(&circle_specimen[CIRCLE_NOTCH], 0.1e-3, 45, 1e-3, &list);
+    assert_true(fabs(list.section / (71 * row / 5e-3) - 1) < 1e-3);
+    assert_true(fabs(list.layer / (71 * row / 5e-3 * 7 * row / 0.5e-3) - 1) < 5e-3); /* rows have unequal numbers */
 }
 
 int main(void)
@@ -99,6 +123,7 @@ int main(void)
         cmocka_unit_test(verdicts_follow_the_tolerance),
         cmocka_unit_test(each_circle_has_runs_or_a_reason),
         cmocka_unit_test(turned_bodies_have_their_volume),
+        cmocka_unit_test(turned_bodies_tell_their_section),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
