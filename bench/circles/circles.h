@@ -91,7 +91,7 @@ struct circle_list {
 };
 
 /* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `degrees`; columns
- * x, y, volume. x = `middle` [m], the tip of a crack, is half-way between rows of a lattice turned by 45 degrees.
+ * x, y, volume. x = `middle` [m] is half-way between rows of a lattice turned by 45 degrees.
  * spacing [m]; the thickness is 1 mm. Stores the sizes of the body in *list. FAILED if the file cannot be written. */
 status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees, double middle,
                          struct circle_list *list);

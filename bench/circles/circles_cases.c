@@ -22,7 +22,8 @@
  * - Notches of 3.3 horizons on a lattice at 45 degrees: what the separate program finds on such a lattice, 6 and 10 %
  *   below Griffith.
  * - Load steps at 1.38 l, kappa 1.03: the lattice traps the crack, and loads swing by 20 %. The largest one is that of
- *   the separate program, in steps of 0.004 mm. */
+ *   the separate program, in steps of 0.004 mm. For the cantilevers that program finds 20.6 N, for pure shear 1.087 um,
+ *   both beyond the tolerance: nothing is asked there. */
 #define NOTCH(length, load)                                                                                            \
     {"variables.notch", length}, { "variables.P", load }
 #define SHEAR_HORIZON 0.345 /* that of a spacing of 0.05 mm, 0.34 l */
@@ -48,7 +49,8 @@ const struct circle_case circle_cases[] = {
     {"1 tension", "strength, softening", "MPa", 40, 1.6, CIRCLE_STRIP, false, {{0}}, {0}, {0.2, 0.1}, {45}, 0, 0, NULL},
     {"1 tension", "strength, softening", "MPa", 40, 1.6, CIRCLE_STRIP, false, {FAST},
      {0.025}, {0.025}, {20, 45}, 0, 0, NULL},
-    {"1 tension", "strength, softening", "MPa", 35.9, 1.44, CIRCLE_STRIP, false, {{0}}, {0}, {0.2}, {20}, 0, 0, STEPPED},
+    {"1 tension", "strength, softening", "MPa", 35.9, 1.44, CIRCLE_STRIP, false, {{0}},
+     {0}, {0.2}, {20}, 0, 0, STEPPED},
     {"1 tension", "strength, softening", "MPa", 38.35, 1.53, CIRCLE_STRIP, false, {{0}},
      {0}, {0.05}, {45}, 0, 0, DIAGONAL},
     {"1 tension", "strength, surface", "MPa", 40, 1.2, CIRCLE_STRIP, true, {{0}},

@@ -221,9 +221,10 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
     [CIRCLE_DISC] = {"disc", NULL, disc, {-2.5e-3, -2.5e-3}, {2.5e-3, 2.5e-3}, 2.5e-3, {0}, 0, 5e-6, stress_peak},
     [CIRCLE_SQUARE] = {"square", NULL, sheared, {-2e-3, -2e-3}, {2e-3, 2e-3}, 0, {0}, 0, 4e-6, stress_peak},
     [CIRCLE_CUBE] = {.name = "cube", .text = cube, .measure = centre_peak},
-    [CIRCLE_NOTCH] = {"notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3, 5e-6, notch_load},
-    [CIRCLE_SHORT_NOTCH] = {"short_notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3, 5e-6,
-                            short_notch_load},
+    [CIRCLE_NOTCH] = {"notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3, 5e-6,
+                      notch_load},
+    [CIRCLE_SHORT_NOTCH] = {"short_notch", NULL, notch, {0, -6e-3}, {5e-3, 6e-3}, 0, {"boundary.1", LOWER_LOAD}, 0.5e-3,
+                            5e-6, short_notch_load},
     [CIRCLE_NOTCH_STEPS] = {.name = "notch_steps", .path = "inputs/strength_notch.yaml", .measure = steps_load},
     [CIRCLE_PURE_SHEAR] = {.name = "pure_shear", .text = pure_shear, .measure = shear_opening},
     [CIRCLE_CANTILEVER] = {.name = "cantilevers", .text = cantilever, .measure = cantilever_load},
@@ -234,7 +235,7 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
 
 /* Adds a particle at y [m] to the sums of a list: of its section, weighted by a triangle over the middle half of the
  * body's height, and of its loaded layer. volume [m^3]. */
-static void list_add(struct circle_list *list, const struct circle_specimen *s, double y, double volume)
+static void circle_list_add(struct circle_list *list, const struct circle_specimen *s, double y, double volume)
 {
     const double reach = 0.5 * s->to[1], width = s->to[0] - s->from[0], section = 1e-3 * width;
     list->section += volume * fmax(0, 1 - fabs(y) / reach) / (reach * section);
@@ -259,7 +260,7 @@ status circle_list_write(const char *path, const struct circle_specimen *s, doub
             const bool in = x > s->from[0] && x < s->to[0] && y > s->from[1] && y < s->to[1];
             if (!in || (s->radius > 0 && hypot(x, y) >= s->radius)) continue;
             fprintf(to, "%.17g,%.17g,%.17g\n", x, y, volume);
-            list_add(list, s, y, volume);
+            circle_list_add(list, s, y, volume);
         }
     if (s->radius > 0) list->section = 1; /* a triangle over a disc is no section */
     const status written = fclose(to) == 0 ? file_write_whole(path, text, length)

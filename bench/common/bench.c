@@ -60,7 +60,7 @@ static const struct bench_part bench_parts[] = {{"circles=", bench_circles_of, N
 enum { PARTS = COUNT_OF(bench_parts) };
 
 /* Stores the word of an argument that selects a part of a bench in part[PARTS]. Returns false if it selects none. */
-static bool part_mark(const char *argument, struct bench_part *part)
+static bool bench_part_mark(const char *argument, struct bench_part *part)
 {
     for (int k = 0; k < PARTS; k++) {
         const size_t length = strlen(part[k].start);
@@ -122,7 +122,7 @@ status command_bench(int argc, char **argv)
         if (faster || written) continue;
         if (!strcmp(argv[k], "all"))
             all = true;
-        else if (!part_mark(argv[k], part))
+        else if (!bench_part_mark(argv[k], part))
             TRY(bench_mark(argv[k], asked));
         any = true;
     }

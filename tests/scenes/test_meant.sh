@@ -270,6 +270,10 @@ near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles=
 says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.66 horizons' "$bar"
 says "a list that is none" '^accuracy  *body p: parts of its list are 5 layers thin: with pd.surface: volume .* 39 % in bending and tension, 50 % in twisting; with pd.surface: moments by about 3 % in bending and tension, 15 %' "$bar" \
     -s bodies.p.particles="$work/shaken.csv"
+weights='its list is no lattice along the axes, for which pd.weights: isotropic is made'
+says "weights of a list that is no lattice" "^accuracy  *body p: $weights" "$bar" -s bodies.p.particles="$work/shaken.csv"
+silent "weights of a lattice" "$weights" "$bar"
+silent "equal weights" "$weights" "$bar" -s bodies.p.particles="$work/shaken.csv" -s pd.weights=uniform
 
 # ---- sections ------------------------------------------------------------------------------------------------------------
 
