@@ -100,13 +100,14 @@ static const char *const cook[] = {
     "material: {young: 70 MPa, poisson: 0.4999, density: 1000}\nparticles: {spacing: h}\n"
     "body: {polygon: {corners: [[0, 0], [48 mm, 44 mm], [48 mm, 60 mm], [0, 44 mm]]}}\nboundary:\n"
     "  - {name: wall, fixed: all, region: {box: {from: [-inf, -inf], to: [h, inf]}}}\n"
-    "  - {name: end, traction: [0, 6.25 kPa], face: x+, region: {box: {from: [45 mm, -inf], to: [inf, inf]}}}\n",
+    "  - {name: end, traction: [0, 6.25 kPa], face: x+, region: {box: {from: [48 mm - h, -inf], to: [inf, inf]}}}\n",
     "name: cook\nvariables: {h: 1 mm}\nspace: solid\nduration: 1 s\nmethod: mpm\n"
     "material: {young: 70 MPa, poisson: 0.4999, density: 1000}\nparticles: {spacing: h}\n"
     "body: {extrude: {shape: {polygon: {corners: [[0, 0], [48 mm, 44 mm], [48 mm, 60 mm], [0, 44 mm]]}}, from: 0, "
     "to: 2*h}}\nboundary:\n"
     "  - {name: wall, fixed: all, region: {box: {from: [-inf, -inf, -inf], to: [h, inf, inf]}}}\n"
-    "  - {name: end, traction: [0, 6.25 kPa, 0], face: x+, region: {box: {from: [45 mm, -inf, -inf], to: [inf, inf, "
+    "  - {name: end, traction: [0, 6.25 kPa, 0], face: x+, region: {box: {from: [48 mm - h, -inf, -inf], to: [inf, "
+    "inf, "
     "inf]}}}\n"
     "  - {name: sides, fixed: [z], region: {box: {from: [-inf, -inf, -inf], to: [inf, inf, inf]}}}\n"};
 
