@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "partial_parts.h"
 
 /* A growing list of particle indices. */
 struct index_list {
@@ -19,10 +20,8 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Finds the particles and mirror images within the cutoff of bonds around particle i, and stores them in near->at. map:
- * map from lattice sites to particles, which makes this faster; NULL: neighbours are searched for. */
-static void family_find(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
-                        const struct particles *p, int64_t i)
+void particle_find_family(struct neighbour_list *near, const struct bond_source *s, const struct site_map *map,
+                          const struct particles *p, int64_t i)
 {
     if (map && map->at) {
         if (near->room < map->most) {
@@ -58,7 +57,7 @@ void convert_particles_at_precracks(struct particles *p, const struct bond_sourc
             particle_reference_position(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
             if (!particle_is_near_crack(source, p, i)) continue;
-            family_find(&near, source, NULL, p, i);
+            particle_find_family(&near, source, NULL, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
         memory_free(near.at);
@@ -138,7 +137,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         }
         become_peridynamic(p, changed, i);
         if (!rule->block) continue;
-        family_find(&near, source, map, p, i);
+        particle_find_family(&near, source, map, p, i);
         for (int m = 0; m < near.n; m++) {
             const int64_t j = image_source_particle(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
@@ -167,7 +166,7 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     struct neighbour_list near = {0};
     if (!sync) return;
     for (int64_t k = 0; k < changed->n; k++) {
-        family_find(&near, source, map, p, changed->at[k]);
+        particle_find_family(&near, source, map, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
         for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_source_particle(p, source->image, near.at[m]));
     }

@@ -4,6 +4,13 @@
 #define CLEAVE_PARTIAL_PARTS
 
 #include "bonds/bonds.h"
+#include "bonds/sites.h"
+#include "data/cells.h"
+
+/* Lists the particles and mirror images within the cutoff of bonds around particle i, without i, in near->at and their
+ * number in near->n. map: map of the lattice sites of the bonds, which makes this faster; NULL: a search is done. */
+void particle_find_family(struct neighbour_list *near, const struct bond_source *source, const struct site_map *map,
+                          const struct particles *p, int64_t i);
 
 /* Returns the share of the length of the segment from a to b (dim components [m]) that is inside a square or cube [1].
  * X: middle of the cube; half_edge: half of its edge [m]. */

@@ -250,21 +250,26 @@ enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
 /* Sets bits in mark[particles]. DIRTY: particles within `radius` [m] of changed ones; their stored values must be
  * recomputed. OTHERS_ROW: particles up to `reach` [m] farther; their rows may have bonds that cross cells of DIRTY
- * ones. OWN: the n changed particles themselves. changed: their indices; NULL: all peridynamic particles. */
-static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
-                       const int32_t *changed, int64_t n)
+ * ones. OWN: the n changed particles themselves. map: map of lattice sites, NULL: none; with reach 0 it gives the
+ * particles within the cutoff of bonds, `radius`. changed: indices of the changed particles; NULL: all peridynamic
+ * particles. */
+static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s,
+                       const struct site_map *map, real radius, real reach, const int32_t *changed, int64_t n)
 {
     struct neighbour_list near = {0};
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
         const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
-        particles_find_near_unordered(&near, s->cells, p, i, radius + reach, true);
+        if (reach == 0)
+            particle_find_family(&near, s, map, p, i);
+        else
+            particles_find_near_unordered(&near, s->cells, p, i, radius + reach, true);
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
-            for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
+            for (int d = 0; d < p->dim && reach > 0; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
             mark[image_source_particle(p, s->image, near.at[m])] |=
                 r2 <= radius * radius ? OTHERS_ROW | DIRTY : OTHERS_ROW;
         }
-        mark[i] |= OWN;
+        mark[i] |= OWN | OTHERS_ROW | DIRTY;
     }
     memory_free(near.at);
 }
@@ -297,7 +302,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
     const bool strange = !partial_table_covers_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
-    mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
+    mark_dirty(mark, p, s, b->site_map, radius, strange ? radius : 0, changed, n);
     const int64_t most = marked(mark, p->n, NULL);
     int32_t *list = NEW("partial.marked", most, int32_t);
     marked(mark, p->n, list);
