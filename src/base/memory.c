@@ -13,7 +13,7 @@
  * first write to pages; PAGE, LARGE_PAGE: of a page and of a large page; LARGE_ARRAY: of the smallest array on large
  * pages; SMALL_TAIL: of the end of an array that has small pages. On a virtual machine the system takes 18 us to
  * provide a page, and 0.2 to 2 ms for a large one, which replaces 512 (measured). */
-enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 1 << 20, SMALL_TAIL = 1 << 19 };
+enum { ALIGNMENT = 64, PIECE = 65536, PAGE = 4096, LARGE_PAGE = 2 << 20, LARGE_ARRAY = 3 << 19, SMALL_TAIL = 1 << 20 };
 
 /* Pages from mmap are used where the system has it, but not under the address sanitizer, which watches the heap
  * only. */

@@ -14,7 +14,7 @@ enum { PAYS = 400000 }; /* number of particles left out above which this saves t
 /* Ranges of cells around level 0 that have particles, as a margin for crack growth. MARGIN: around all of it; AHEAD:
  * around those cells of level 0 that had no particles before, as level 0 goes on growing there. Measured: fewer
  * particles and half as many replacements of the run as with one range of 8. */
-enum { MARGIN = 4, AHEAD = 24 };
+enum { MARGIN = 4, AHEAD = 16 };
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
@@ -216,14 +216,6 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-/* Returns true if points of the mesh convert to peridynamic particles by their stress, so that level 0 may grow. */
-static bool points_may_convert(const struct reference_frame *r)
-{
-    bool any = false;
-    for (int m = 0; m < r->source.materials; m++) any |= r->converts && isfinite(r->elastic[m].trigger);
-    return any;
-}
-
 bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level)
 {
     if (!r->hollow.absent) return true;
@@ -235,8 +227,7 @@ bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *lev
     }
     r->lacks = levels_need_more_particles(&r->mesh, level);
     if (!r->lacks) return true;
-    const int margin = points_may_convert(r) ? MARGIN : 0;
-    uint8_t *absent = absent_with(r, level, margin, margin);
+    uint8_t *absent = absent_with(r, level, 0, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
