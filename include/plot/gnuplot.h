@@ -19,6 +19,7 @@ struct gnuplot {
     FILE *complaints; /* standard error of gnuplot */
     int process;
     enum picture_format format;
+    bool untitled;      /* its title is empty (gnuplot_write_title), so that panels begin at its upper edge */
     int width, height;  /* size of the picture in which positions are given [pixel] */
     char *aside, *path; /* temporary and final path of the picture */
 };
@@ -61,7 +62,7 @@ bool gnuplot_is_narrow(void);
 
 /* Writes the commands for the title of a picture, which begins `left` pixels from its left edge. A title that is too
  * long for one line of letters of legible size is broken into two lines. */
-void gnuplot_write_title(const struct gnuplot *g, const char *text, double left);
+void gnuplot_write_title(struct gnuplot *g, const char *text, double left);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it from its temporary name to its final
  * path. Returns FAILED if gnuplot is missing (the message names the package to install), or if the picture is missing

@@ -6,7 +6,7 @@
 
 /* Margins of a picture as wide as a text page, and of a narrower one [pixel]. */
 enum { LEFT = 100, RIGHT = 24, AXIS = 100, ABOVE = 60, BELOW = 74 };
-enum { LEFT_NARROW = 80, RIGHT_NARROW = 18, AXIS_NARROW = 80, ABOVE_NARROW = 42, BELOW_NARROW = 52 };
+enum { LEFT_NARROW = 80, RIGHT_NARROW = 18, AXIS_NARROW = 80, ABOVE_NARROW = 42, BELOW_NARROW = 52, UNTITLED = 18 };
 
 /* Sizes in a picture of curves [pixel]. sample: width of an entry of the key without its text; letter: mean width of a
  * letter; row: distance of the lines of the key; tics: least distance of tics of a vertical axis; lower: least height
@@ -25,6 +25,7 @@ struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, si
                               .left = narrow ? LEFT_NARROW : LEFT,
                               .above = narrow ? ABOVE_NARROW : ABOVE,
                               .below = narrow ? BELOW_NARROW : BELOW};
+    if (g->untitled) l.above = UNTITLED;
     const struct sizes *of = sizes_now();
     const double entry = of->sample + of->letter * (double)longest;
     l.key_below = entries > 0 && (narrow || second_axis);
@@ -71,7 +72,7 @@ struct two_panels curves_two_panels(const struct curves_layout *l)
     return (struct two_panels){inner - low - PANEL_GAP, inner - low, inner};
 }
 
-void curves_write_title(const struct gnuplot *g, const char *title, const char *what)
+void curves_write_title(struct gnuplot *g, const char *title, const char *what)
 {
     char text[512];
     const size_t length = strlen(title);

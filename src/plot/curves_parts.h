@@ -79,9 +79,8 @@ void curves_write_tics(FILE *to, const char *axis, double low, double high, doub
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for a heading above the picture. The heading is `title`, followed by `what` if `title`
- * ends in a space. */
-void curves_write_title(const struct gnuplot *g, const char *title, const char *what);
+/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
+void curves_write_title(struct gnuplot *g, const char *title, const char *what);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
  * range and label. s: history that is drawn. */

@@ -235,8 +235,9 @@ static size_t break_of(const char *text)
     return best;
 }
 
-void gnuplot_write_title(const struct gnuplot *g, const char *text, double left)
+void gnuplot_write_title(struct gnuplot *g, const char *text, double left)
 {
+    g->untitled = !*text;
     const size_t length = strlen(text);
     const double room = g->width - left - 12, most = gnuplot_is_narrow() ? TITLE_NARROW : TITLE_LARGE;
     const size_t cut = LETTER_WIDE * TITLE_ONE_LINE * letters_of(text, length) > room ? break_of(text) : length;

@@ -101,7 +101,8 @@ struct layout maps_layout_choose(const struct maps_shown *m, int panels, double 
         for (int columns = 1; columns <= panels; columns++) {
             const struct layout l = layout_settled(m, under, columns, panels, aspect);
             const double area = (double)l.panel_width * l.panel_height;
-            const double shape = fixed ? 0 : fabs(log((double)l.height / l.width / SHAPE_WANTED));
+            const double tall = log((double)l.height / l.width / SHAPE_WANTED);
+            const double shape = fixed ? 0 : picture_size_get().width ? fmax(tall, 0) : fabs(tall);
             double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER;
             cost += 0.2 * (l.rows * l.columns - panels); /* empty panels */
             if (cost >= best_cost) continue;

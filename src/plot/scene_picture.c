@@ -248,8 +248,7 @@ static void set_scene_key(FILE *to, const struct layout *l, const struct marks *
 }
 
 /* Writes the title of the picture of a scene: `title`, or if it is NULL the name of the scene and its particles. */
-static void draw_scene_title(const struct gnuplot *g, const struct scene *s, const struct particles *part,
-                             const char *title)
+static void draw_scene_title(struct gnuplot *g, const struct scene *s, const struct particles *part, const char *title)
 {
     const struct unit metre = unit_for_length(s->spacing);
     char text[TEXT_ROOM];

@@ -11,6 +11,7 @@
 #include "output/picture_file.h"
 #include "plot/plot.h"
 #include "study/convergence_study.h"
+#include "study_internal.h"
 
 /* Largest number of figures that are drawn, and of panels side by side; largest number of crack tips that are
  * followed. */
@@ -138,7 +139,7 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
     if (k > 0)
         fputs("unset key\n", to);
     else if (gnuplot_is_narrow())
-        fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2\n", 8.0 / l->width,
+        fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2 width -3\n", 8.0 / l->width,
                 (KEY_HIGH - 4.0) / l->height);
     else
         fprintf(to, "set key at screen %.5f,%.5f left top\n", 1 - (double)KEY_WIDE / l->width,
@@ -305,6 +306,19 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
     }
 }
 
+/* Writes the ranges of the axes of the paths, which have one scale, and their tics, so far apart that numbers do not
+ * touch. wide, high: room of the panel [pixel]. */
+static void paths_write_axes(FILE *to, const struct extent *e, double wide, double high)
+{
+    const double range[2] = {e->high[0] - e->low[0], e->high[1] - e->low[1]};
+    const double scale = fmin(wide / range[0], high / range[1]);
+    for (int d = 0; d < 2; d++) {
+        const double low = 1e3 * e->low[d], high_end = 1e3 * e->high[d], numbers = scale * range[d] / (d ? 20 : 52);
+        fprintf(to, "set %crange [%.7g:%.7g]\nset %ctics %.9g\n", "xy"[d], low, high_end, "xy"[d],
+                axis_tick_distance(high_end - low, (int)fmax(numbers, 1)));
+    }
+}
+
 /* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
  * extent determines its height. Returns FAILED without memory or if gnuplot fails. */
 static status draw_paths(const struct convergence_study *s)
@@ -333,8 +347,7 @@ static status draw_paths(const struct convergence_study *s)
                 "runs'\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
                 "set bmargin at screen %.4f\n",
                 left / g.width, 1 - right / g.width, 1 - above / g.height, below / g.height);
-        for (int d = 0; d < 2 && plots.drawn > 0; d++)
-            fprintf(g.to, "set %crange [%.7g:%.7g]\n", "xy"[d], 1e3 * e.low[d], 1e3 * e.high[d]);
+        if (plots.drawn > 0) paths_write_axes(g.to, &e, g.width - left - right, g.height - above - below);
         fprintf(g.to,
                 plots.drawn > 0 ? "plot %s\n"
                                 : "set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 "

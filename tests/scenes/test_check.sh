@@ -465,5 +465,9 @@ slow() { test=$1 what=$2; shift 2; "$test" "$what" 'yield before they break' "$w
 slow says "bonds that yield before they break" -s material.yield_stress=5MPa
 slow silent "bonds that break before they yield"
 slow silent "no bonds" -s material.yield_stress=5MPa -s method=mpm
+# A rigid body that moves loads a body in load steps, where no boundary does.
+silent "a roller that moves" 'nothing loads the body' "$work/pulled.yaml" -s solver=static -s 'steps={number: 5}' -s 'duration=1 s' -s body= \
+    -s 'boundary=[{name: foot, fixed: all, face: y-}]' -s "bodies=[{name: plate, shape: {box: {from: [0, -20 mm], to: [80 mm, 20 mm]}}},
+    {name: roller, rigid: true, velocity: [0, -1 mm/s], shape: {disc: {centre: [40 mm, 25 mm], radius: 5 mm}}}]"
 
 finish

@@ -313,7 +313,7 @@ END
         uncut $picture
     done
     # In a column of a journal the panel takes most of the width: colour bar or names are below it, and the height is what they need.
-    "$cleave" run block.yaml -q -o halves -s duration=0.1us -s output.frames=1 -s 'bodies=[{name: lower, shape: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 3 mm]}}},
+    "$cleave" run block.yaml -q -o halves -s duration=0.1us -s output.frames=1 -s body= -s 'bodies=[{name: lower, shape: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 3 mm]}}},
         {name: upper, shape: {box: {from: [0, 0, 3 mm], to: [12 mm, 8 mm, 6 mm]}}}]' >out 2>err
     for case in "results/strip von_mises" "both kind" "results/block damage" "halves body"; do
         : >all
