@@ -353,6 +353,14 @@ is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
 is "sweep --of an unknown figure: exit status" $? 2
 holds "it names the nearest" grep -q "no such figure in sweep.csv; do you mean crack\." err
 
+# Numbers of a key without a unit are in SI, which the axis says, and so does the page.
+: >all
+"$cleave" sweep strip.yaml -s materials.0.energy_release_rate=10,20 --of energy.kinetic -o tough >out 2>err
+holds "the unit of a key: $(cat err)" grep -a -q "set label 'materials.0.energy_release_rate \[J/m^2\]'" all
+"$cleave" report tough -o new/page/tough.html >out 2>err
+is "report into a folder that is not there: $(cat err)" $? 0
+holds "the page has the unit of the key" grep -q '"materials.0.energy_release_rate": "J/m^2"' new/page/tough.html
+
 # Load over displacement of a rigid body that moves, from its columns; metres where they are meant; a bar has no length of cracks.
 mkdir pressed
 cat >pressed/history.csv <<'END'
