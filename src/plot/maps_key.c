@@ -117,7 +117,8 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
                        numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
-        draw_beyond(to, l, m->view, particles, end, x - 6, end ? l->above - 12 : l->above + length + 14, "left");
+        draw_beyond(to, l, m->view, particles, end, gnuplot_is_narrow() ? l->width - 4 : x - 6,
+                    end ? l->above - 12 : l->above + length + 14, gnuplot_is_narrow() ? "right" : "left");
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
 }
 

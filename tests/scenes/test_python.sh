@@ -189,6 +189,16 @@ if shutil.which("gnuplot"):
         values = _draw._values_of(frame, field)[0]
         holds("ends of the colours of " + field, np.allclose(_draw._limits(values, field, None), ends, rtol=2e-4))
 
+# faces of the pre-crack: two lines along it, that move with the particles beside it
+from cleave._shape import crack_faces
+faces = crack_faces(frame)
+holds("two faces", len(faces) == 2 and all(np.allclose(face[[0, -1], 0], [0, 9.9e-3], atol=2e-5) for face in faces))
+opened = crack_faces(frame, magnify=100)
+gap = np.interp(1e-3, opened[0][:, 0], opened[0][:, 1]) - np.interp(1e-3, opened[1][:, 0], opened[1][:, 1])
+above, below = (frame.slice(y=y) for y in (0.5e-3, -0.5e-3))
+wanted = 100 * np.mean([(above.positions - above.reference)[:2, 1] - (below.positions - below.reference)[:2, 1]])
+holds("as far apart as the particles: %g, %g" % (gap, wanted), gap > 0 and np.isclose(gap, wanted, rtol=0.1))
+
 # packages that only some functions need: one line says which and how to get it
 for name, need in (("matplotlib.pyplot", lambda: run.plot()), ("pandas", frame.to_pandas), ("pandas", history.to_pandas),
                    ("vtkmodules.vtkCommonDataModel", frame.to_vtk), ("pyvista", frame.to_pyvista), ("h5py", lambda: frame["id"])):

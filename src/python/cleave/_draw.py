@@ -10,7 +10,7 @@ import numpy as np
 from ._errors import need
 from ._fields import scale_of
 from ._rigid import outlines_of
-from ._shape import corners_of
+from ._shape import corners_of, crack_faces
 
 # The colours and their ends are those of `cleave plot` (src/plot/colours.c, plot_view.c).
 _EXTREME, _FEW = 0.002, 3                # share and number of the values beyond the end of the colour bar
@@ -20,6 +20,7 @@ _DAMAGE = [(0.0, (226, 228, 231)), (0.12, (246, 220, 190)), (0.35, (240, 160, 11
 _DIVERGING = [(k / 10, colour) for k, colour in enumerate([
     (5, 48, 97), (33, 102, 172), (67, 147, 195), (146, 197, 222), (200, 217, 228), (226, 226, 226), (240, 209, 192), (244, 165, 130),
     (214, 96, 77), (178, 24, 43), (103, 0, 31)])]
+_FACE = (122 / 255, 16 / 255, 32 / 255)  # of pre-cracks in pictures of damage
 _SIGNED = re.compile(r"(displacement|velocity)_[xyz]$|(stress|strain)_[xyz]{2}$|pressure$|principal_stress|principal_directions|strength_share")
 _FROM_LEAST = ("temperature", "density")
 _BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
@@ -193,6 +194,8 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     if len(outlines):
         ax.add_collection(LineCollection(long * outlines, colors="0.35", linewidths=1.0), autolim=False)
         ax.update_datalim(long * seen)
+    for face in crack_faces(frame, magnify):
+        ax.plot(*(long * face.T), color=_FACE if name == "damage" else "white", linewidth=1.0, scalex=False, scaley=False)
     ax.autoscale_view()
     ax.set_aspect("equal")
     ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))

@@ -44,6 +44,31 @@ def precracks(scene: str) -> List[np.ndarray]:
     return [segment for segment in segments if segment.shape == (2, 2)]
 
 
+def crack_faces(frame: Any, magnify: float = 1.0) -> List[np.ndarray]:
+    """Returns the faces of the pre-cracks of a plane frame as lines [m], each n x 2: the positions along a pre-crack, moved as the particles
+    beside it are. magnify: factor on displacements."""
+    reference, spacing, lines = frame.reference[:, :2], float(frame.spacing.min(initial=np.inf)), []
+    motion = magnify * (frame.positions[:, :2] - reference)
+    for start, end in precracks(frame.scene) if frame.dimension == 2 else []:
+        length = float(np.linalg.norm(end - start))
+        along = (end - start) / max(length, 1e-300)
+        place, off = (reference - start) @ along, (reference - start) @ np.array([-along[1], along[0]])
+        for side in (off > 0, off <= 0):
+            near = side & (np.abs(off) < 1.05 * spacing) & (place > -0.5 * spacing) & (place < length + 0.5 * spacing)
+            if not near.any():
+                continue
+            section = np.floor(place[near] / (2 * spacing)).astype(int)
+            ends = np.clip([place[near].min() - spacing / 2, place[near].max() + spacing / 2], 0, length)
+            at, moved = [], []
+            for one in np.unique(section):
+                at.append(place[near][section == one].mean())
+                moved.append(motion[near][section == one].mean(axis=0))
+            if len(at) > 1:
+                places = np.concatenate([ends[:1], at, ends[1:]])
+                lines.append(start + places[:, None] * along + np.array([moved[0], *moved, moved[-1]]))
+    return lines
+
+
 def _beside(a: np.ndarray, b: np.ndarray, cuts: List[np.ndarray]) -> np.ndarray:
     """Returns true for the pairs of points a, b [n, 2] whose connecting line crosses no segment."""
     def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
