@@ -147,14 +147,16 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
-/* Adds the runs of the cases of the name `only` (NULL: all); with `quick` only the coarsest one of each lattice.
- * Returns REFUSED if there is none, FAILED if a file cannot be written. */
+#define QUICK_LEAST 0.06 /* smallest spacing that is run with --quick [mm] */
+
+/* Adds the runs of the cases of the name `only` (NULL: all); with `quick` only the coarsest one of each lattice, unless
+ * it is finer than QUICK_LEAST. Returns FAILED if a file cannot be written. */
 static status circles_add(struct circles *c, const char *only, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
         for (int j = 0; j < (quick ? 1 : CIRCLE_SPACINGS); j++) {
             const struct circle_case *of = &circle_cases[k];
-            if (!case_is_asked(of, only)) continue;
+            if (!case_is_asked(of, only) || (quick && fmax(of->spacing[0], of->turned[0]) < QUICK_LEAST)) continue;
             if (of->spacing[j] > 0) TRY(circle_add(c, of, of->spacing[j], 0, table));
             for (int a = 0; a < CIRCLE_LATTICES && of->turned[j] > 0 && of->degrees[a] > 0; a++)
                 TRY(circle_add(c, of, of->turned[j], of->degrees[a], table));
