@@ -156,9 +156,10 @@ static status circles_add(struct circles *c, const char *only, bool quick, struc
     for (int k = 0; k < circle_cases_count; k++)
         for (int j = 0; j < (quick ? 1 : CIRCLE_SPACINGS); j++) {
             const struct circle_case *of = &circle_cases[k];
-            if (!case_is_asked(of, only) || (quick && fmax(of->spacing[0], of->turned[0]) < QUICK_LEAST)) continue;
-            if (of->spacing[j] > 0) TRY(circle_add(c, of, of->spacing[j], 0, table));
-            for (int a = 0; a < CIRCLE_LATTICES && of->turned[j] > 0 && of->degrees[a] > 0; a++)
+            if (!case_is_asked(of, only)) continue;
+            const double least = quick ? QUICK_LEAST : 0;
+            if (of->spacing[j] > least) TRY(circle_add(c, of, of->spacing[j], 0, table));
+            for (int a = 0; a < CIRCLE_LATTICES && of->turned[j] > least && of->degrees[a] > 0; a++)
                 TRY(circle_add(c, of, of->turned[j], of->degrees[a], table));
         }
     return OK;
