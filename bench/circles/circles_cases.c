@@ -38,7 +38,7 @@
 #define STEPPED "40 is asked, but a step of a face begins at 35.9 in load steps of a separate program"
 #define DIAGONAL "40 is asked, but the lattice carries 38.35 at most in uniform strain"
 #define COARSE "by a separate program; by Griffith "
-#define TRAPPED "by a separate program; above, at kappa 2, "
+#define TRAPPED "by a separate program; from kappa 2 on "
 #define FAST                                                                                                           \
     {"variables.rate", "e/(40 us)"}, { "duration", "72 us" }
 
