@@ -11,13 +11,13 @@
  * (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and to its member `kick` a quarter of the impulse times
  * the change of velocity (struct absorbed). rate_dt: dashpot rate times the duration of the step, k dt [kg]; mass [kg];
  * old_velocity: velocity v_old [m/s]; velocity_change: velocity change by all other forces [m/s]. */
-static inline real dashpot_add_impulse(struct absorbed *a, int d, real rate_dt, real mass, real old_velocity,
+static inline real dashpot_add_impulse(struct absorbed *a, int axis, real rate_dt, real mass, real old_velocity,
                                        real velocity_change)
 {
     const real mean = (old_velocity + 0.5 * velocity_change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
     a->energy += rate_dt * mean * mean;
     a->kick += 0.5 * impulse * (mean - old_velocity); /* v_new - v_old = 2 (mean - v_old) */
-    a->impulse[d] += impulse;
+    a->impulse[axis] += impulse;
     return impulse;
 }
 

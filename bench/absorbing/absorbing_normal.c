@@ -61,7 +61,7 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
         figure->balance = fmax(figure->balance, fabs(e.diagnostics->now.balance_error));
     }
     figure->back /= e.diagnostics->energy_start;
-    frame_update_points(e.frame, &e.part, &e.loads);
+    reference_frame_update_points(e.frame, &e.part, &e.loads);
     *v = BARE("bench.v", e.part.n, real);
     array_copy(*v, e.part.v[0], e.part.n, sizeof(real));
     bench_engine_free(&e, &s);

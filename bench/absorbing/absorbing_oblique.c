@@ -76,7 +76,7 @@ static status oblique_run(const struct oblique *o, const struct absorbing_method
     status ran = report_start(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
         ran = engine_step(&e);
-        frame_update_points(e.frame, &e.part, &e.loads);
+        reference_frame_update_points(e.frame, &e.part, &e.loads);
         const double complex turn = cexp(_Complex_I * o->frequency * (e.clock.t - 0.5 * e.clock.dt)) * e.clock.dt;
         for (int64_t i = 0; i < e.part.n; i++) {
             if (fabs(e.part.X[0][i] - o->station) > 0.1 * h) continue;

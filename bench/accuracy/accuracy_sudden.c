@@ -54,7 +54,7 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
 static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
-    const double slower = p->at == MOVING ? crack_speed_sif_factor(&m, SPEED_EXACT, speed) : 1;
+    const double slower = p->at == MOVING ? crack_sif_ratio_at_speed(&m, SPEED_EXACT, speed) : 1;
     const int64_t stride = levels_steps_per_cycle(&e->frame->levels);
     for (int k = 0; k < INSTANTS; k++) {
         const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));

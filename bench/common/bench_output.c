@@ -149,7 +149,7 @@ status bench_guard(const char *name)
     } else
         for (size_t k = 0; k < COUNT_OF(ending) && ours; k++) {
             snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, ending[k]);
-            ours = !path_exists(path) || picture_has_mark(path);
+            ours = !path_exists(path) || picture_file_is_from_cleave(path);
         }
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }

@@ -87,7 +87,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
     }
     for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
         if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
-        const int64_t at = mesh_regular_node_of(&e->frame->mesh, I);
+        const int64_t at = mesh_regular_node_of_doubled_node(&e->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
         field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];

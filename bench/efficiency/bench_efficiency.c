@@ -125,9 +125,9 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->start_difference[variant] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
     const struct crack_tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
-    x->angle[0] = tip_angle(a, dim);
+    x->angle[0] = tip_deflection_angle(a, dim);
     if (!b) return;
-    x->angle[variant] = tip_angle(b, dim);
+    x->angle[variant] = tip_deflection_angle(b, dim);
     x->tip_distance[variant] = place_distance(a->place, b->place);
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }

@@ -84,7 +84,7 @@ static status sensitivity_run_all(struct scatter *x, double dt)
             const struct crack_tip *tip = crack_partner(own, &ends[0].tip[ends[0].longest]);
             end->start = own->start;
             if (!tip) continue;
-            end->angle = tip_angle(tip, x->dim);
+            end->angle = tip_deflection_angle(tip, x->dim);
             for (int d = 0; d < DIM_MAX; d++) end->place[d] = tip->place[d];
         }
     memory_free(ends);

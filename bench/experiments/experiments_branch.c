@@ -109,7 +109,7 @@ status experiment_last_frame(struct output_frame *f, const char *folder)
     int n;
     struct listed_frame *list;
     char path[4400];
-    TRY(frames_list(folder, &n, &list));
+    TRY(run_list_frames(folder, &n, &list));
     if (n > 0) snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, list[n - 1].number);
     memory_free(list);
     return n > 0 ? frame_read(f, path) : status_set(FAILED, "%s has no frames", folder);

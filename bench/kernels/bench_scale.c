@@ -48,7 +48,7 @@ static double memory_from_here(void)
     FILE *f = fopen("/proc/self/clear_refs", "w");
     if (!f) return NAN;
     const bool put = fputs("5", f) >= 0;
-    return fclose(f) == 0 && put ? (double)memory_peak() : NAN;
+    return fclose(f) == 0 && put ? (double)memory_peak_resident_size() : NAN;
 }
 
 /* Returns true if a block of `particles` particles fits into 0.7 of the memory of the machine, with the most expensive
@@ -108,7 +108,7 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
         r->step = fmin(r->step, report_wall_clock_times(e.report, &e.timers).loop / (double)steps);
     }
-    r->bytes = ((double)memory_peak() - before) / r->particles;
+    r->bytes = ((double)memory_peak_resident_size() - before) / r->particles;
     r->frame = NAN;
     bench_engine_free(&e, &s);
     return ran;

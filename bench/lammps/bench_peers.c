@@ -148,7 +148,7 @@ static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclu
         const int n = cells_find_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
         for (int k = 0; k < n; k++) {
             const int32_t j = found[k];
-            if (j < i || !cracks_separate_particles(e->source.crack, e->source.cracks, p, i, j)) continue;
+            if (j < i || !precracks_cut_bond_between(e->source.crack, e->source.cracks, p, i, j)) continue;
             if (!type[i]) type[i] = ++*types;
             if (!type[j]) type[j] = ++*types;
             fprintf(exclude, "neigh_modify exclude type %d %d\n", type[i], type[j]);

@@ -100,8 +100,8 @@ static status closed_form(struct moving_table *t)
     struct scene s = {0};
     TRY(scene_read(&s, SCENE, NULL, 0));
     t->medium = crack_medium_of(&s.material[0], s.space);
-    t->factor = crack_speed_sif_factor(&t->medium, SPEED_EXACT, speed);
-    t->printed = crack_speed_sif_factor(&t->medium, SPEED_APPROXIMATE, speed);
+    t->factor = crack_sif_ratio_at_speed(&t->medium, SPEED_EXACT, speed);
+    t->printed = crack_sif_ratio_at_speed(&t->medium, SPEED_APPROXIMATE, speed);
     scene_free(&s);
     return OK;
 }

@@ -35,7 +35,7 @@ static struct mover mover_at(const struct run *e, int64_t k)
     const struct particles *p = &e->part;
     const struct grid *g = &e->frame->mesh.grid;
     struct mover a = {0};
-    const int64_t I = k - p->n, at = I < 0 ? I : mesh_regular_node_of(&e->frame->mesh, I);
+    const int64_t I = k - p->n, at = I < 0 ? I : mesh_regular_node_of_doubled_node(&e->frame->mesh, I);
     if (I < 0)
         a.m = p->flag[k] & FLAG_MESHED ? 0 : p->mass[k];
     else

@@ -80,7 +80,7 @@ static status inversion(const struct limits_row *r, double *to)
         "output: {frames: 0, samples: 10}\n",
         100 * r->given, -100 * r->given));
     const status ran = engine_run(&e);
-    if (e.frame->mesh.points > 0) frame_update_points(e.frame, &e.part, &e.loads);
+    if (e.frame->mesh.points > 0) reference_frame_update_points(e.frame, &e.part, &e.loads);
     to[0] = inverted(&e.part);
     to[1] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);

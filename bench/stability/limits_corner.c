@@ -35,7 +35,7 @@ static status corner(const struct limits_row *r, double *to)
     const status ran = engine_run(&e);
     const struct particles *p = &e.part;
     const bool converts = e.coupling->conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
-    if (e.frame->mesh.points > 0) frame_update_points(e.frame, &e.part, &e.loads);
+    if (e.frame->mesh.points > 0) reference_frame_update_points(e.frame, &e.part, &e.loads);
     to[0] = converts ? 0 : INFINITY;
     for (int64_t i = 0; i < p->n; i++) to[0] = fmax(to[0], fabs(p->v[1][i]) / SPEED);
     to[1] = fabs(e.diagnostics->now.balance_error);

@@ -32,7 +32,7 @@ static struct turning turning_of(const struct particles *p)
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->frame->mesh.points > 0) frame_update_points(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) reference_frame_update_points(e->frame, &e->part, &e->loads);
     const struct turning start = turning_of(p);
     TRY(engine_run(e));
     const struct turning end = turning_of(p);
@@ -142,7 +142,7 @@ static void lame(const void *context, const real *X, real *v)
 static double projection(struct run *e)
 {
     double sum = 0;
-    if (e->frame->mesh.points > 0) frame_update_points(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) reference_frame_update_points(e->frame, &e->part, &e->loads);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];

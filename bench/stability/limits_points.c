@@ -104,7 +104,7 @@ static status homologous(const struct limits_row *r, double *to)
     *to = 0;
     const bool meshed = e.frame->mesh.points > 0;
     const double stress = 1e4 * (meshed ? r->given : log(1 + r->given));
-    if (meshed) frame_update_points(e.frame, &e.part, &e.loads);
+    if (meshed) reference_frame_update_points(e.frame, &e.part, &e.loads);
     for (int64_t i = 0; i < e.part.n; i++)
         if (fabs(e.part.X[0][i]) < 1) *to = fmax(*to, fabs(e.part.stress[0][i] / stress - 1));
     bench_engine_free(&e, &s);

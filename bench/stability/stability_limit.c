@@ -130,7 +130,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
     to->unit = (c->group == GROUP_POINTS ? e.grid->field[0].grid.h : s.spacing) / e.tables.wave_speed;
     to->gershgorin = to->silling = NAN;
     if (s.method == METHOD_PD && s.model == MODEL_BOND)
-        to->gershgorin = bonds_critical_time_step_of_rows(&e.bonds, &e.part), to->silling = silling_step(&e);
+        to->gershgorin = bonds_critical_time_step_of_existing_bonds(&e.bonds, &e.part), to->silling = silling_step(&e);
     bench_engine_free(&e, &s);
     return OK;
 }

@@ -44,7 +44,7 @@ static status chosen_run(const struct pilot *p, const char *scene, const char *f
     struct study s;
     TRY(study_make(&s, scene, folder, "run"));
     study_add_case(&s, "run", p->override, p->overrides);
-    status done = study_check_scenes(&s, false);
+    status done = study_determine_case_states(&s, false);
     if (done == OK) done = study_run(&s, (struct study_options){.quiet = true});
     if (done == OK) done = summary_read_number(study_case_folder(&s, &s.at[0]).text, figure, value);
     study_free(&s);

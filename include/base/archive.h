@@ -39,7 +39,7 @@ struct archive {
  * restores them. If a->now is not NULL while restoring, the run has other particles than the stored one: each element
  * is stored at the new index of its particle, and elements of particles that were not stored keep their value. Returns
  * the status of a->exchange. */
-status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
+status archive_save_or_load_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
 /* Replaces each of the n restored particle indices particle[k] by the new index of that particle, a->now[particle[k]];
  * -1 if the particle no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */

@@ -75,29 +75,31 @@ enum { PLACE_LENGTH = 512 };
  * Returns s. */
 status status_prepend_location(const char *location, status s);
 
-/* Ends the program by invariant_broken if `condition` is false. For conditions that hold in every run of a correct
- * program; unlike assert of C it is part of every build. What a scene, a file or the system can cause is a status
- * instead. */
-#define INVARIANT(condition) ((condition) ? (void)0 : invariant_broken(#condition, __FILE__, __LINE__, __func__))
+/* Ends the program by invariant_report_violation_and_abort if `condition` is false. For conditions that hold in every
+ * run of a correct program; unlike assert of C it is part of every build. What a scene, a file or the system can cause
+ * is a status instead. */
+#define INVARIANT(condition)                                                                                           \
+    ((condition) ? (void)0 : invariant_report_violation_and_abort(#condition, __FILE__, __LINE__, __func__))
 
 /* Ends the program because `condition`, which must always hold, does not hold in `function` of the source file `file`
  * at `line`. Prints one line on standard error with the version, the source location, the text of the condition, and
- * what to report; calls the function set by invariant_set_cleanup; exits with status 1. Any thread may call it; of
- * several threads only the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers can
- * distinguish such an end from a refusal. */
-_Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function);
+ * what to report; calls the function set by invariant_set_cleanup_callback; exits with status 1. Any thread may call
+ * it; of several threads only the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers
+ * can distinguish such an end from a refusal. */
+_Noreturn void invariant_report_violation_and_abort(const char *condition, const char *file, int line,
+                                                    const char *function);
 
-/* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault; it
- * removes half-written files. NULL: none. */
-void invariant_set_cleanup(void (*cleanup)(void));
+/* Sets the function that invariant_report_violation_and_abort calls before the program ends, in the thread that has
+ * found the fault; it removes half-written files. NULL: none. */
+void invariant_set_cleanup_callback(void (*cleanup)(void));
 
 /* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
  * does not act on it. */
-void text_replace_controls(char *text);
+void text_replace_control_characters(char *text);
 
 /* Replaces every control character among the `length` bytes of `text` by `?`, zero bytes included;
- * text_replace_controls does so up to the first zero byte. */
-void bytes_replace_controls(char *text, size_t length);
+ * text_replace_control_characters does so up to the first zero byte. */
+void bytes_replace_control_characters(char *text, size_t length);
 
 /* A name for printing, without control characters, cut if it is very long: `printable_name(folder).text`, valid until
  * the end of the statement. */
@@ -139,7 +141,7 @@ static inline real real_min(real a, real b) { return a < b ? a : b; }
 static inline real real_max(real a, real b) { return a > b ? a : b; }
 
 /* Returns true if a and b are equal to the last bit: 0 and -0 differ. */
-static inline bool bits_equal(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
+static inline bool reals_are_bitwise_equal(real a, real b) { return memcmp(&a, &b, sizeof a) == 0; }
 
 /* Returns a^2. */
 static inline real square(real a) { return a * a; }

@@ -50,7 +50,7 @@ void memory_free(void *pointer);
 void memory_set_reuse(bool reuse);
 
 /* Returns the largest resident size of the process so far, from the operating system [byte]. */
-int64_t memory_peak(void);
+int64_t memory_peak_resident_size(void);
 
 /* The limit that leaves this process the least memory, from ulimit and control groups: bytes left (INT64_MAX: no limit)
  * and name of the limit. */

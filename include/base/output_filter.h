@@ -6,6 +6,6 @@
  * direction of writing, whatever their source: headers of tables, names in scenes, words of the command line. Line
  * feeds and tabs are kept; on standard error also the carriage return and the erasing of a line, which the progress
  * line needs. Call once, before anything is printed. */
-void standard_streams_replace_controls(void);
+void standard_streams_replace_control_characters(void);
 
 #endif

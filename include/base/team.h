@@ -40,9 +40,9 @@ int machine_cores(void);
  * core_shares_free. */
 struct core_shares *core_shares_make(int shares);
 
-/* Binds the calling thread, and processes that it starts later, to the cores of share number `share` of s; -1 restores
- * its previous binding. Does nothing if s is NULL. */
-void core_share_bind(const struct core_shares *s, int share);
+/* Binds the calling thread, and processes that it starts later, to the cores of share number `share_number` of s; -1
+ * restores its previous binding. Does nothing if s is NULL. */
+void core_share_bind(const struct core_shares *s, int share_number);
 
 /* Releases the shares of cores s. */
 void core_shares_free(struct core_shares *s);

@@ -171,7 +171,8 @@ struct stencil_column {
 
 /* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
  * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
- * Columns of such row blocks are written only when a bond is accessed by index (row_block_expand_stencil). */
+ * Columns of such row blocks are written only when a bond is accessed by index (row_block_write_columns_from_stencil).
+ */
 struct stencil {
     int columns;
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -242,7 +243,7 @@ struct bonds {
 
 /* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
  * particles, which store their complete families. */
-static inline bool row_block_is_complete(const struct bonds *b, int64_t row_block)
+static inline bool row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
@@ -255,7 +256,7 @@ struct bond_softness {
 
 /* Returns the softening state of a bond that is brittle or may not soften yet. range: stretches at which softening
  * begins and the bond breaks. `end` of the result is just below range.onset: beyond it the bond is examined. */
-static inline struct bond_softness bond_softness_initial(struct softening_range range)
+static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
 }
@@ -295,15 +296,16 @@ static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, i
 }
 
 /* Returns the weight that the bond with index `bond` had before it softened [1]. row_block: row block (the bonds of
- * eight particles) that contains it; w: its present weight [1]. Only for state-based models. */
-static inline real bond_whole_weight(const struct bonds *b, int64_t row_block, int64_t bond, real w)
+ * eight particles) that contains it; present_weight: its present weight [1]. Only for state-based models. */
+static inline real bond_weight_before_softening(const struct bonds *b, int64_t row_block, int64_t bond,
+                                                real present_weight)
 {
-    return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : w;
+    return bond_is_softening(b, row_block, bond) ? b->soft.whole[bond] : present_weight;
 }
 
 /* Requests an examination of row block `row_block` (the bonds of eight particles) before forces are computed next,
  * because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several threads at once. */
-static inline void row_block_mark_due(struct bonds *b, int64_t row_block)
+static inline void row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {
     if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
@@ -327,13 +329,14 @@ static inline real bond_half_softening_energy(const struct bonds *b, int64_t row
 {
     if (b->soft.whole || !bond_is_softening(b, row_block, bond) || b->w[bond] == 0) return 0;
     return 0.5 * b->stiffness * b->w[bond] *
-           softening_dissipated_energy(b->soft.curve, b->soft.onset[bond], b->soft.end[bond], b->soft.most[bond]) /
+           softening_normalised_dissipated_energy(b->soft.curve, b->soft.onset[bond], b->soft.end[bond],
+                                                  b->soft.most[bond]) /
            fabs(b->inverse_length[bond]);
 }
 
 /* Marks particle i, a bond of which begins to soften, for conversion if it is a material point, since the stress of a
  * material point does not include the softening of bonds. */
-static inline void softness_mark_point(struct bonds *b, struct particles *p, int32_t i)
+static inline void softening_mark_point_for_conversion(struct bonds *b, struct particles *p, int32_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
     p->flag[i] |= FLAG_NEAR;
@@ -342,13 +345,13 @@ static inline void softness_mark_point(struct bonds *b, struct particles *p, int
 
 /* Recomputes b->common[column], the properties that the eight bonds of a column (one bond of each particle of a row
  * block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
- * inverse_length of a bond; usually called through bond_changed_update_column. */
+ * inverse_length of a bond; usually called through bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column);
 
 /* Recomputes the common properties of the column that contains bond `bond` after its weight or the sign of its inverse
  * length has changed. A column has one bond of each of eight particles, which form a row block. row: row of the bond,
  * i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row blocks share. */
-void bond_changed_update_column(struct bonds *b, int64_t row, int64_t bond);
+void bond_column_update_after_bond_change(struct bonds *b, int64_t row, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of a row block (the bonds of eight particles), none of which has
  * begun to soften. limit: critical stretches and softening by pair of materials. */
@@ -358,15 +361,16 @@ void row_block_initialise_softening(struct bonds *b, const struct particles *p, 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
  * called by several threads at once. */
-void row_block_expand_stencil(struct bonds *b, int64_t row_block);
+void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
-/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `number` of the particle in lane `lane` (0
- * to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are not written.
- * After a change of w or of the sign of inverse_length the caller calls bond_changed_update_column. */
-static inline int64_t bond_writable_index(struct bonds *b, int64_t row_block, int64_t number, int lane)
+/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
+ * `lane` (0 to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are
+ * not written. After a change of w or of the sign of inverse_length the caller calls
+ * bond_column_update_after_bond_change. */
+static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
-    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_expand_stencil(b, row_block);
-    return (b->column[row_block] + number) * LANES + lane;
+    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns_from_stencil(b, row_block);
+    return (b->column[row_block] + bond_number) * LANES + lane;
 }
 
 #endif

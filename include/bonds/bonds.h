@@ -40,7 +40,7 @@ static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bo
 
 /* Returns true if one of the `cracks` pre-cracks in the array `crack` cuts the segment between the reference positions
  * of particles i and j of p. */
-bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
+bool precracks_cut_bond_between(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff: source->room if it is set (>
  * 0), else computed from the counts of particles in search cells. source: inputs of the bonds. */
@@ -49,7 +49,7 @@ int bonds_neighbour_count_bound(const struct bond_source *source);
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; source: inputs
  * of the bonds. */
-void bonds_compute_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *source);
+void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *source);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`.
  * previous: NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts
@@ -75,18 +75,20 @@ void bonds_free(struct bonds *b);
 /* Returns a lower bound of the critical time step 2/omega_max of the body if all its particles were peridynamic and no
  * bond broken [s], with the block-Gershgorin bound of the largest angular frequency omega_max. The bonds are made from
  * `source` for this; no stored bonds are needed. */
-real bonds_critical_time_step(const struct particles *p, const struct bond_source *source);
+real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *source);
 
 /* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
  * peridynamic and no bond is broken. */
-real bonds_critical_time_step_of_rows(const struct bonds *b, const struct particles *p);
+real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const struct particles *p);
 
-/* Copies what load has done to bonds from the bonds `old` of the particles `old_particles` to the bonds b of p, another
- * set of particles: which bonds are broken or have softened, counts and energies of rows, and damage. new_index: index
- * in p of each particle of `old_particles`, images included; -1: the particle is not in p. limit: critical stretches
- * and softening by pair of materials. In both sets peridynamic particles must have all their neighbours. */
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
-                           const struct bonds *old, const struct particles *old_particles, const int32_t *new_index);
+/* Copies what load has done to bonds from the bonds `old_bonds` of the particles `old_particles` to the bonds b of p,
+ * another set of particles: which bonds are broken or have softened, counts and energies of rows, and damage.
+ * new_index: index in p of each particle of `old_particles`, images included; -1: the particle is not in p. limit:
+ * critical stretches and softening by pair of materials. In both sets peridynamic particles must have all their
+ * neighbours. */
+void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                                        const struct bonds *old_bonds, const struct particles *old_particles,
+                                        const int32_t *new_index);
 
 /* Saves which bonds are broken or have softened, their plastic state and the damage p->damage to the archive `a` if
  * a->saving, else restores them from it. Neighbours and weights are not stored, since bonds_make rebuilds them. If
@@ -111,20 +113,20 @@ real bonds_dissipated_softening_energy(const struct bonds *b);
 
 /* Returns true if an intact bond of row `row` (all bonds of one particle) has begun to soften, by its stretch or
  * because the strength surface of the material was reached; false if row is -1. */
-bool bonds_row_has_begun(const struct bonds *b, int64_t row);
+bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
 /* Evaluates the strength surfaces of materials at the present positions, for particles whose bonds have stretches near
  * them (bonds_strength.c). U is the stress of a particle over that on the strength surface. Where U reaches 1 (or the
  * strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to soften do
  * so from their present stretch on. Material points at such bonds are marked for conversion. Does nothing if no
  * material has a surface. source: inputs of the bonds. */
-void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
+void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Computes the share U of the strength surface for every particle into share[p->n] [1]: its stress over that on the
- * surface, 0 if the material has no surface. The stress of a material point is its own, that of a peridynamic particle
- * follows from the strain averaged over its family. source: inputs of the bonds. */
-void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *source,
-                          real *share);
+/* Computes the share U of the strength surface for every particle into stress_ratio[p->n] [1]: its stress over that on
+ * the surface, 0 if the material has no surface. The stress of a material point is its own, that of a peridynamic
+ * particle follows from the strain averaged over its family. source: inputs of the bonds. */
+void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
+                                             const struct bond_source *source, real *stress_ratio);
 
 /* Returns the damage of the particle of row `row` by the softening of its intact bonds [1]: sum d V_j over the volume
  * of its family, with the softening d of the bond to neighbour j and the volume V_j of the neighbour; 0 if row is
@@ -197,15 +199,15 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns bond number `number` of the particle in lane `lane` (0 to 7) of row block `row_block`, the bonds of eight
- * particles. If the lane has no such bond, the inverse_length returned is 0. Does not change b. */
-static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t number, int lane)
+/* Returns bond number `bond_number` of the particle in lane `lane` (0 to 7) of row block `row_block`, the bonds of
+ * eight particles. If the lane has no such bond, the inverse_length returned is 0. Does not change b. */
+static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
-    const int64_t q = (b->column[row_block] + number) * LANES + lane;
+    const int64_t q = (b->column[row_block] + bond_number) * LANES + lane;
     if (!__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE))
         return (struct bond){q, b->nbr[q], b->inverse_length[q], b->w[q]};
-    const struct stencil_column *of = &b->stencil[row_block]->column[number];
-    const real w = b->stencil[row_block]->w[number][lane];
+    const struct stencil_column *of = &b->stencil[row_block]->column[bond_number];
+    const real w = b->stencil[row_block]->w[bond_number][lane];
     return (struct bond){q, b->particle[row_block * LANES] + of->offset + lane, w == 0 ? 0 : of->inverse_length, w};
 }
 

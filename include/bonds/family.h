@@ -77,7 +77,8 @@ static inline struct softening_range bond_softening_range(const struct particles
     if (!limit->softening) return (struct softening_range){critical, critical};
     const struct softening_pair *pair = &limit->softening[p->material[i] * limit->materials + p->material[j]];
     const bool fixed = pair->strength_scatters && pair->surface;
-    return softening_range_of(limit->curve, pair->onset * (fixed ? 1 : bond_strength_factor(p, i, j)), critical);
+    return softening_range_from_onset(limit->curve, pair->onset * (fixed ? 1 : bond_strength_factor(p, i, j)),
+                                      critical);
 }
 
 /* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks, at the strain rate
@@ -91,8 +92,8 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
     if (!r || !(slow.onset < slow.end)) return slow;
     const real critical = bond_breaking_stretch(p, limit, i, j);
     const real most = real_max(slow.onset, critical / sqrt(RATE_LEAST_RATIO));
-    return softening_range_of(limit->curve, real_min(most, slow.onset * strength_rate_interpolate(r, r->onset, rate)),
-                              critical);
+    return softening_range_from_onset(
+        limit->curve, real_min(most, slow.onset * strength_rate_interpolate(r, r->onset, rate)), critical);
 }
 
 /* Plastic constants of bonds by pair of materials. stretch: yield stretch s_y [materials^2][1], NULL if no bond yields;
@@ -109,8 +110,8 @@ struct state_modulus {
 
 /* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. with_rotations: true
  * for the model with particle rotations (PD_MOSPD). */
-static inline struct state_modulus state_modulus_of_material(const struct material *m, enum space space,
-                                                             bool with_rotations)
+static inline struct state_modulus state_based_moduli_of_material(const struct material *m, enum space space,
+                                                                  bool with_rotations)
 {
     const real D = space_dim(space);
     return (struct state_modulus){D * D * (with_rotations ? m->c12 : m->c12 - m->shear),
@@ -161,7 +162,8 @@ void family_elastic_constants(const struct family *f, const struct material *m, 
 /* Returns G/s_c^2 [N/m] in the model with particle rotations, with the work G per area that separates the two halves of
  * a lattice along a plane and the stretch s_c at which bonds break (separation.c). modulus: moduli of the material;
  * present_family: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
-real family_separation_work_per_area(const struct family *f, const struct state_modulus *modulus, bool present_family);
+real family_separation_work_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
+                                                 bool present_family);
 
 /* Returns the energy that the bonds across a lattice plane normal to an axis store, per area of the plane, if each has
  * the critical stretch of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */

@@ -42,10 +42,10 @@ struct site_map *site_map_share_or_make(struct site_map *existing, const struct 
  * NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists in found[], ascending, the particles and images within the cutoff of particle i that belong to its body, by
+/* Lists in neighbour[], ascending, the particles and images within the cutoff of particle i that belong to its body, by
  * means of the map `map` from lattice sites to particles. found must have room for map->most entries. Returns their
  * number, or -1 if images are among them: these cannot be listed in ascending order, and the caller must search. */
-int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found);
+int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *neighbour);
 
 /* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
 bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i);

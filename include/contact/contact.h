@@ -167,7 +167,7 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
                                 real bonds_time_step);
 
 /* Updates the list of pairs of particles that may come into contact, before step number `step`. A new search is done in
- * three cases: particles have moved farther than contact_list_largest_safe_motion since the last search; bonds have
+ * three cases: particles have moved farther than contact_pair_list_safe_displacement since the last search; bonds have
  * been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due). Particles on
  * which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be computed.
  * family: horizon and lattice; broken_bonds: number of directed bonds broken so far; conversions: number of conversions
@@ -183,7 +183,8 @@ void contact_request_search_if_at_surface(struct contact *c, const struct bonds 
 
 /* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds in b as active, i.e. to be
  * computed. Needed after a restart; in all other cases contact_update_pair_list does it. */
-void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
+void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
+                                              struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
@@ -192,7 +193,7 @@ void contact_compute_forces(struct contact *c, struct particles *p, real dt);
 
 /* Allocates c->push, in which contact_compute_forces stores the contact force on each particle while c->recorded is
  * set. Does nothing if contact is not possible in this run, or if the array exists. */
-void contact_allocate_forces(struct contact *c, const struct particles *p);
+void contact_allocate_force_record(struct contact *c, const struct particles *p);
 
 /* Records the times of first and last contact of the run: if particles were in contact at the last call of
  * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
@@ -204,7 +205,7 @@ real contact_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles that touch rigid body number `rigid_body` at present [m],
  * or 0 if no particle does. */
-real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
+real contact_patch_bounding_box_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
@@ -215,21 +216,21 @@ real contact_friction_work(const struct contact *c);
  * equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces that correct the
  * energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and lattice. Returns the
  * number of contacts whose selection changed. */
-int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b,
-                                         struct loads *loads, const struct family *family, real gap_limit);
+int64_t contact_search_and_select_for_equilibrium(struct contact *c, const struct particles *p, struct bonds *b,
+                                                  struct loads *loads, const struct family *family, real gap_limit);
 
 /* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: those that overlap, and
  * those between different bodies whose gap is less than `gap_limit` [spacings]. A contact whose gap is 0 within
  * round-off stays as it was. Returns the number of contacts whose selection changed. */
-int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit);
+int64_t contact_select_for_equilibrium(struct contact *c, const struct particles *p, real gap_limit);
 
-/* Chooses which contacts act when forces are computed next. use: true for those selected by contact_select_active, as
- * linear springs; false for all that overlap. */
-void contact_use_selection(struct contact *c, bool use);
+/* Chooses which contacts act when forces are computed next. use: true for those selected by
+ * contact_select_for_equilibrium, as linear springs; false for all that overlap. */
+void contact_use_equilibrium_selection(struct contact *c, bool use);
 
 /* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
  * requested. */
-void contact_end_selection(struct contact *c);
+void contact_end_equilibrium_selection(struct contact *c);
 
 /* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
  * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
@@ -238,10 +239,10 @@ bool contact_search_needed(struct contact *c, const struct particles *p);
 
 /* Returns the largest distance that each particle may move after a search for pairs [m]. Up to it, no pair that is
  * missing in the list can come into contact. */
-real contact_list_largest_safe_motion(const struct contact *c);
+real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select_active. term: the contact as a linear spring,
- * valid during the call only. Does nothing if no selection has been made. */
+/* Calls visit(context, term) for each contact selected by contact_select_for_equilibrium. term: the contact as a linear
+ * spring, valid during the call only. Does nothing if no selection has been made. */
 void contact_visit_springs(const struct contact *c, const struct particles *p,
                            void (*visit)(void *context, const struct contact_term *term), void *context);
 

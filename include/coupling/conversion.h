@@ -45,7 +45,8 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
 
 /* Makes every particle peridynamic, before step 0, that has a bond cut by a pre-crack (Zeng et al. 2022, eq. 28), and
  * the particles in `region` (NULL: none). */
-void convert_particles_at_precracks(struct particles *p, const struct bond_source *source, const struct region *region);
+void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
+                                         const struct region *region);
 
 /* Computes the region that is peridynamic from step 0 on: the region that the scene gives, and a ball round each end of
  * a pre-crack inside the body (in 3D a cylinder round each edge). region: receives it; the caller frees region->solid,
@@ -67,8 +68,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
  * particles: what the deformation of its cell contributes to the mean strain of its family. It follows from the stress
  * of the point by Hooke's law. Does nothing in bond-based models. partial: lists these points; material: array of the
  * materials. */
-void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
-                                      const struct material *material);
+void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                              const struct material *material);
 
 /* Releases all arrays of `partial`. */
 void partial_stress_free(struct partial_stress *partial);

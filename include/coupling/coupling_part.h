@@ -50,7 +50,7 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
  * particles that are so from the start: those near the ends of slits, those with bonds cut by a pre-crack, those beside
  * narrow voids, and those in the region that the scene gives. Returns REFUSED, with a message, if the scene requires
  * slits where they are impossible. */
-status precracks_apply(struct run *e);
+status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
 /* Writes how pre-crack number `crack` is represented, in words, to `text` (`capacity` bytes): as a slit of the
  * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
@@ -64,21 +64,21 @@ bool flag_points_at_closing_slits(struct run *e);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
  * sides. v: voids; NULL: nothing is done. include_meshed: true to include particles of the mesh of the reference frame,
- * needed if this mesh has no free surfaces at voids (mesh_ignores_voids). */
-void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
+ * needed if this mesh has no free surfaces at voids (mesh_cannot_double_nodes_at_voids). */
+void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
 /* Returns true if a mesh with the nodes of grid g has no free surfaces at voids: in 1D, and if a mirror plane of scene
  * s does not pass through nodes of g, because doubled nodes are not possible then. */
-bool mesh_ignores_voids(const struct grid *g, const struct scene *s);
+bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `to` for voids that are too narrow, so that the run treats them as closed: voids whose two sides
  * share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or images,
  * whose surfaces are not known. */
-void warn_of_voids(const struct run *e, struct warnings *to);
+void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *to);
 
 /* Adds warnings to `to` for bodies that will pass through each other or stick together, and for voids that are too
- * narrow to stay open (warn_of_voids). */
-void warn_of_joined_bodies(const struct run *e, struct warnings *to);
+ * narrow to stay open (warn_of_voids_treated_as_closed). */
+void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *to);
 
 /* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
  * crack faces that approach each other. Also updates the list of row blocks of bonds that are active, i.e. may move.
@@ -90,7 +90,7 @@ bool conversion_flag_points(struct run *e);
  * partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
  * faces_examined: value that conversion_flag_points returned in this step; bonds_fade: true if bonds of growing cracks
  * lose strength gradually. Returns the number of particles converted. */
-int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
+int64_t conversion_convert_and_update_run(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
 
 /* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
  * conversion. converted: number of particles that have become peridynamic; 0 if at most partial stresses have changed.
@@ -105,6 +105,6 @@ status reversion_check_scene(const struct scene *s);
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
  * bond near them was ever cut (reversion_select_particles). Called before each step; examines the particles only in
  * step numbers that are multiples of a period. Does nothing if the scene has no reversion. */
-void reversion_apply_due(struct run *e);
+void reversion_revert_relaxed_particles(struct run *e);
 
 #endif

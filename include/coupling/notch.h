@@ -38,7 +38,8 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
 
 /* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit if the slit separates them from
  * a part of their family. source: inputs of the bonds. */
-void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source);
+void notches_convert_particles_at_slit_ends(const struct notches *n, struct particles *p,
+                                            const struct bond_source *source);
 
 /* Releases all arrays of n; cracks and voids stay with their owners. */
 void notches_free(struct notches *n);

@@ -29,7 +29,8 @@ int64_t reversion_select_particles(const struct reversion_rule *rule, struct par
  * the family. The velocity gradient becomes 0; positions and velocities are unchanged. Beside a surface the stress is
  * that of a full family under the same strain. Rebuilds the bonds b and, if `partial` is not NULL, the partial stresses
  * around the particles. Counts the reversion in c. list: n particle indices; source: inputs of the bonds. */
-void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
-                     struct partial_stress *partial, const int32_t *list, int64_t n);
+void reversion_revert_listed_particles(struct conversion *c, struct particles *p, struct bonds *b,
+                                       const struct bond_source *source, struct partial_stress *partial,
+                                       const int32_t *list, int64_t n);
 
 #endif

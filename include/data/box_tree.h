@@ -19,8 +19,8 @@ struct box_tree {
     } * node;
 };
 
-/* Creates a tree over copies of the n boxes box[n] in dim dimensions. box_search_start and box_search_next then find
- * the boxes near a point. Release with box_tree_free. */
+/* Creates a tree over copies of the n boxes box[n] in dim dimensions. box_search_start and
+ * box_search_find_next_box_within then find the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim);
 
 /* Releases the nodes of the tree. */
@@ -38,13 +38,13 @@ struct box_search {
     } wait[BOXES_WAITING];
 };
 
-/* Starts a search for the boxes of the tree `tree` near `point` (dim components [m]); box_search_next then returns them
- * one by one. `tree` and `point` are kept by reference. */
+/* Starts a search for the boxes of the tree `tree` near `point` (dim components [m]); box_search_find_next_box_within
+ * then returns them one by one. `tree` and `point` are kept by reference. */
 void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim);
 
 /* Returns the number of another box that is at most `reach` [m] away from the point of `search`, or -1 if there are no
  * more. The distance is the largest over the coordinate directions, negative inside the box. The caller may reduce
  * `reach` between calls. */
-int box_search_next(struct box_search *search, real reach);
+int box_search_find_next_box_within(struct box_search *search, real reach);
 
 #endif

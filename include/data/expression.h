@@ -78,7 +78,7 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
 real expression_op_apply(enum expression_op op, real a, real b);
 
 /* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */
-static inline bool expression_op_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }
+static inline bool expression_op_has_no_operands(enum expression_op op) { return op <= EXPRESSION_T; }
 
 /* Returns true if the operation has two operands, which it replaces on the stack by their result. */
 static inline bool expression_op_is_binary(enum expression_op op) { return op >= EXPRESSION_ADD; }

@@ -82,7 +82,7 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
 void grid_free(struct grid *g);
 
 /* Appends a copy of `wall`, a prescribed velocity component of a node, to the list of this step. */
-void grid_add_wall(struct grid *g, const struct wall *wall);
+void grid_add_prescribed_velocity(struct grid *g, const struct wall *wall);
 
 /* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another one, to the
  * list of g. */
@@ -143,15 +143,16 @@ static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t c
            (corner >> axis & 1 ? 0.75 : 0.25) * g->h;
 }
 
-/* Returns the index in grid `to` of the cell that has index `cell` in grid `from`; -1 if the box of `to` does not
- * contain the cell. Both grids must have the same node positions, but may have different boxes. */
-static inline int64_t grid_cell_index_in_other_grid(const struct grid *from, int64_t cell, const struct grid *to)
+/* Returns the index in grid `to_grid` of the cell that has index `cell` in grid `from_grid`; -1 if the box of `to_grid`
+ * does not contain the cell. Both grids must have the same node positions, but may have different boxes. */
+static inline int64_t grid_cell_index_in_other_grid(const struct grid *from_grid, int64_t cell,
+                                                    const struct grid *to_grid)
 {
     int64_t J = 0;
-    for (int d = 0; d < from->dim; d++) {
-        const int64_t k = cell / from->stride[d] % from->count[d] + from->first[d] - to->first[d];
-        if (k < 0 || k >= to->count[d]) return -1;
-        J += k * to->stride[d];
+    for (int d = 0; d < from_grid->dim; d++) {
+        const int64_t k = cell / from_grid->stride[d] % from_grid->count[d] + from_grid->first[d] - to_grid->first[d];
+        if (k < 0 || k >= to_grid->count[d]) return -1;
+        J += k * to_grid->stride[d];
     }
     return J;
 }

@@ -65,7 +65,7 @@ real hull_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns true if the signed distance of the point X (s->dim components [m]) from the surface, negative inside, is at
  * most `max_distance` [m]. It is faster than hull_distance, because faces farther away than that are not examined. */
-bool hull_is_within(const struct hull *s, const real *X, real max_distance);
+bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
 /* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
  * direction: unit vector. */
@@ -74,7 +74,7 @@ real hull_support_function(const struct hull *s, const real *direction);
 /* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
  * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
  * surface with outward normals. */
-real hull_ambiguous_fraction(const struct hull *s);
+real hull_ambiguous_inside_fraction(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
  * are consecutive. Corners and faces must be set before. Part of hull_make. */

@@ -49,7 +49,7 @@ struct material {
     struct strength_scatter scatter; /* random field of its critical stretch */
     struct law law;                  /* by which its material points yield */
     struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
-    real surface_least_strain;       /* of that surface: material_least_strain [1] */
+    real surface_least_strain;       /* of that surface: material_smallest_strain_at_strength [1] */
     int surface_means;               /* number of means over families by which the strain is averaged for it */
     /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
@@ -60,10 +60,10 @@ struct material {
 };
 
 /* Returns true if the bonds of the material soften (softening.h). */
-static inline bool material_softens(const struct material *m) { return m->tensile_strength > 0; }
+static inline bool material_has_softening_bonds(const struct material *m) { return m->tensile_strength > 0; }
 
 /* Returns true if a strength surface starts the softening of the material's bonds. */
-static inline bool material_has_surface(const struct material *m) { return m->surface.g0 > 0; }
+static inline bool material_has_strength_surface(const struct material *m) { return m->surface.g0 > 0; }
 
 /* Returns true if the material yields. */
 static inline bool material_yields(const struct material *m)
@@ -109,7 +109,7 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
 /* Returns the critical stretch of the bonds of material m [1]: at this stretch, all bonds that cross a unit area of a
  * plane have the energy release rate G_c. horizon [m]; model: STRETCH_BOND bond-based with the continuum micro-modulus
  * (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci & Oterkus 2014). For the model with particle
- * rotations use family_separation_work_per_area. */
+ * rotations use family_separation_work_over_stretch_squared. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
@@ -135,14 +135,14 @@ struct surface_strengths material_surface_strengths(const struct material *m, en
 /* Returns the smallest strain at which the strength surface of material m can be reached [1]: the minimum, over all
  * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond.
  * Returns 0 if some state stretches no bond. */
-real material_least_strain(const struct material *m, enum space space);
+real material_smallest_strain_at_strength(const struct material *m, enum space space);
 
 /* Sets the strength surface of material m, and computes m->surface_least_strain for it. */
-void material_set_surface(struct material *m, enum space space, struct strength_surface surface);
+void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface);
 
 /* Returns the share U of the strength surface of material m that a stress has reached [1]: 1 on the surface, 0 without
  * stress. stress: symmetric components, 3 in the plane, 6 in space [Pa]. */
-real material_stress_share(const struct material *m, enum space space, const real *stress);
+real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
 /* Computes the elastic stiffness as a row-major n x n matrix over the n = symmetric_component_count(dim) components of
  * stress and strain [Pa]. Strains are tensor components, so that shear rows contain 2G. */

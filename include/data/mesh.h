@@ -147,7 +147,7 @@ static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *
 
 /* Returns the node of the regular grid at the position of `node`: for an extra node at a slit the node that it doubles,
  * for all other nodes `node` itself. */
-static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t node)
+static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh, int64_t node)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && node >= s->first && s->base[node - s->first] >= 0 ? s->base[node - s->first] : node;
@@ -158,7 +158,7 @@ static inline int64_t mesh_regular_node_of(const struct mesh *mesh, int64_t node
  * of the parts has node `node` itself. */
 static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
-    const int64_t cell = mesh_regular_node_of(mesh, node) - mesh->corner[corner];
+    const int64_t cell = mesh_regular_node_of_doubled_node(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
 }
 
@@ -189,7 +189,7 @@ static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
 
 /* Returns true if, according to the last computation of forces, the stress of a material point in any cell may have
  * exceeded the limit at which points are converted to peridynamic particles. */
-static inline bool mesh_exceeds_conversion_stress(const struct mesh *mesh)
+static inline bool mesh_may_exceed_conversion_stress(const struct mesh *mesh)
 {
     bool any = false;
     for (int64_t r = 0; r < mesh->runs; r++) any |= mesh->run[r].stressed;
@@ -211,11 +211,11 @@ static inline const uint8_t *mesh_row_activity_levels(const struct mesh *mesh, i
     return mesh->active.level + row * mesh->segments;
 }
 
-/* Returns true if the eight consecutive nodes, or cells, of a row from the `first`-th one on are at rest, so that they
- * can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
-static inline bool mesh_nodes_are_at_rest(const uint8_t *levels, int64_t first)
+/* Returns true if the eight consecutive nodes, or cells, of a row from the `first_node`-th one on are at rest, so that
+ * they can be skipped. levels: activity levels of the blocks of this row (mesh_row_activity_levels). */
+static inline bool mesh_eight_nodes_are_at_rest(const uint8_t *levels, int64_t first_node)
 {
-    return (levels[first / LANES] | levels[(first + LANES - 1) / LANES]) == 0;
+    return (levels[first_node / LANES] | levels[(first_node + LANES - 1) / LANES]) == 0;
 }
 
 /* Blocks `first` to `end` - 1 of eight nodes of a row that contain all its nodes with mass, counted from the begin of
@@ -233,11 +233,11 @@ static inline struct mesh_row_blocks mesh_blocks_of_row(const struct mesh *mesh,
     return (struct mesh_row_blocks){(first - start) / LANES, (end - start + LANES - 1) / LANES};
 }
 
-/* Returns the number of the first block of eight nodes, from `block` on, that is not at rest; `end` if there is none.
- * levels: activity levels of the blocks of a row. */
-static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t block, int64_t end)
+/* Returns the number of the first block of eight nodes, from `block` on, that is not at rest; `end_block` if there is
+ * none. levels: activity levels of the blocks of a row. */
+static inline int64_t mesh_next_active_block(const uint8_t *levels, int64_t block, int64_t end_block)
 {
-    return block < end && levels[block] ? block : next_marked_index(levels, block, end);
+    return block < end_block && levels[block] ? block : next_marked_index(levels, block, end_block);
 }
 
 /* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, point:

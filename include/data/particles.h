@@ -52,8 +52,8 @@ struct particles {
     real *mass;             /* [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by
-     * frame_update_points, peridynamic particles: by bonds_compute_particle_stress, for frames (run_update_particles)
-     * and for samples and reversion that read it; out of date in between. */
+     * reference_frame_update_points, peridynamic particles: by bonds_compute_particle_stress, for frames
+     * (run_update_particles) and for samples and reversion that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
@@ -95,21 +95,21 @@ struct image {
     uint8_t load;
 };
 
-/* Returns the eight bytes from[0] .. from[7] as one number, in the byte order of the machine. */
-static inline uint64_t eight_bytes_as_word(const uint8_t *from)
+/* Returns the eight bytes bytes[0] .. bytes[7] as one number, in the byte order of the machine. */
+static inline uint64_t eight_bytes_as_word(const uint8_t *bytes)
 {
     uint64_t eight;
-    memcpy(&eight, from, sizeof eight);
+    memcpy(&eight, bytes, sizeof eight);
     return eight;
 }
 
 /* The 64-bit number whose eight bytes are all equal to `byte`. */
 #define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 
-/* Returns true if the eight bytes from[0] .. from[7] are all equal. */
-static inline bool eight_bytes_are_equal(const uint8_t *from)
+/* Returns true if the eight bytes bytes[0] .. bytes[7] are all equal. */
+static inline bool eight_bytes_are_equal(const uint8_t *bytes)
 {
-    return eight_bytes_as_word(from) == EIGHT_TIMES(from[0]);
+    return eight_bytes_as_word(bytes) == EIGHT_TIMES(bytes[0]);
 }
 
 /* Returns the index of the first entry of mark[count], from `first` on, that is not 0, or `count` if there is none.
@@ -212,13 +212,13 @@ static inline real bond_strength_factor(const struct particles *p, int64_t i, in
 
 /* Returns the share of the strength surface of its material that the stored stress of particle i has reached [1]: 1 on
  * the surface; 0 if the material has no such surface. material: materials of the scene, indexed by p->material[i]. */
-static inline real particle_stress_share(const struct particles *p, const struct material *material, enum space space,
-                                         int64_t i)
+static inline real particle_stress_to_strength_ratio(const struct particles *p, const struct material *material,
+                                                     enum space space, int64_t i)
 {
     const struct material *m = &material[p->material[i]];
     real stress[SYM_MAX];
     for (int s = 0; s < symmetric_component_count(p->dim); s++) stress[s] = p->stress[s][i];
-    return material_has_surface(m) ? material_stress_share(m, space, stress) : 0;
+    return material_has_strength_surface(m) ? material_stress_to_strength_ratio(m, space, stress) : 0;
 }
 
 /* Returns true if particle i follows the nodes of a grid or mesh: a material point, or a peridynamic particle that is
@@ -244,7 +244,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays
 
 /* Extends every array of p by `images` zeroed entries for mirror images, behind those of the body; pointers to the
  * arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
-void particles_add_images(struct particles *p, int64_t images, int optional_arrays);
+void particles_add_mirror_images(struct particles *p, int64_t images, int optional_arrays);
 
 /* Releases all arrays of p. */
 void particles_free(struct particles *p);
@@ -257,7 +257,7 @@ void particles_copy_fields(struct particles *p, const struct particles *previous
 /* Sorts the particles of the body row by row: by z, then y, then x, where z and y are rounded to rows of thickness
  * `spacing` [m]; equal positions by id. optional_arrays: optional arrays of p, sum of WITH_*. Called at set-up, before
  * mirror images are added. */
-void particles_sort(struct particles *p, real spacing, int optional_arrays);
+void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optional_arrays);
 
 /* Computes the smallest and the largest coordinate `axis` of the reference positions of the first `count` particles
  * [m]; INFINITY and -INFINITY if `count` = 0. If `count` is p->n, particles of the body that were not created
@@ -269,7 +269,7 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
 int64_t particles_nearest(const struct particles *p, const real *X);
 
 /* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
-real particles_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
+real particles_largest_speed_of_list(const struct particles *p, const int32_t *list, int64_t n);
 
 /* Returns the largest speed of all particles, peridynamic and material points [m/s]. */
 real particles_largest_speed_of_all(const struct particles *p);
@@ -302,6 +302,6 @@ void particles_update_kind_lists(struct particles *p);
 
 /* Returns true if at least one particle is flagged for conversion: it has lost a bond, has a large stress, or is near
  * another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */
-bool particles_are_flagged_for_conversion(const struct particles *p);
+bool particles_any_is_flagged_for_conversion(const struct particles *p);
 
 #endif

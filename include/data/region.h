@@ -92,7 +92,7 @@ struct crack {
 /* Returns true if the crack cuts the bond between reference positions a and b. Symmetric in a and b to the last bit. A
  * particle closer to the crack's plane than 1e-9 crack lengths counts as on its positive side; a bond that passes
  * exactly through the crack's end is cut. */
-bool crack_cuts_bond(const struct crack *c, const real *a, const real *b, int dim);
+bool crack_cuts_bond(const struct crack *c, const real *position, const real *other_position, int dim);
 
 /* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X (dim
  * components [m]); true if it may cut one. A fast test, by which particles far from the crack are skipped. */
@@ -111,8 +111,8 @@ struct mirror_plane {
 /* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror[mirrors] and a corner
  * of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
  * distance from a plane up to which a point is on it [m]. */
-bool mirrors_continue_crack_end(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
-                                real tolerance);
+bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror, int mirrors, const struct crack *c,
+                                       const real *end, real tolerance);
 
 /* Parts and mirror images of cracks. of[k]: index of the original crack of which crack[k] is a part or an image. */
 struct crack_list {
@@ -130,9 +130,9 @@ void cracks_make_mirror_images(struct crack_list *list, const struct crack *crac
 /* Releases the cracks of the list l. */
 void crack_list_free(struct crack_list *l);
 
-/* Returns the distance of the point `point` from the segment between the points `from` and `to` (dim components each
- * [m]) [m]. */
-real segment_distance(const real *from, const real *to, const real *point, int dim);
+/* Returns the distance of the point `point` from the segment between the points `segment_start` and `segment_end` (dim
+ * components each [m]) [m]. */
+real segment_distance(const real *segment_start, const real *segment_end, const real *point, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 

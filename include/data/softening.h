@@ -55,7 +55,7 @@ struct softening_strength {
 
 /* Returns the softening curve G(x) of a softening law: force of a bond over its force when softening begins, where x
  * grows from 0 at that stretch to 1 at the stretch at which the bond breaks. */
-struct softening_curve softening_curve_of(enum softening law);
+struct softening_curve softening_curve_of_law(enum softening law);
 
 /* Returns the stretch s_f at which a softening bond breaks that dissipates the same energy as a brittle bond of
  * critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at most `critical`
@@ -68,7 +68,8 @@ static inline real softening_end_stretch(const struct softening_curve *c, real o
 /* Returns the stretches at which a bond begins to soften and breaks [1], such that it dissipates the same energy as a
  * brittle bond of critical stretch `critical`. onset: stretch at which it begins to soften; if this is not below
  * `critical`, the bond is brittle and both are `critical`. */
-static inline struct softening_range softening_range_of(const struct softening_curve *c, real onset, real critical)
+static inline struct softening_range softening_range_from_onset(const struct softening_curve *c, real onset,
+                                                                real critical)
 {
     if (!(onset < critical * (1 - SOFTENING_LEAST))) return (struct softening_range){critical, critical};
     return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
@@ -83,30 +84,31 @@ static inline real softening_curve_value(const struct softening_curve *c, real x
     return level;
 }
 
-/* Returns the share of its stiffness that a softening bond keeps in tension [1]. onset, end: stretches at which it
- * begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset [1]. */
-static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset, real end,
-                                                          real largest_stretch)
+/* Returns the share of its stiffness that a softening bond keeps in tension [1]. onset, breaking_stretch: stretches at
+ * which it begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset [1]. */
+static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset,
+                                                          real breaking_stretch, real largest_stretch)
 {
-    return onset * softening_curve_value(c, (largest_stretch - onset) / (end - onset)) / largest_stretch;
+    return onset * softening_curve_value(c, (largest_stretch - onset) / (breaking_stretch - onset)) / largest_stretch;
 }
 
 /* Returns the energy that a softening bond has dissipated, over stiffness, weight and length of the bond [1]. c: its
- * softening curve; onset, end: stretches at which it begins to soften and breaks; largest_stretch: its largest stretch
- * so far, at least the onset [1]. */
-real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch);
+ * softening curve; onset, breaking_stretch: stretches at which it begins to soften and breaks; largest_stretch: its
+ * largest stretch so far, at least the onset [1]. */
+real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
+                                            real largest_stretch);
 
 /* Computes the largest stresses that bonds of all directions with the softening curve c reach under growing uniform
  * strain, over s_0 E', by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
  * uniaxial tension; squared_ratio: (critical stretch/s_0)^2 [1]. */
-struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
-                                                   real squared_ratio);
+struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
+                                                               real squared_ratio);
 
 /* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], by
  * fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical stretch/s_0)^2
- * (softening_curve_strength). m->critical_stretch must be set. The result exceeds it if the horizon is too large for
- * this strength. */
-real softening_onset_from_strength(const struct material *m, enum space space);
+ * (softening_curve_normalised_strengths). m->critical_stretch must be set. The result exceeds it if the horizon is too
+ * large for this strength. */
+real softening_onset_stretch_from_strength(const struct material *m, enum space space);
 
 /* Strain rates are measured from this share of the stretch on at which bonds soften in slow loading [1]. */
 #define RATE_FROM 0.5

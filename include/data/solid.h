@@ -103,7 +103,7 @@ struct solid {
 
 /* Returns true if the solid is of the given kind and has not been moved or copied, so that its members from, to, radius
  * and so on give its position. */
-static inline bool solid_is_unmoved_of_kind(const struct solid *s, enum solid_kind kind)
+static inline bool solid_is_of_kind_and_not_moved(const struct solid *s, enum solid_kind kind)
 {
     return s->kind == kind && s->images == 0;
 }
@@ -121,7 +121,7 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim);
 /* Returns true if the level of the point X (dim components [m]) is at most `max_distance` [m], where the level is
  * negative inside the solid, 0 on its surface and positive outside (solid_level_set_value). It is faster than computing
  * the level. */
-bool solid_is_within(const struct solid *s, const real *X, int dim, real max_distance);
+bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, real max_distance);
 
 /* Computes a box that contains the solid with all its copies, slightly enlarged, as box_tree_make needs it. Sides on
  * which the solid is unbounded are infinite. */

@@ -18,18 +18,19 @@ struct strength_surface {
 };
 
 /* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compression >= tension. */
-struct strength_surface surface_of_compression(real tension, real compression);
+struct strength_surface strength_surface_from_compression(real tension, real compression);
 
 /* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic > tension/3. */
-struct strength_surface surface_of_hydrostatic(real tension, real hydrostatic);
+struct strength_surface strength_surface_from_hydrostatic(real tension, real hydrostatic);
 
 /* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tension/2 < biaxial <=
  * tension. */
-struct strength_surface surface_of_biaxial(real tension, real biaxial);
+struct strength_surface strength_surface_from_biaxial(real tension, real biaxial);
 
 /* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. xx, yy, zz: normal
  * stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx [Pa^2]. */
-static inline real surface_share(const struct strength_surface *s, real xx, real yy, real zz, real shear_squares)
+static inline real strength_surface_stress_ratio(const struct strength_surface *s, real xx, real yy, real zz,
+                                                 real shear_squares)
 {
     const real J2 = (square(xx - yy) + square(yy - zz) + square(zz - xx)) / 6 + shear_squares;
     return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
@@ -38,17 +39,17 @@ static inline real surface_share(const struct strength_surface *s, real xx, real
 /* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. stress: dim (dim +
  * 1)/2 symmetric components [Pa]. across: in 2D, the stress normal to the plane over the sum of the normal stresses in
  * it: Poisson's ratio in plane strain, 0 in plane stress [1]. */
-static inline real surface_share_of_components(const struct strength_surface *s, const real *stress, real across,
-                                               const int dim)
+static inline real strength_surface_stress_ratio_of_tensor(const struct strength_surface *s, const real *stress,
+                                                           real across, const int dim)
 {
     real shear_squares = 0;
     for (int c = dim; c < dim * (dim + 1) / 2; c++) shear_squares += square(stress[c]);
     const real zz = dim == 3 ? stress[2] : across * (stress[0] + stress[1]);
-    return surface_share(s, stress[0], stress[1], zz, shear_squares);
+    return strength_surface_stress_ratio(s, stress[0], stress[1], zz, shear_squares);
 }
 
 /* Returns the strength under stresses that grow in proportion: the factor on the three principal values direction[3]
  * [1] at which the strength surface is reached [Pa], INFINITY if it never is. */
-real surface_strength(const struct strength_surface *s, const real *direction);
+real strength_surface_strength_along(const struct strength_surface *s, const real *direction);
 
 #endif

@@ -30,18 +30,18 @@ bool region_has_voxel_image(const struct region *r);
 
 /* Returns true if a void may be between two points of the shape; false for a single convex solid, an image, or no
  * shape. */
-bool region_has_voids(const struct region *r);
+bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles that a void separates from others, by testing all pairs of particles at
  * most `reach` apart [m]. The other members of v must be set before. cells: search over reference positions; image:
  * sources of the mirror images. Release with voids_free. */
-void voids_mark_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                          const struct image *image, real reach);
+void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
+                                    const struct image *image, real reach);
 
 /* Returns true if the segment between the points a and b [m] leaves the shape of body number `body`, so that a void is
  * between them. Symmetric in a and b. facing: NULL, or receives, if there is a void, whether its two surfaces face each
  * other. Gaps of up to 2e-5 spacings are ignored. */
-bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *facing);
+bool void_separates_points(const struct voids *v, int body, const real *point, const real *other_point, bool *facing);
 
 /* Returns true if a void separates the particles i and j of one body. v: NULL if no body has voids; the result is then
  * false. Fast for particles without a void nearby. */
@@ -51,7 +51,7 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
 real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i);
 
 /* Returns true if a void separates particle i from at least one particle of its body within the distance for which
- * voids_mark_particles has marked particles. v: NULL if no body has voids; the result is then false. */
+ * voids_mark_separated_particles has marked particles. v: NULL if no body has voids; the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases the arrays of v that it owns; shapes and mirrors stay with their owners. */

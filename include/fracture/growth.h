@@ -90,11 +90,11 @@ int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct p
 
 /* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
  * 0 to 180 [degree], or NAN if the crack has not grown. */
-real growing_crack_angle(const struct growing_crack *g);
+real growing_crack_deflection_angle(const struct growing_crack *g);
 
 /* Saves the state of a growing crack and its fading bonds to the archive `a` if a->saving, else restores them from it.
- * which: number of the crack, part of the names of its entries in the archive. Returns FAILED if the archive cannot be
- * read or written or a stored size differs. */
-status growing_crack_save_or_load(struct growing_crack *g, int which, struct archive *a);
+ * crack_number: number of the crack, part of the names of its entries in the archive. Returns FAILED if the archive
+ * cannot be read or written or a stored size differs. */
+status growing_crack_save_or_load(struct growing_crack *g, int crack_number, struct archive *a);
 
 #endif

@@ -71,11 +71,11 @@ enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 
 /* Returns k(v), the ratio of K_I of a semi-infinite crack growing at the constant speed v = `speed` [m/s] to K_I of the
  * crack at rest under the same load [1]. form: exact solution or one of two approximations. */
-real crack_speed_sif_factor(const struct crack_medium *m, enum speed_factor form, real speed);
+real crack_sif_ratio_at_speed(const struct crack_medium *m, enum speed_factor form, real speed);
 
-/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_speed_sif_factor) equals `factor`
+/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_sif_ratio_at_speed) equals `factor`
  * [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
-real crack_speed_from_sif_factor(const struct crack_medium *m, real factor, real max_speed);
+real crack_speed_from_sif_ratio(const struct crack_medium *m, real factor, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
  * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; time_since_arrival: time since its arrival

@@ -69,7 +69,7 @@ void tips_update(struct crack_tips *t, const struct particles *p, const struct c
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
-real tip_angle(const struct crack_tip *tip, int dim);
+real tip_deflection_angle(const struct crack_tip *tip, int dim);
 
 /* Returns the speed of tip number `tip` [m/s]: the regression slope of its growth over the last t->window seconds, or 0
  * if fewer than two samples have been taken. */

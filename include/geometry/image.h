@@ -11,7 +11,7 @@
  * of a voxel [m]; lower_corner[dim]: lower corner of the first voxel [m]. Returns REFUSED, with a message, for a wrong
  * format, slices of different sizes, or more voxels than memory allows; FAILED if the PNG library cannot start. After a
  * failure nothing has to be released. Release v with voxels_free. */
-status image_read(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
-                  const real *lower_corner);
+status image_read_voxels(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
+                         const real *lower_corner);
 
 #endif

@@ -54,9 +54,10 @@ void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, cons
 
 /* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
  * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
-void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_side *side, const struct particles *p);
+void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_contact_side *side,
+                                    const struct particles *p);
 
-/* Exchanges momentum between two bodies at each node that grid_contact_find_nodes has listed, if they touch and
+/* Exchanges momentum between two bodies at each node that grid_contact_find_shared_nodes has listed, if they touch and
  * approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal velocities of the
  * grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and points of the bodies,
  * c->sides elements. Returns the energy dissipated [J]. */

@@ -15,7 +15,7 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
  * particles in `list` (indices), because forces other than those of bonds (loads, contact) may act on these particles
  * from the next step on. The bond forces in these row blocks must be 0 so far. loads: boundary conditions and contact
  * marks of the run. */
-void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *loads, const int32_t *list,
-                          int64_t n);
+void active_rows_activate_particles(struct bonds *b, const struct particles *p, const struct loads *loads,
+                                    const int32_t *list, int64_t n);
 
 #endif

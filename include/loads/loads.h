@@ -200,8 +200,8 @@ struct exposed_face {
  * covers, and stores them in f. selected: [p->n]; spacing: lattice spacing [m]; extrapolate: true to extrapolate
  * tangential tractions to the face from the first two particles of each column normal to it, false to apply them to the
  * first one. Release with exposed_face_free. */
-void exposed_face_make(struct exposed_face *f, const struct boundary *b, const struct particles *p,
-                       const uint8_t *selected, real spacing, bool extrapolate);
+void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                                const uint8_t *selected, real spacing, bool extrapolate);
 
 /* Releases both arrays of areas of a face. */
 void exposed_face_free(struct exposed_face *f);
@@ -224,7 +224,7 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
 /* Finds the particles with a free face on which the pressure boundary[number] acts, and stores them in l with the areas
  * of these faces. boundary: all `boundaries` of the scene, because others may cover a face. spacing: lattice spacing
  * [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int number,
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
 
 /* Function that pressure_visit_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1
@@ -233,8 +233,9 @@ typedef void pressure_face_fn(void *context, int32_t particle, int axis, int sid
 
 /* Calls visit(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
  * boundary[number] acts. boundary: all `boundaries` of the scene; spacing: lattice spacing [m]; selected: [p->n]. */
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
-                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int boundary_number,
+                          const struct particles *p, real spacing, const uint8_t *selected, pressure_face_fn *visit,
+                          void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that depend
@@ -246,12 +247,13 @@ status load_prepare_varying_shares(struct load *l, const struct particles *p);
 status loads_check_finite(const struct loads *l, const struct particles *p, real t);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
- * over the velocity update of duration dt_velocity [s] that ends at time t [s]. loads_add_forces then uses them. */
+ * over the velocity update of duration dt_velocity [s] that ends at time t [s]. loads_add_applied_forces then uses
+ * them. */
 void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
  * over the two velocity updates before and after the position update of the step t - dt/2 to t + dt/2 [s].
- * loads_add_work then uses them. */
+ * loads_add_work_of_applied_forces then uses them. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
 /* Releases the arrays that load_prepare_varying_shares has allocated for load l. */
@@ -297,12 +299,12 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim);
 void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
- * of the velocity update [s], to l->impulse. Part of loads_complete_particle_forces. */
-void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
+ * of the velocity update [s], to l->impulse. Part of loads_apply_to_particle_forces. */
+void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
 /* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
  * loads_impose_prescribed_motion. */
-void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
+void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
@@ -319,7 +321,7 @@ void absorbing_dashpots_make(struct loads *l, const struct particles *p, const s
 void absorbing_dashpots_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. Part of loads_complete_particle_forces. */
+ * dt_velocity: duration of the velocity update [s]. Part of loads_apply_to_particle_forces. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots of grid nodes to g; part of loads_prescribe_grid_velocities, after the prescribed
@@ -376,10 +378,10 @@ struct prescribed_motion {
  * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: kept by reference. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `number` of l prescribes in the step of size dt about t [s], as
+/* Returns the motion that boundary number `boundary_number` of l prescribes in the step of size dt about t [s], as
  * prescribed_motion_make. After the last step (l->ended) a prescribed displacement continues at its previous velocity,
  * so that a change of motion beyond the end enters no work. */
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt);
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
 /* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
  * a prescribed displacement its difference over the step divided by dt. at_present_position: true if X is the position
@@ -415,8 +417,8 @@ real load_largest_velocity_change(const struct load *l, const struct particles *
 /* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and `t_end`
  * [s], each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component
  * is prescribed by both; INFINITY if one load rotates or depends on position. */
-real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
-                                       real t_end);
+real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
+                                       const struct particles *p, real t_end);
 
 /* Distance up to which a particle outside a region counts as inside, so that particles on its border do [spacings]. */
 #define LOADS_TOLERANCE ON_SURFACE
@@ -443,7 +445,7 @@ void loads_clear_forces(struct loads *l, struct particles *p);
  * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
  * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
  * the step of size dt [s]. */
-void loads_complete_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]. These are nodes in
  * the region of a prescribed motion, nodes on a mirror plane, and nodes at least half of whose mass belongs to points
@@ -483,7 +485,7 @@ bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* Returns true if the plane of mirror b is on a node of grid g or midway between two. spacing: lattice spacing [m]. */
-bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing);
+bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 

@@ -50,22 +50,23 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
  * peridynamic ones from their cells and recomputes these cells. changed: indices of the n particles, NULL if they are
  * unknown. Each particle that leaves takes its share of mass and momentum from the nodes of its cell, so that nodal
  * velocities are kept. Returns the kinetic energy that is lost by this [J]. */
-real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
-                           const int32_t *changed, int64_t n);
+real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
+                                               const int32_t *changed, int64_t n);
 
 /* Recomputes the stiffness of the cells of n points after only their partial stresses have changed; all points remain
  * in the mesh. changed: indices of the n points. Possible only for partial cells. These store a stiffness matrix
  * because points are missing, or leave a part of their stress to bonds. Returns false, without any change, if one of
- * the cells was not partial before or would not be afterwards; call mesh_remove_converted then. */
+ * the cells was not partial before or would not be afterwards; call mesh_remove_points_and_return_lost_energy then. */
 bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                    const int32_t *changed, int64_t n);
 
 /* Adds n listed particles, which have become material points again, to the mesh. Momentum is conserved: the velocity
  * of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N), with shape functions N; the
- * displacement of these nodes is fitted by least squares to all points around them. Call mesh_remove_converted with
- * these particles among the changed ones afterwards, to make their cells. Returns the kinetic energy that is lost [J].
+ * displacement of these nodes is fitted by least squares to all points around them. Call
+ * mesh_remove_points_and_return_lost_energy with these particles among the changed ones afterwards, to make their
+ * cells. Returns the kinetic energy that is lost [J].
  */
-real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
 /* Returns true if the cell of the mesh contains a part of the body. */
 bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
@@ -86,8 +87,8 @@ real mesh_critical_time_step(const struct mesh *mesh, const struct mesh_source *
  * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;
  * stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with
  * stiffness 0, if the cell has no points. */
-bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
-                         int64_t cell, real *stiffness);
+bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
+                                 int64_t cell, real *stiffness);
 
 /* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
  * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
@@ -99,8 +100,8 @@ enum { CELLS_ACROSS = 6 };
 /* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
  * highest[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
  * these levels. */
-int mesh_compute_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors,
-                              uint8_t *highest);
+int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors,
+                                     uint8_t *highest);
 
 /* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
  * bytes, not 0 if marked. */

@@ -79,55 +79,55 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
  * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
-void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                               struct loads *loads);
+void reference_frame_find_exposed_points(struct reference_frame *r, const struct particles *p,
+                                         const struct bonds *bonds, struct loads *loads);
 
 /* Updates the exposed points of the mesh, i.e. the material points with bonds, loads or mirror images: their positions
  * and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their strains. */
-void frame_update_exposed_points(struct reference_frame *r, struct particles *p);
+void reference_frame_update_exposed_points(struct reference_frame *r, struct particles *p);
 
 /* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
  * distributed to the nodes, plus the forces of all cells whose refinement level acts in this step. Level L, 0 for the
  * finest cells, acts every 2^L steps. */
-void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
+void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the points of the mesh that
- * have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions those of this
- * step are added; clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity: interval
- * over which velocities are advanced [s]. */
-void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
-                      const struct run_clock *clock, real t_middle, real dt_velocity);
+/* Integrates the motion of the nodes under the forces of reference_frame_compute_forces, then updates the points of the
+ * mesh that have bonds, loads or mirror images. loads: prescribed velocities, to whose sums of work and reactions those
+ * of this step are added; clock: step number and time step; t_middle: time in the middle of the step [s]; dt_velocity:
+ * interval over which velocities are advanced [s]. */
+void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
+                                const struct run_clock *clock, real t_middle, real dt_velocity);
 
 /* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
  * mirror images of particles, which `loads` lists. */
-void frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads);
+void reference_frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of all material points of the mesh from the nodes, then those of the mirror images
  * of particles, which `loads` lists. */
-void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
+void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of n material points of the mesh from the nodes, except points in coarse cells,
  * then those of the mirror images of particles, which `loads` lists. list: n particle indices. */
-void frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
-                                const int32_t *list, int64_t n);
+void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
+                                          const int32_t *list, int64_t n);
 
 /* Updates the mesh after `converted` particles (0: none) have become peridynamic and the partial stresses of the points
  * listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to *energy_lost [J].
- * Returns true if points may have left the mesh; the caller must then call frame_find_exposed_points. Returns false if
- * only the stiffness of cells has changed. */
-bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
-                                   const struct partial_stress *partial, real *energy_lost);
+ * Returns true if points may have left the mesh; the caller must then call reference_frame_find_exposed_points. Returns
+ * false if only the stiffness of cells has changed. */
+bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+                                             const struct partial_stress *partial, real *energy_lost);
 
 /* Adds n listed particles, which have become material points again, to the mesh. list: n particle indices. Momentum is
  * conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
-void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
-                         real *energy_lost);
+void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
+                                   real *energy_lost);
 
 /* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
-real frame_kinetic_energy(const struct reference_frame *reference);
+real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
 /* Returns the strain energy of all cells of the reference frame, of all refinement levels [J]. */
-real frame_strain_energy(struct reference_frame *r, const struct particles *p);
+real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells: none, a boundary condition, initial
  * values of particles, a moving or rigid body. */
@@ -166,50 +166,50 @@ struct levels_choice {
 /* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
  * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
  * made. */
-void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles);
+void mesh_levels_find_highest_allowed(struct reference_frame *r, const struct scene *s, int64_t particles);
 
 /* Returns the number of coarse refinement levels for scene s, and the reason. The number is given by the scene or
  * chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
-struct levels_choice frame_levels_choose_count(const struct reference_frame *r, const struct particles *p,
-                                               const struct scene *s, real dt_critical);
+struct levels_choice mesh_levels_choose_count(const struct reference_frame *r, const struct particles *p,
+                                              const struct scene *s, real dt_critical);
 
 /* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
- * from frame_levels_choose_count. */
-void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
+ * from mesh_levels_choose_count. */
+void mesh_levels_describe_choice(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
  * why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
- * frame_levels_choose_count. */
-bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
-                               const struct scene *s, char *reason, size_t capacity);
+ * mesh_levels_choose_count. */
+bool mesh_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame, const struct scene *s,
+                              char *reason, size_t capacity);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
-status frame_levels_make(struct run *e, bool restored);
+status mesh_levels_make_coarse_cells(struct run *e, bool restored);
 
 /* Returns true if refinement levels may change before step number `step`: if there are coarse levels, step > 0, and all
  * levels have reached the same time. */
-bool frame_levels_may_change(const struct mesh_levels *l, int64_t step);
+bool mesh_levels_may_change(const struct mesh_levels *l, int64_t step);
 
 /* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
  * conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees, with the
  * level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
-uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                                  int64_t step, real mass);
+uint8_t *mesh_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                                 int64_t step, real mass);
 
 /* Changes the refinement levels of run e. level: for each cell of level 0 (the finest) the level of the cell to which
- * it shall belong, as frame_levels_choose_next returns it. Cells that become level 0 must have particles
+ * it shall belong, as mesh_levels_choose_next returns it. Cells that become level 0 must have particles
  * (levels_need_more_particles). The energy that the change removes is added to e->damped. */
-void frame_levels_apply(struct run *e, const uint8_t *level);
+void mesh_levels_apply(struct run *e, const uint8_t *level);
 
 /* Postpones the conversion of material points that are too close to coarse cells: clears the flags by which they would
  * convert, and requests finer cells there. To be called before points convert. */
-void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
+void mesh_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
  * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
-void frame_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                                    struct loads *loads);
+void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                                   struct loads *loads);
 
 /* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
  * be left out. */

@@ -12,11 +12,11 @@ enum { FOOTER_BYTES = 24 };
 /* Appends the footer (magic number, number of the bytes before it, their hash) to PATH.cleave.tmp, the temporary file
  * of `path`, and synchronises the file with the disk. Returns FAILED, with PATH.cleave.tmp removed, if the file cannot
  * be written. */
-status file_append_footer(const char *path);
+status file_append_checksum_footer(const char *path);
 
 /* Returns true if the regular file `path` ends with a footer, so that Cleave wrote it. The hash in the footer is not
  * checked. Returns false also if the file cannot be read. */
-bool file_has_footer(const char *path);
+bool file_has_checksum_footer(const char *path);
 
 /* Checks the length and the hash of the file `path` by its footer. Returns NULL if the file is complete and unchanged,
  * else a static text that completes "PATH ..." in a message, for example "is cut short". A file that cannot be read
@@ -26,7 +26,7 @@ const char *file_describe_damage(const char *path);
 /* Checks the length and the hash of the file `path` by its footer. Returns NULL if the file is complete and unchanged,
  * or if it cannot be read; otherwise a static text that completes "PATH ..." in a message. Only damage that is certain
  * is thus reported. */
-const char *file_describe_certain_damage(const char *path);
+const char *file_describe_damage_if_readable(const char *path);
 
 /* Returns a hash of `length` bytes from `bytes` on. start: a number on which the hash depends, too, for example the
  * hash of the bytes before these. */

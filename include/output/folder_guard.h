@@ -17,7 +17,7 @@ struct folder_kind {
 };
 
 /* Returns true if `name` is that of a hidden or temporary file, which any output folder may hold. */
-bool file_name_is_ignored(const char *name);
+bool file_name_is_hidden_or_temporary(const char *name);
 
 /* Checks that a command may write its files into `folder`. It may if the folder does not exist, contains only hidden
  * and temporary files, or is of the given kind. scene_text: text of the scene, passed to kind->is_sign; may be NULL if

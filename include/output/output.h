@@ -116,9 +116,9 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* Writes the index files of all series of frames again, without frames that are missing or incomplete. A frame that was
  * lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number of lost
- * frames in *lost and a message about the first of them in message[capacity]. Returns FAILED if an index file cannot be
- * written. */
-status output_index_drop_lost_frames(struct output *o, int *lost, char *message, size_t capacity);
+ * frames in *lost_frames and a message about the first of them in message[capacity]. Returns FAILED if an index file
+ * cannot be written. */
+status output_index_drop_lost_frames(struct output *o, int *lost_frames, char *message, size_t capacity);
 
 /* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
 #define RIGID_FILE_BEGIN                                                                                               \
@@ -183,11 +183,11 @@ status output_frame_begin(struct output *o, int series, const struct particles *
 /* Writes all frames of each series as one file with all times for ParaView, frames.vtkhdf, at the end of a run.
  * scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more frames
  * than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
-status output_write_temporal_file(struct output *o, const char *scene_text);
+status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text);
 
 /* Removes the files with all frames, frames.vtkhdf, that an earlier process wrote to the folder of the run, since they
  * lack the frames of a run that continues. */
-void output_remove_temporal_file(const struct output *o);
+void output_remove_vtkhdf_of_all_frames(const struct output *o);
 
 /* Discards the stored order in which particles are written. Must be called when the number of particles or their ids
  * have changed, after output_wait_for_frame. */
@@ -248,7 +248,7 @@ struct listed_frame {
 /* Reads the list of frames, in ascending order, from the index frames.hdf.series of the folder of a run. Stores their
  * number in *n and an allocated array in *list, which the caller releases with memory_free. Returns FAILED if the
  * index cannot be read. */
-status frames_list(const char *folder, int *n, struct listed_frame **list);
+status run_list_frames(const char *folder, int *n, struct listed_frame **list);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 

@@ -21,7 +21,7 @@ char *path_last_name(char *name, size_t capacity, const char *path);
 
 /* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = number; an empty
  * path if it would be too long. */
-struct path run_frame_path(const char *folder, int number);
+struct path run_frame_path(const char *folder, int frame_number);
 
 /* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a
  * file has the name of such a folder; FAILED if a folder cannot be created. */
@@ -70,14 +70,14 @@ status file_check_replaceable(const char *path);
 /* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. beginning[beginnings]: the
  * possible beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if
  * there is no such file; REFUSED if no beginning agrees. */
-status file_check_beginning(const char *path, const char *const *beginning, size_t beginnings);
+status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings);
 
 /* Type of a function that acts on the file `path`. */
 typedef status file_visit_fn(const char *path);
 
 /* Calls visit(path) for every file in `folder` for whose name chosen(name, ending) returns true. Links are skipped.
  * Stops at the first call that does not return OK, and returns its status. */
-status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
+status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending), const char *ending,
                    file_visit_fn *visit);
 
 /* Returns true if the file `path` has exactly the given contents, `length` bytes from `bytes` on; false also if it

@@ -13,7 +13,7 @@ enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTUR
 status picture_replace_by_temporary(const char *path, enum picture_format format);
 
 /* Returns true if the file `path` has the mark by which Cleave recognises its own pictures. */
-bool picture_has_mark(const char *path);
+bool picture_file_is_from_cleave(const char *path);
 
 /* Checks that a picture may be written to the file `path`. Returns REFUSED if there is such a file and it lacks the
  * mark of Cleave; OK if there is no such file. */

@@ -32,14 +32,14 @@ struct path picture_path(const char *folder, enum picture which, const char *end
 
 /* Returns the path NAME_000012.png of the picture of frame 12 = number in `folder`, a folder of pictures; an empty path
  * if it would be too long. which: kind of picture, which determines NAME. */
-struct path picture_path_of_frame(const char *folder, enum picture which, int number);
+struct path picture_path_of_frame(const char *folder, enum picture which, int frame_number);
 
 /* Returns the path field_NAME.ENDING of a picture of the field called NAME = field in `folder`, a folder of pictures;
  * an empty path if it would be too long. ending: "png", "svg" and so on. */
 struct path picture_path_of_field(const char *folder, const char *field, const char *ending);
 
 /* Returns true if `name` consists of the name of a picture or film that Cleave draws, such as NAME.png or
- * NAME_000012.png, and of the text `end` after it. */
-bool is_picture_name(const char *name, const char *end);
+ * NAME_000012.png, and of the text `ending` after it. */
+bool file_name_is_of_picture(const char *name, const char *ending);
 
 #endif

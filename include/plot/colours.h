@@ -31,15 +31,15 @@ struct colour colour_from_table(enum colour_table table, double position);
 /* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
  * lightness. position: position on the scale, 0 .. 1. Smaller and larger values are treated as 0 and 1, NaN and
  * infinity as 1. */
-struct colour colour_sequential(double position);
+struct colour colour_on_sequential_scale(double position);
 
 /* Returns a colour of the diverging scale for signed quantities: blue at 0, grey at 0.5, red at 1. position: position
  * on the scale, 0 .. 1. Smaller and larger values are treated as 0 and 1, NaN and infinity as 1. */
-struct colour colour_diverging(double position);
+struct colour colour_on_diverging_scale(double position);
 
 /* Returns a colour of the scale for damage: grey at 0, then orange, dark red at 1. position: position on the scale, 0
  * .. 1. Smaller and larger values are treated as 0 and 1, NaN and infinity as 1. */
-struct colour colour_damage(double position);
+struct colour colour_on_damage_scale(double position);
 
 /* Returns the colour of a peridynamic particle in maps of the particle kind. It goes from light blue at 0 to dark blue
  * at 1. position: position on this scale, 0 .. 1, which depends on the damage of the particle. Smaller and larger
@@ -55,12 +55,12 @@ struct colour fragment_colour(int32_t fragment);
 
 /* Returns the colour of the material or body with the index `index` >= 0. The colours are light, so that symbols drawn
  * on top are visible, and repeat after nine. */
-struct colour part_colour(int index);
+struct colour colour_of_material_or_body(int index);
 
-/* Mixes the colour c with white. weight: weight of c, 1 for c itself, 0 for white. */
-struct colour colour_faded(struct colour c, double weight);
+/* Mixes the colour c with white. colour_weight: weight of c, 1 for c itself, 0 for white. */
+struct colour colour_mixed_with_white(struct colour c, double colour_weight);
 
-/* Mixes the colour c with black. share: weight of c, 1 for c itself, 0 for black. */
-struct colour colour_shaded(struct colour c, double share);
+/* Mixes the colour c with black. colour_weight: weight of c, 1 for c itself, 0 for black. */
+struct colour colour_mixed_with_black(struct colour c, double colour_weight);
 
 #endif

@@ -58,11 +58,11 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 int gnuplot_image_pixels(enum picture_format format, int pixels);
 
 /* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
-bool gnuplot_is_narrow(void);
+bool picture_is_too_narrow_for_key(void);
 
-/* Writes the commands for the title of a picture, which begins `left` pixels from its left edge. A title that is too
- * long for one line of letters of legible size is broken into two lines. */
-void gnuplot_write_title(struct gnuplot *g, const char *text, double left);
+/* Writes the commands for the title of a picture, which begins `left_margin` pixels from its left edge. A title that is
+ * too long for one line of letters of legible size is broken into two lines. */
+void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it from its temporary name to its final
  * path. Returns FAILED if gnuplot is missing (the message names the package to install), or if the picture is missing

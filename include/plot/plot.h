@@ -87,9 +87,9 @@ bool run_has_file(const char *folder, const char *name);
 /* Returns true if `folder` is that of a sweep or a convergence study, which is recognised by its table. */
 bool folder_holds_study(const char *folder);
 
-/* Reads the frame with the number `number` in the folder of a run into *f. Returns FAILED, with no memory to release,
- * if the file cannot be read or is damaged. Release f with frame_free. */
-status run_read_frame(struct output_frame *f, const char *folder, int number);
+/* Reads the frame with the number `frame_number` in the folder of a run into *f. Returns FAILED, with no memory to
+ * release, if the file cannot be read or is damaged. Release f with frame_free. */
+status run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
 /* All frames of a run, and those selected for a picture. */
 struct run_frames {
@@ -135,7 +135,7 @@ struct plotted_particles;
 /* Composes the title of a picture in title[TITLE_LENGTH]: `name, method: what`, with name and method of the run in
  * r->folder; unknown parts are left out. If r->title is given, it is the title. c: particles of the picture, for which
  * the position of the slice and the factor on displacements are added, or NULL. */
-void picture_compose_title(char *title, const struct plot_request *r, const char *what,
+void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c);
 
 /* Unit for display: displayed value = SI value / factor. */
@@ -187,7 +187,7 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
  * broken up to the last selected frame. Otherwise it is the first one of plastic strain, von Mises stress and speed
  * that is not 0 everywhere in that frame, or damage if all of them are. folder: folder of the run; frames: selected
  * frames. Returns FAILED if a frame cannot be read. */
-status plot_field_choose(const struct plot_field **field, const char *folder, const struct run_frames *frames);
+status plot_field_choose_default(const struct plot_field **field, const char *folder, const struct run_frames *frames);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
@@ -275,18 +275,18 @@ enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRAC
 /* Returns the kind of map (MAP_...) in which a field is shown. */
 enum map map_of_field(const struct plot_field *field);
 
-/* Adds the rigid bodies of the scene s, in their positions at frame number `number` of the run in `folder`, to the
- * particles c of this frame. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s: kept
- * by reference. */
+/* Adds the rigid bodies of the scene s, in their positions at frame number `frame_number` of the run in `folder`, to
+ * the particles c of this frame. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s:
+ * kept by reference. */
 void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                                  const char *folder, int number);
+                                  const char *folder, int frame_number);
 
 /* Adds the rigid bodies of the scene s, whose placements are at[s->rigids], to the particles c. low, high: box around
  * the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
 void plotted_particles_place_rigids(struct plotted_particles *c, const struct scene *s,
                                     const struct rigid_placement *at, const real *low, const real *high);
 
-/* Number of named values that part_colour can distinguish. */
+/* Number of named values that colour_of_material_or_body can distinguish. */
 enum { CATEGORIES_MOST = 9 };
 
 /* A named value and its colour. */
@@ -303,8 +303,8 @@ struct categories {
 };
 /* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[clouds], and stores them in
  * *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
-void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
-                     const struct plotted_particles *cloud, int clouds);
+void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
+                                  const struct plotted_particles *cloud, int clouds);
 
 /* Returns the colour in which a value of a field is drawn whose values have names, such as bodies or materials. value:
  * index of the body, material and so on. */
@@ -331,7 +331,7 @@ struct view {
 
 /* Returns a view whose rectangle shows all of cloud[clouds], the particles of several frames: the bounding box of the
  * body with a margin. A few particles that are far from all others may be outside. */
-struct view view_around(const struct plotted_particles *cloud, int clouds);
+struct view view_make_around_particles(const struct plotted_particles *cloud, int clouds);
 
 /* Sets the field that the view v shows, and the values at the ends of its colour scale. These follow from the kind of
  * scale of the field (field->scale) and its values in cloud[clouds]. Extreme values of a few particles are ignored. */
@@ -372,7 +372,7 @@ void notches_paint(struct colour *pixel, int width, int height, const struct vie
 struct colour rigid_colour(void);
 
 /* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
-void view_show_rigids(struct view *v, const struct plotted_particles *c);
+void view_extend_to_rigids(struct view *v, const struct plotted_particles *c);
 
 /* Returns true if a rigid body of c is visible in the rectangle of v. In views from outside this is assumed for any
  * rigid body. Otherwise the body must reach into the plane of the picture, which is tested at 300 x 300 points. */
@@ -380,15 +380,15 @@ bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
 
 /* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
  * slice. In front of a slice they hide the particles, in a plane body they are behind the particles. */
-void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
-                       const struct plotted_particles *c);
+void rigids_paint_in_plane(struct colour *pixel, int width, int height, const struct view *v,
+                           const struct plotted_particles *c);
 
 /* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
  * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
- * [m], which is then updated. v: visible rectangle; share: weight of the colour of the bodies against white, 1 for the
- * full colour. */
-void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                          const struct plotted_particles *c, double share);
+ * [m], which is then updated. v: visible rectangle; colour_weight: weight of the colour of the bodies against white, 1
+ * for the full colour. */
+void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
+                               const struct plotted_particles *c, double colour_weight);
 
 /* Output file of a picture. */
 struct sheet {

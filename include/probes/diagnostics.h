@@ -67,7 +67,8 @@ real diagnostics_energy_change(const struct diagnostics *w);
  * are at most `horizon` apart. list[n]: numbers of the particles that are searched; NULL for particles 0 .. n - 1.
  * horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cluster, dim
  * components [m]. Returns the number of clusters; if it is 0, `centre` is unchanged. */
-int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre);
+int64_t diagnostics_locate_new_breaks(const struct particles *p, const int32_t *list, int64_t n, real horizon,
+                                      real *centre);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
  * the first break of the run. broken_bonds: number of directed bonds that broke in the step. horizon: length of the

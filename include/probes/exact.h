@@ -60,10 +60,11 @@ int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_fron
  * PRECURSOR: from 0.07 bar lengths behind the precursor to 0.05 ahead of the plastic front. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
-/* Computes the ends *from and *to [m] of a part of the bar in which the stress of the closed-form solution is constant
- * at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the elastic precursor
- * and the plastic front, both at some distance from fronts and ends. Returns false if there is no such part at time
- * t. */
-bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *from, real *to);
+/* Computes the ends *lower_end and *upper_end [m] of a part of the bar in which the stress of the closed-form solution
+ * is constant at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the
+ * elastic precursor and the plastic front, both at some distance from fronts and ends. Returns false if there is no
+ * such part at time t. */
+bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
+                                 real *upper_end);
 
 #endif

@@ -142,8 +142,8 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 bool probes_write_profile_name(const struct probes *s, int profile, int frame, char *name);
 
 /* Copies the stress-intensity factors that the SIF probe called `name` had at its last sample, and the direction of its
- * crack tip, to *found. Returns false if the probe has no values yet. */
-bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *found);
+ * crack tip, to *control. Returns false if the probe has no values yet. */
+bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *control);
 
 /* Computes the current position of the crack tip of probe number `probe`, two components [m], and the outer radius of
  * its contours, *radius [m]. Returns false if the probe is not a SIF probe. */

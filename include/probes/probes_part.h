@@ -44,7 +44,7 @@ void patch_residual_store_mesh(struct probing *q, const struct scene *s, const s
 status profiles_write(const struct probes *s, const struct output *out, const struct observed_run *o);
 
 /* Adds a warning to *to if profiles that belong to the frames of a resumed run are missing in the folder of `out`. */
-void profiles_check(const struct probes *s, const struct output *out, struct warnings *to);
+void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *to);
 
 /* Removes the profiles that an earlier run left in the folder of `out`. Call it before a new run. */
 void profiles_remove(const struct probes *s, const struct output *out);

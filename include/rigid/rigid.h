@@ -51,7 +51,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* Tests by bounding spheres whether a point of the body may be within `reach` [m] of the current position x (r->dim
  * components [m]). Returns false if that is impossible; always true for a fixed body, which may be unbounded. */
-static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, real reach)
+static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
     for (int d = 0; d < r->dim; d++) far2 += square(x[d] - r->x[d]);
@@ -103,9 +103,9 @@ real rigid_kinetic_energy(const struct rigid_body *r);
  * moment, to first order [J]; 0 for other bodies. dt: whole time step [s]. */
 real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt);
 
-/* Saves the motion of a rigid body to the archive `a` if a->saving, else restores it from it. number: number of the
- * body in the scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a
+/* Saves the motion of a rigid body to the archive `a` if a->saving, else restores it from it. body_number: number of
+ * the body in the scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a
  * stored size differs. */
-status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a);
+status rigid_save_or_load(struct rigid_body *r, int body_number, struct archive *a);
 
 #endif

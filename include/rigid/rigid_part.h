@@ -24,7 +24,7 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s);
 
 /* Checks the positions of all rigid bodies at the start. Returns REFUSED, with a message, if one overlaps particles, or
  * if a freely moving one touches a mirror plane of the scene. */
-status rigids_check(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
+status rigids_check_start_positions(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
 
 /* Evaluates the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
  * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
@@ -56,12 +56,12 @@ struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt
 
 /* Stores names and units of the columns of rigid bodies in history.csv in the array `column`; NULL: counts them only.
  * Returns their number: force [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
-int rigids_list_columns(const struct run *e, struct column *column);
+int rigids_list_history_columns(const struct run *e, struct column *column);
 
-/* Writes the values of the columns of rigid bodies in history.csv to `record`, in the order of rigids_list_columns: for
- * each body the forces and moments of the last step, then position and velocity at the time of the sample, which
- * rigids_store_motion_for_sample has stored. */
-void rigids_write_record(struct run *e, real *record);
+/* Writes the values of the columns of rigid bodies in history.csv to `record`, in the order of
+ * rigids_list_history_columns: for each body the forces and moments of the last step, then position and velocity at the
+ * time of the sample, which rigids_store_motion_for_sample has stored. */
+void rigids_write_history_values(struct run *e, real *record);
 
 /* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample at time t
  * [s]. The stored velocity of a driven body is the prescribed one at t. */

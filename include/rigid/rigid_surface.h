@@ -26,7 +26,7 @@ void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int
  * the box of the particles, on return those of the box to show, dim components each [m]. A bounded body is shown in its
  * own bounding box. An unbounded one is cut to the box of the particles, widened on all sides by 0.08 of its longest
  * edge, and extended to the nearest part of the body if that is farther away. Returns true if the body is bounded. */
-bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high);
+bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high);
 
 /* Releases the arrays of *s. */
 void rigid_surface_free(struct rigid_surface *s);
@@ -41,8 +41,8 @@ struct rigid_placement {
     real centre[DIM_MAX], x[DIM_MAX], turn[DIM_MAX][DIM_MAX];
 };
 
-/* Reads the placements of `rigids` rigid bodies at frame `number` from the folder of a run into placement[rigids].
- * Returns false if there is no such file, or if it contains another number of bodies. */
-bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int number);
+/* Reads the placements of `rigids` rigid bodies at frame `frame_number` from the folder of a run into
+ * placement[rigids]. Returns false if there is no such file, or if it contains another number of bodies. */
+bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int frame_number);
 
 #endif

@@ -10,7 +10,7 @@
 real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
- * frame, whose kinetic energy is that of the mesh nodes (frame_kinetic_energy). */
+ * frame, whose kinetic energy is that of the mesh nodes (reference_frame_kinetic_energy). */
 real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points on the background grid [J]: 1/2 sum sigma : C^-1 : sigma V,
@@ -37,10 +37,10 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
 real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
 /* Computes the linear momentum of all particles and mesh nodes. nodes: `grids` pointers to the grids of the meshes;
- * momentum: receives dim components [kg m/s]; size: receives the sum of the magnitudes |m v| of all contributions [kg
- * m/s], to which round-off errors of the momentum can be compared; NULL: not computed. */
+ * momentum: receives dim components [kg m/s]; momentum_scale: receives the sum of the magnitudes |m v| of all
+ * contributions [kg m/s], to which round-off errors of the momentum can be compared; NULL: not computed. */
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
-                               real *size);
+                               real *momentum_scale);
 
 /* Prepares the families of the bonds b at the current positions, before forces or energies are computed. Computes the
  * weighted volume and the dilatation of each family in state-based peridynamics; in the bond-based model updates the

@@ -21,7 +21,7 @@ status fill_particles(struct particles *p, const struct scene *s, const struct c
 /* Computes the position of one site of the lattice that fills the body with the index `body`, and stores its
  * coordinates in X[dim] [m]. The body must not come from a particle list. Returns REFUSED, with a message, if the body
  * has no lattice, for example because the scene gives no spacing. */
-status fill_lattice_site(const struct scene *s, int body, real *X);
+status fill_compute_lattice_site_position(const struct scene *s, int body, real *X);
 
 /* Finds the cells of the grid hollow->box in which all particle positions are inside the body with the index `body`.
  * Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is allocated here and released by the

@@ -73,7 +73,7 @@ status particle_list_read_head(struct particle_list_head *head, const char *path
 
 /* Returns true if the extension of the file name `path` is one of particle lists: .csv, .tsv, .txt, .dat, .h5, .hdf5,
  * .hdf, or one of Exodus II. */
-bool is_particle_list_name(const char *path);
+bool path_has_particle_list_extension(const char *path);
 
 /* Releases the arrays of the list l. */
 void particle_list_free(struct particle_list *l);

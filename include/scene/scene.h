@@ -327,7 +327,7 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
 
 /* Returns true if, with method mpm and explicit time steps, a body yields whose shape functions are evaluated at the
  * reference positions of its material points (frame `reference`). */
-bool scene_yields_on_mesh(const struct scene *s);
+bool scene_has_yielding_body_on_mesh(const struct scene *s);
 
 /* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body with the index `body`,
  * that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is static. */
@@ -344,7 +344,7 @@ status scene_print_help(FILE *out, const char *key);
 
 /* Returns true if `cleave help` can explain the word `key`: it is the name or the last part of the name of a key of
  * scenes, a prefix of keys, a value of a key, a former name of a key, or a word of another program. */
-bool scene_has_key(const char *key);
+bool scene_help_knows_word(const char *key);
 
 /* Prints the units that numbers in scenes may have to `out`. */
 void scene_print_units(FILE *out);

@@ -27,7 +27,7 @@ struct pilot_wish {
     bool at_rest;          /* the solver is not explicit */
     bool has_accuracy;     /* the scene has the key `accuracy` */
     /* The scene with a provisional method (adaptive or pd) and, where none is given, the spacing of
-     * spacing_that_resolves (1 m if there is none); release it with scene_free. */
+     * spacing_that_resolves_all_lengths (1 m if there is none); release it with scene_free. */
     struct scene provisional;
 };
 

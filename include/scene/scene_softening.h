@@ -18,6 +18,6 @@ real scene_softening_horizon(const struct scene *s, const struct material *m, re
 /* Returns the horizon [m] below which bonds of material m begin to soften, in tension and in shear, because the stress
  * reaches the strength surface. Above it they begin to soften by their own stretch before. The material must have an
  * energy release rate. */
-real scene_surface_horizon(const struct scene *s, const struct material *m);
+real scene_strength_surface_horizon(const struct scene *s, const struct material *m);
 
 #endif

@@ -13,6 +13,6 @@ real spacing_that_fits_lattice(const struct scene *s, real largest, bool even_ed
 /* Returns a spacing [m] at which each length that a solution must resolve has a few spacings: edges of bodies, radii,
  * cracks and their ligaments, pulses and wavelengths, contours of probes of stress-intensity factors. Returns 0 if the
  * scene has no such length. */
-real spacing_that_resolves(const struct scene *s);
+real spacing_that_resolves_all_lengths(const struct scene *s);
 
 #endif

@@ -26,6 +26,6 @@ int word_index_in_list(const char *words, const char *text);
 
 /* Returns that one of the n > 0 names name[n] that has the smallest edit distance to `word`; the first one if there are
  * several. */
-const char *word_nearest(const char *word, const char *const *name, int n);
+const char *word_find_most_similar(const char *word, const char *const *name, int n);
 
 #endif

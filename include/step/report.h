@@ -108,7 +108,7 @@ real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, 
 
 /* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping took much energy, or
  * if bonds broke in a collision that is too fast for the particle spacing. */
-void warn_of_imbalance(struct run *e);
+void warn_of_unconserved_quantities(struct run *e);
 
 struct crack_tips;
 

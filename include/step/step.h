@@ -12,7 +12,7 @@ status step(struct run *e);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
  * broken_bonds: number of directed bonds broken since the last call. Returns true if points have been converted. */
-bool step_convert(struct run *e, int64_t broken_bonds);
+bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bonds);
 
 /* Computes the internal forces at the current positions without moving anything: forces of bonds in e->part.f, and
  * forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh. Material points

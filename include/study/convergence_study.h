@@ -82,10 +82,10 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
 void convergence_study_free(struct convergence_study *s);
 
 /* Determines the convergence of the figures (scalar results) of a study that describe the body and have values at all
- * spacing levels. wanted[wanteds]: names of the figures to be treated; if wanteds is 0, all are. Stores an allocated
- * array in *figure, which the caller releases with memory_free, and its length in *figures. Returns REFUSED if a named
- * figure does not exist, FAILED if no figure has values at all levels. */
-status scalar_results_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
+ * spacing levels. wanted_names[wanteds]: names of the figures to be treated; if wanteds is 0, all are. Stores an
+ * allocated array in *figure, which the caller releases with memory_free, and its length in *figures. Returns REFUSED
+ * if a named figure does not exist, FAILED if no figure has values at all levels. */
+status scalar_results_find(const struct convergence_study *s, const char *const *wanted_names, int wanted_count,
                            struct scalar_result_study **figure, int *figures);
 
 /* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if `folder`

@@ -92,7 +92,7 @@ status study_folder_mark(const char *folder);
 status study_folder_check(const char *folder);
 
 /* Returns true if `folder` contains the file STUDY_SCENE of a study of the scene with the text `text`. */
-bool study_has_scene(const char *folder, const char *text);
+bool study_folder_is_of_scene(const char *folder, const char *text);
 
 /* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, a line with the options of
  * the study, then `text`, the text of the scene. options: options in the form of study_options_make; if NULL, their
@@ -109,7 +109,7 @@ char *study_options_make(int argc, char *const *argv, const char *scene);
 char *study_options_read(const char *folder);
 
 /* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
-void study_print_word(FILE *out, const char *word);
+void study_print_shell_word(FILE *out, const char *word);
 
 /* Frees the runs, texts and tables of the study *s and unlocks its folder. */
 void study_free(struct study *s);
@@ -126,9 +126,9 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
 status study_add_combinations(struct study *s, const struct varied_key *key, int keys);
 
 /* Reads the scene of every run of the study and sets the states of the runs: CASE_SAME if another run has an equal
- * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `collect` is true, CASE_FAILED if it
+ * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `keep_failed` is true, CASE_FAILED if it
  * holds a failed run, which the study would otherwise run again. Returns REFUSED if the scene of a run is invalid. */
-status study_check_scenes(struct study *s, bool collect);
+status study_determine_case_states(struct study *s, bool keep_failed);
 
 /* Prints to `out` how many runs of the study have the same scene as another run (CASE_SAME). Prints nothing if there
  * are none. */
@@ -141,7 +141,7 @@ const char *study_case_value(const struct study_case *c, const char *key);
 /* Writes the file `name` in the folder of the study from a memory stream. to: the stream, which is closed, or NULL if
  * there was no memory for it; text, length: its contents *text of *length bytes, which are released. Returns FAILED if
  * `to` is NULL or the file cannot be written. */
-status study_write_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
+status study_write_stream_to_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 
 /* Returns the run whose results are used for run c: a run with an equal scene if the state of c is CASE_SAME, else c
  * itself. */

@@ -77,7 +77,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int64_t k = 0; k < run->cells; k += LANES) {
         const int64_t I = run->cell + k;
         lanes u[CORNERS_MAX][3], f[CORNERS_MAX][3];
-        if (mesh_nodes_are_at_rest(levels, start + k)) continue; /* forces carried from the cells before are 0 */
+        if (mesh_eight_nodes_are_at_rest(levels, start + k)) continue; /* forces carried from the cells before are 0 */
         mesh_run_load_displacements(mesh, run, k, u, dim);
         if (flows)
             run_flow(mesh, p, all, run, k, u, f, dim, finite);

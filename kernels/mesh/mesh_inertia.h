@@ -15,13 +15,13 @@
 
 #include "kernels/kernels.h"
 
-/* Returns the entry for corners `corner` and `other` of the consistent mass matrix of a linear cell, divided by the
- * mass of the cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6 for
- * each other axis. */
-static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int other)
+/* Returns the entry for corners `corner` and `other_corner` of the consistent mass matrix of a linear cell, divided by
+ * the mass of the cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6
+ * for each other axis. */
+static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int other_corner)
 {
     real share = 1;
-    for (int d = 0; d < dim; d++) share *= (corner ^ other) >> d & 1 ? 1.0 / 6 : 1.0 / 3;
+    for (int d = 0; d < dim; d++) share *= (corner ^ other_corner) >> d & 1 ? 1.0 / 6 : 1.0 / 3;
     return share;
 }
 

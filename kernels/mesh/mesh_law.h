@@ -117,15 +117,15 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
         for (int b = 0; b < a; b++) e[a][b] = e[b][a] = 0.5 * (e[a][b] + e[b][a]);
 }
 
-/* Replaces vector v, dim components, by R v if `back` is true (from the rotated axes of the cell to fixed axes), else
- * by R^T v. R: rotation, for eight cells at a time. */
-static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool back, const int dim)
+/* Replaces vector v, dim components, by R v if `to_fixed_axes` is true (from the rotated axes of the cell to fixed
+ * axes), else by R^T v. R: rotation, for eight cells at a time. */
+static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool to_fixed_axes, const int dim)
 {
     lanes old[3];
     for (int a = 0; a < dim; a++) old[a] = v[a];
     for (int a = 0; a < dim; a++) {
         v[a] = lanes_broadcast(0);
-        for (int b = 0; b < dim; b++) v[a] += (back ? R[a][b] : R[b][a]) * old[b];
+        for (int b = 0; b < dim; b++) v[a] += (to_fixed_axes ? R[a][b] : R[b][a]) * old[b];
     }
 }
 
@@ -263,10 +263,11 @@ static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct me
 }
 
 /* Returns for eight cells an upper bound of sqrt(J2) + g1 I1 (data/strength_surface.h) times m->trigger_mean/m->failure
- * [Pa], which exceeds m->trigger where points convert by their strength surface. P: stress [Pa]; more: bound of each
- * component of further stresses that are added to P [Pa]; their sqrt(J2) is at most 2.2 `more`, their I1 at most 3
- * `more`. */
-static ALWAYS_INLINE lanes cell_surface_bound(const struct elastic *m, const lanes P[3][3], lanes more, const int dim)
+ * [Pa], which exceeds m->trigger where points convert by their strength surface. P: stress [Pa]; further_stress: bound
+ * of each component of further stresses that are added to P [Pa]; their sqrt(J2) is at most 2.2 `further_stress`, their
+ * I1 at most 3 `further_stress`. */
+static ALWAYS_INLINE lanes cell_strength_surface_bound(const struct elastic *m, const lanes P[3][3],
+                                                       lanes further_stress, const int dim)
 {
     const lanes zz = dim == 3 ? P[2][2] : (m->space == SPACE_PLANE_STRAIN ? m->poisson : 0) * (P[0][0] + P[1][1]);
     const lanes a = P[0][0] - P[1][1], b = P[1][1] - zz, c = zz - P[0][0];
@@ -274,13 +275,13 @@ static ALWAYS_INLINE lanes cell_surface_bound(const struct elastic *m, const lan
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < i; j++) J2 += lanes_max(P[i][j] * P[i][j], P[j][i] * P[j][i]);
     const lanes failure = lanes_square_root(J2 + 1e-300) + m->surface.g1 * (P[0][0] + P[1][1] + zz);
-    return (failure + (2.2 + 3 * m->surface.g1) * more) * (m->trigger_mean / m->failure);
+    return (failure + (2.2 + 3 * m->surface.g1) * further_stress) * (m->trigger_mean / m->failure);
 }
 
 /* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: the
  * largest normal stress of P, plus the magnitudes of all its shear stresses (Gershgorin), plus a bound on the stress of
- * the bending modes in s. With a strength surface the larger of this and of cell_surface_bound is returned. P: stress
- * of the mean strain [Pa]; m: elastic constants. */
+ * the bending modes in s. With a strength surface the larger of this and of cell_strength_surface_bound is returned. P:
+ * stress of the mean strain [Pa]; m: elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
 {
@@ -292,7 +293,7 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
     const lanes bending = largest * ((m->c11 + m->shear) * 0.25);
     if (dim == 1 || !(m->surface.g0 > 0)) return bound + bending;
-    return lanes_max(bound + bending, cell_surface_bound(m, P, bending, dim));
+    return lanes_max(bound + bending, cell_strength_surface_bound(m, P, bending, dim));
 }
 
 /* Returns the elastic energy of each of eight cells [J], from strain, stress, bending modes and their forces in s.

@@ -5,11 +5,11 @@
 
 #include "kernels/laws/law_update.h"
 
-/* Returns the particle number of material point `number` (0 .. 2^dim - 1) of cell `cell`; -1 if the cell has no such
- * point or if `cell` is -1. */
-static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int number, const int dim)
+/* Returns the particle number of material point `point_number` (0 .. 2^dim - 1) of cell `cell`; -1 if the cell has no
+ * such point or if `cell` is -1. */
+static ALWAYS_INLINE int32_t mesh_point_of_cell(const struct mesh *mesh, int32_t cell, int point_number, const int dim)
 {
-    return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + number];
+    return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + point_number];
 }
 
 /* Returns the values from[point[l]] of a particle array for eight points, one per lane; 0 in lanes with point[l] =
@@ -66,18 +66,18 @@ static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const
     if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
-/* Maps the trial stresses of the points number `number` of eight cells back to their yield surfaces by their flow laws,
- * and updates their plastic state; for points of several materials once for each law. cell: eight cell indices;
+/* Maps the trial stresses of the points number `point_number` of eight cells back to their yield surfaces by their flow
+ * laws, and updates their plastic state; for points of several materials once for each law. cell: eight cell indices;
  * yielding_lanes: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0 in load steps;
  * stress: symmetric components, trial stress on entry, the returned stress on exit [Pa]; m: elastic constants of all
  * materials. */
 static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const struct particles *p,
-                                               const struct elastic *m, const int32_t *cell, int number,
+                                               const struct elastic *m, const int32_t *cell, int point_number,
                                                unsigned yielding_lanes, real dt, lanes *stress, int dim)
 {
     struct law_points e;
     int32_t point[LANES];
-    for (int l = 0; l < LANES; l++) point[l] = mesh_point_of_cell(mesh, cell[l], number, dim);
+    for (int l = 0; l < LANES; l++) point[l] = mesh_point_of_cell(mesh, cell[l], point_number, dim);
     while (yielding_lanes) {
         const uint8_t material = p->material[point[__builtin_ctz(yielding_lanes)]];
         unsigned own = 0;

@@ -30,7 +30,7 @@ static ALWAYS_INLINE bool points_share_mean_dilatation(const struct particles *p
 }
 
 /* Returns true if the n points in `list` share one mean dilatation: they are of one body and one material. */
-static ALWAYS_INLINE bool mean_of_all(const struct particles *p, const int32_t *list, int n)
+static ALWAYS_INLINE bool points_all_share_mean_dilatation(const struct particles *p, const int32_t *list, int n)
 {
     bool same = true;
     for (int k = 1; k < n; k++) same &= points_share_mean_dilatation(p, list[0], list[k]);

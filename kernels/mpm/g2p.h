@@ -23,8 +23,9 @@
 
 /* Returns the elastic constants of a few points, one per lane [Pa]. point: their numbers. Usually all points have one
  * material; those of other materials are filled in lane by lane. */
-static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
-                                                      const int32_t *point, const int dim)
+static ALWAYS_INLINE struct elastic_points points_load_elastic_constants(const struct particles *p,
+                                                                         const struct transfer_data *t,
+                                                                         const int32_t *point, const int dim)
 {
     const struct elastic *first = &t->elastic[p->material[point[0]]];
     struct elastic_points m = {points_broadcast(first->c11), points_broadcast(first->c12),
@@ -44,9 +45,10 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
  * (points_flow.h). The volume follows the trace of the strain in the space. In plane stress the elastic strain through
  * the thickness is left out, which changes the volume by less than 0.5 % below 1 % strain; the plastic one is added
  * with the return mapping. */
-static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
-                                        const struct elastic_points *m, const int32_t *point, int points,
-                                        const row_of_points *L, const int dim, const enum shape shape)
+static ALWAYS_INLINE void points_update_stress(struct particles *p, const struct transfer_data *t,
+                                               struct flow_points *due, const struct elastic_points *m,
+                                               const int32_t *point, int points, const row_of_points *L, const int dim,
+                                               const enum shape shape)
 {
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
@@ -74,8 +76,8 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
 
 /* Multiplies the rotations particles.end_rotation of a few points by the rotation of the step, the Cayley transform of
  * the antisymmetric part of L dt. point: numbers of the points; L: velocity gradients [1/s]. */
-static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *point, const row_of_points *L, real dt,
-                                        const int dim)
+static ALWAYS_INLINE void points_update_rotation(struct particles *p, const int32_t *point, const row_of_points *L,
+                                                 real dt, const int dim)
 {
     if (dim == 2) {
         const row_of_points half = 0.25 * dt * (L[2] - L[1]), scale = 2.0 / (1.0 + half * half);
@@ -103,7 +105,8 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
 
 /* Returns in each lane -1 if the point moves with the nodal velocities that remapping has computed (remap.h), else 1.
  * Points with bonds do so; all points do if t->momentum_only or t->second_map is set. point: numbers of the points. */
-static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
+static ALWAYS_INLINE row_of_points points_negative_if_remapped(const struct transfer_data *t, const int32_t *point,
+                                                               const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
     row_of_points bonded = points_broadcast(all ? -1 : 1);
@@ -113,10 +116,12 @@ static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, 
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c, by
  * interpolation from the nodes. bonded: negative in lanes of points that move with the velocities after remapping
- * (points_bonded). The nodes of a row are added first, since they have one weight in the directions across the row. */
-static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
-                                        const row_of_points bonded, row_of_points *velocity, row_of_points *L,
-                                        const int dim, const enum shape shape, const enum transfer transfer)
+ * (points_negative_if_remapped). The nodes of a row are added first, since they have one weight in the directions
+ * across the row. */
+static ALWAYS_INLINE void points_interpolate_velocity(const struct grid *g, const struct cell *c,
+                                                      const struct cell_stencil *s, const row_of_points bonded,
+                                                      row_of_points *velocity, row_of_points *L, const int dim,
+                                                      const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const bool any = transfer == TRANSFER_FLIP && points_sign_bits(bonded) != 0;
@@ -148,11 +153,11 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
 
 /* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c by
  * interpolation from the nodes, for linear shapes in 2D and 3D. bonded: negative in lanes of points that move with the
- * velocities after remapping (points_bonded). */
-static ALWAYS_INLINE void points_gather_corners(const struct grid *g, const struct cell *c,
-                                                const struct cell_stencil *s, const row_of_points bonded,
-                                                row_of_points *velocity, row_of_points *L, const int dim,
-                                                const enum transfer transfer)
+ * velocities after remapping (points_negative_if_remapped). */
+static ALWAYS_INLINE void points_interpolate_velocity_linear(const struct grid *g, const struct cell *c,
+                                                             const struct cell_stencil *s, const row_of_points bonded,
+                                                             row_of_points *velocity, row_of_points *L, const int dim,
+                                                             const enum transfer transfer)
 {
     const int strained = transfer == TRANSFER_APIC ? (1 << POINTS) - 1 : points_sign_bits(bonded);
     for (int d = 0; d < dim; d++) {
@@ -180,17 +185,17 @@ static ALWAYS_INLINE void g2p_gather(struct points_motion *m, const struct grid 
 {
     struct cell_stencil s;
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    const row_of_points bonded = points_bonded(t, s.point, dim);
+    const row_of_points bonded = points_negative_if_remapped(t, s.point, dim);
     if (HAS_CORNERS(dim, shape))
-        points_gather_corners(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
+        points_interpolate_velocity_linear(g, c, &s, bonded, m->velocity, m->L, dim, transfer);
     else
-        points_gather(g, c, &s, bonded, m->velocity, m->L, dim, shape, transfer);
+        points_interpolate_velocity(g, c, &s, bonded, m->velocity, m->L, dim, shape, transfer);
     for (int k = 0; k < POINTS; k++) m->point[k] = s.point[k];
     for (int d = 0; d < dim; d++) m->x[d] = s.x[d];
 }
 
 /* Returns the rate of dilatation tr L of a few points [1/s]. */
-static ALWAYS_INLINE row_of_points dilatation_rate(const struct points_motion *m, const int dim)
+static ALWAYS_INLINE row_of_points points_dilatation_rate(const struct points_motion *m, const int dim)
 {
     row_of_points rate = m->L[0];
     for (int d = 1; d < dim; d++) rate += m->L[d * dim + d];
@@ -199,7 +204,7 @@ static ALWAYS_INLINE row_of_points dilatation_rate(const struct points_motion *m
 
 /* Adds `change`, a change of the rate of dilatation [1/s], to a few points: a third of it, in 2D half, to each diagonal
  * entry of their velocity gradients m->L. */
-static ALWAYS_INLINE void points_dilate_more(struct points_motion *m, row_of_points change, const int dim)
+static ALWAYS_INLINE void points_add_dilatation_rate(struct points_motion *m, row_of_points change, const int dim)
 {
     for (int d = 0; d < dim; d++) m->L[d * dim + d] += change * (1.0 / dim);
 }
@@ -207,42 +212,45 @@ static ALWAYS_INLINE void points_dilate_more(struct points_motion *m, row_of_poi
 /* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell that differ in body or material, over
  * points of the same body and material (dilatation.h). motion: motion of these points, AT_ONCE of them in each entry;
  * its velocity gradients are changed. */
-static NEVER_INLINE void rates_average_mixed(const struct particles *p, const struct transfer_data *t,
-                                             const int32_t *list, struct points_motion *motion, int n, const int dim)
+static NEVER_INLINE void points_average_mixed_dilatation_rates(const struct particles *p, const struct transfer_data *t,
+                                                               const int32_t *list, struct points_motion *motion, int n,
+                                                               const int dim)
 {
     real change[MEAN_POINTS];
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
-        const row_of_points rate = dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
+        const row_of_points rate = points_dilatation_rate(&motion[k / AT_ONCE(dim)], dim);
         for (int l = 0; l < points_at_once(n - k, dim); l++) change[k + l] = rate[l];
     }
     points_subtract_from_mean(p, t, list, n, change);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         row_of_points more;
         for (int l = 0; l < POINTS; l++) more[l] = change[int_min(k + l % AT_ONCE(dim), n - 1)];
-        points_dilate_more(&motion[k / AT_ONCE(dim)], more, dim);
+        points_add_dilatation_rate(&motion[k / AT_ONCE(dim)], more, dim);
     }
 }
 
 /* Averages the rates of dilatation of n <= MEAN_POINTS listed points of a cell (dilatation.h). motion: motion of these
  * points, AT_ONCE of them in each entry; its velocity gradients are changed. */
-static ALWAYS_INLINE void rates_average(const struct particles *p, const struct transfer_data *t, const int32_t *list,
-                                        struct points_motion *motion, int n, const int dim)
+static ALWAYS_INLINE void points_average_dilatation_rates(const struct particles *p, const struct transfer_data *t,
+                                                          const int32_t *list, struct points_motion *motion, int n,
+                                                          const int dim)
 {
     row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
-    if (!mean_of_all(p, list, n)) {
-        rates_average_mixed(p, t, list, motion, n, dim);
+    if (!points_all_share_mean_dilatation(p, list, n)) {
+        points_average_mixed_dilatation_rates(p, t, list, motion, n, dim);
         return;
     }
     if (!t->elastic[p->material[list[0]]].mean_dilatation) return;
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         const struct points_motion *m = &motion[k / AT_ONCE(dim)];
-        const row_of_points own = points_first(points_load(p->volume, m->point, dim), points_at_once(n - k, dim));
-        volume += own, sum += own * dilatation_rate(m, dim);
+        const row_of_points own =
+            points_keep_first_lanes(points_load(p->volume, m->point, dim), points_at_once(n - k, dim));
+        volume += own, sum += own * points_dilatation_rate(m, dim);
     }
     const real mean = points_sum(sum) / points_sum(volume);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct points_motion *m = &motion[k / AT_ONCE(dim)];
-        points_dilate_more(m, mean - dilatation_rate(m, dim), dim);
+        points_add_dilatation_rate(m, mean - points_dilatation_rate(m, dim), dim);
     }
 }
 
@@ -268,9 +276,10 @@ static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, 
                                     const struct transfer_data *t, struct flow_points *due, struct points_motion *m,
                                     int n, const int dim, const enum shape shape)
 {
-    const struct elastic_points e = elastic_of(p, t, m->point, dim);
-    if (!t->momentum_only) points_strain(p, t, due, &e, m->point, n, m->L, dim, shape);
-    if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, m->point, m->L, t->dt, dim);
+    const struct elastic_points e = points_load_elastic_constants(p, t, m->point, dim);
+    if (!t->momentum_only) points_update_stress(p, t, due, &e, m->point, n, m->L, dim, shape);
+    if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0))
+        points_update_rotation(p, m->point, m->L, t->dt, dim);
     for (int d = 0; d < dim; d++) m->velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, m, dim);
     if (__builtin_expect(due->n >= LANES, 0)) flow_points_return_mapping(p, t, due, dim);
@@ -278,15 +287,16 @@ static ALWAYS_INLINE int g2p_update(const struct grid *g, const struct cell *c, 
 }
 
 /* Stores the velocities m->velocity and velocity gradients m->L of a few points in p, as APIC requires. */
-static ALWAYS_INLINE void points_keep_gradient(struct particles *p, const struct points_motion *m, const int dim)
+static ALWAYS_INLINE void points_store_velocity_gradient(struct particles *p, const struct points_motion *m,
+                                                         const int dim)
 {
     for (int d = 0; d < dim; d++) points_store(p->v[d], m->point, m->velocity[d], dim);
     for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], m->point, m->L[k], dim);
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_cell will read; once per
- * cache line. */
-static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_update_points_of_cell will
+ * read; once per cache line. */
+static ALWAYS_INLINE void g2p_prefetch_point(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
     if (!prefetch_next_point(list, k, &i)) return;
@@ -303,24 +313,26 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
  * averaged: result of transfer_uses_mean_dilatation; if true, up to MEAN_POINTS points are interpolated before they are
  * updated. Returns the number of points that have left the cell. The cell is computed again for every AT_ONCE points:
  * most cells need one pass only, so it is not kept in registers. */
-static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
-                                      struct flow_points *due, const int32_t *list, int n, const int dim,
-                                      const enum shape shape, const enum transfer transfer, const bool averaged)
+static ALWAYS_INLINE int64_t g2p_update_points_of_cell(const struct grid *g, struct particles *p,
+                                                       const struct transfer_data *t, struct flow_points *due,
+                                                       const int32_t *list, int n, const int dim,
+                                                       const enum shape shape, const enum transfer transfer,
+                                                       const bool averaged)
 {
     enum { MOST = MEAN_POINTS / POINTS };
     struct points_motion motion[MOST];
     const int most = averaged ? MEAN_POINTS : AT_ONCE(dim);
     int64_t moved = 0;
-    for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
+    for (int k = 0; k < n; k++) g2p_prefetch_point(p, list, k, dim);
     for (int from = 0; from < n; from += most) {
         const struct cell c = cell_containing_point(g, p, list[from], dim, shape);
         const int some = int_min(n - from, most);
         struct points_motion *m = motion;
         for (int k = 0; k < some; k += AT_ONCE(dim), m++) {
             g2p_gather(m, g, &c, p, t, list + from + k, points_at_once(some - k, dim), dim, shape, transfer);
-            if (transfer == TRANSFER_APIC) points_keep_gradient(p, m, dim);
+            if (transfer == TRANSFER_APIC) points_store_velocity_gradient(p, m, dim);
         }
-        if (averaged) rates_average(p, t, list + from, motion, some, dim);
+        if (averaged) points_average_dilatation_rates(p, t, list + from, motion, some, dim);
         m = motion;
         for (int k = 0; k < some; k += AT_ONCE(dim), m++)
             moved += g2p_update(g, &c, p, t, due, m, points_at_once(some - k, dim), dim, shape);
@@ -342,8 +354,9 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
             struct transfer_data data = *t;                                                                            \
             struct flow_points due = {.n = 0};                                                                         \
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
-                g2p_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                                 \
-                         o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T, AVERAGED);               \
+                g2p_update_points_of_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                \
+                                          o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T,         \
+                                          AVERAGED);                                                                   \
             if (due.n > 0) flow_points_return_mapping(&points, &data, &due, D);                                        \
         }                                                                                                              \
         return moved;                                                                                                  \

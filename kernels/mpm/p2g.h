@@ -26,18 +26,19 @@
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
 /* Returns the index of component ab of a symmetric tensor among its stored components, which are in the order xx, yy,
- * zz, xy, yz, zx (in 2D xx, yy, xy). a, b: axes, 0 to dim - 1. */
-static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
+ * zz, xy, yz, zx (in 2D xx, yy, xy). a, other_axis: axes, 0 to dim - 1. */
+static ALWAYS_INLINE int symmetric_component_index(int axis, int other_axis, const int dim)
 {
-    return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
+    return axis == other_axis ? axis : dim == 2 ? 2 : axis + other_axis == 1 ? 3 : axis + other_axis == 3 ? 4 : 5;
 }
 
 /* Adds to the force sums of a cell the force of the antisymmetric part of the stress of point `at` of stencil s, f_a =
  * -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a state-based model (partial_stress.c). row:
  * weights and slopes of a row at this point. */
-static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
-                                   const struct cell_stencil *s, const struct touch *row, int at, const int dim,
-                                   const enum shape shape)
+static ALWAYS_INLINE void p2g_add_skew_stress_force(cell_sums sum, const struct particles *p,
+                                                    const struct transfer_data *t, const struct cell_stencil *s,
+                                                    const struct touch *row, int at, const int dim,
+                                                    const enum shape shape)
 {
     static const int first[DIM_MAX] = {0, 1, 2}, second[DIM_MAX] = {1, 2, 0};
     const int64_t i = s->point[at];
@@ -67,11 +68,11 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
 /* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
  * row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil, by which they
  * extrapolate their velocity to nodes, from rotating_velocity_gradients [1/s]; not read for APIC, nor where points do
- * not rotate. pressure: mean stress that is added to its stress [Pa], from means_of_stress; NULL: none. */
-static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
-                                       const struct transfer_data *t, const struct cell_stencil *s,
-                                       const row_of_points *turn, const real *pressure, int at, const int dim,
-                                       const enum shape shape, const enum transfer transfer)
+ * not rotate. pressure: mean stress that is added to its stress [Pa], from points_mean_stress_changes; NULL: none. */
+static ALWAYS_INLINE void p2g_add_point(cell_sums sum, const struct grid *g, const struct particles *p,
+                                        const struct transfer_data *t, const struct cell_stencil *s,
+                                        const row_of_points *turn, const real *pressure, int at, const int dim,
+                                        const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
@@ -101,7 +102,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         }
         momentum[d] = mass * speed;
         force[d] = p->f[d][i] * row.N;
-        for (int e = 0; e < along; e++) force[d] -= stress[symmetric_place(d, e, dim)] * row.D[e];
+        for (int e = 0; e < along; e++) force[d] -= stress[symmetric_component_index(d, e, dim)] * row.D[e];
     }
     FOR_TOUCHED(s, at, dim, shape)
     {
@@ -113,22 +114,23 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
             for (int e = along; e < dim; e++) {
                 if (continued)
                     carried += slope[d][e] * mass * stencil_distance_to_row(s, at, g->h, e, e == 1 ? k1 : k2);
-                pushed -= pull[symmetric_place(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
+                pushed -=
+                    pull[symmetric_component_index(d, e, dim)] * stencil_row_factor_slope(s, at, k1, k2, e, dim, shape);
             }
             sum[1 + d][k] += carried * weight;
             sum[1 + dim + d][k] = pushed;
         }
     }
-    if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
+    if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_add_skew_stress_force(sum, p, t, s, &row, at, dim, shape);
 }
 
-/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which p2g_particle will read; once
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which p2g_add_point will read; once
  * per cache line. */
-static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const struct transfer_data *t, const int32_t *list,
-                                    int k, const int dim, const enum transfer transfer)
+static ALWAYS_INLINE void p2g_prefetch_point(const struct particles *p, const struct transfer_data *t,
+                                             const int32_t *list, int k, const int dim, const enum transfer transfer)
 {
     int64_t i;
-    motion_fetch(p, t->turn, list, k, dim);
+    points_prefetch_motion(p, t->turn, list, k, dim);
     if (!prefetch_next_point(list, k, &i)) return;
     prefetch_line(p->volume + i);
     for (int d = 0; d < dim; d++) prefetch_line(p->f[d] + i);
@@ -138,10 +140,10 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const struct tran
 
 /* Computes change[k] [Pa], by how much the mean stress of each of n <= MEAN_POINTS listed points of a cell changes if
  * points of the same body and material get one mean stress (dilatation.h). change: [MEAN_POINTS]. */
-static NEVER_INLINE void means_of_stress(const struct particles *p, const struct transfer_data *t, const int32_t *list,
-                                         int n, real *change, const int dim)
+static NEVER_INLINE void points_mean_stress_changes(const struct particles *p, const struct transfer_data *t,
+                                                    const int32_t *list, int n, real *change, const int dim)
 {
-    const bool alike = mean_of_all(p, list, n) && !(t->partial && t->partial->index);
+    const bool alike = points_all_share_mean_dilatation(p, list, n) && !(t->partial && t->partial->index);
     row_of_points sum = points_broadcast(0), volume = points_broadcast(0);
     if (alike && !t->elastic[p->material[list[0]]].mean_dilatation) {
         for (int k = 0; k < n; k++) change[k] = 0;
@@ -154,7 +156,7 @@ static NEVER_INLINE void means_of_stress(const struct particles *p, const struct
         row_of_points mean = points_broadcast(0);
         for (int d = 0; d < dim; d++) mean += points_load(p->stress[d], point, dim);
         mean *= 1.0 / dim;
-        const row_of_points own = points_first(points_load(p->volume, point, dim), points);
+        const row_of_points own = points_keep_first_lanes(points_load(p->volume, point, dim), points);
         volume += own, sum += own * mean;
         *(points_anywhere *)(change + k) = mean;
     }
@@ -173,9 +175,10 @@ static NEVER_INLINE void means_of_stress(const struct particles *p, const struct
 
 /* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. averaged: result of
  * transfer_uses_mean_dilatation. */
-static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
-                                   const int32_t *list, int n, const int dim, const enum shape shape,
-                                   const enum transfer transfer, const bool averaged)
+static ALWAYS_INLINE void p2g_add_points_of_cell(const struct grid *g, const struct particles *p,
+                                                 const struct transfer_data *t, const int32_t *list, int n,
+                                                 const int dim, const enum shape shape, const enum transfer transfer,
+                                                 const bool averaged)
 {
     const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     real change[MEAN_POINTS];
@@ -185,16 +188,17 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
         const int points = points_at_once(n - k, dim);
-        if (averaged && k % MEAN_POINTS == 0) means_of_stress(p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim);
+        if (averaged && k % MEAN_POINTS == 0)
+            points_mean_stress_changes(p, t, list + k, int_min(n - k, MEAN_POINTS), change, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
         row_of_points turn[DIM_MAX * DIM_MAX];
         if (transfer == TRANSFER_FLIP && continues(t, dim, transfer))
             rotating_velocity_gradients(t, s.point, 0.5 * t->dt, turn, dim);
         for (int at = 0; at < points; at++) {
-            p2g_fetch(p, t, list, k + at, dim, transfer);
-            p2g_particle(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
-                         transfer);
+            p2g_prefetch_point(p, t, list, k + at, dim, transfer);
+            p2g_add_point(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
+                          transfer);
         }
     }
     FOR_ROWS(dim, shape)
@@ -215,9 +219,11 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)                \
     {                                                                                                                  \
         if (transfer_uses_mean_dilatation(t, D)) {                                                                     \
-            SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));          \
+            SCATTER(D, t, g, p,                                                                                        \
+                    p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));        \
         } else {                                                                                                       \
-            SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, false));         \
+            SCATTER(D, t, g, p,                                                                                        \
+                    p2g_add_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, false));       \
         }                                                                                                              \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
@@ -229,8 +235,9 @@ MAP_VARIANTS(BOTH)
 
 /* Adds `value` of point i to the nodal array `field`, distributed to the nodes with the weights N of the first map.
  * half_width: half the reference edge of a particle, l_p [m]. */
-static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
-                                          real value, real *field, const int dim, const enum shape shape)
+static ALWAYS_INLINE void p2g_spread_point_value(const struct grid *g, const struct particles *p, real half_width,
+                                                 int32_t i, real value, real *field, const int dim,
+                                                 const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, i, dim, shape);
     struct cell_stencil s;
@@ -246,7 +253,8 @@ static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct par
     void spread_##D##d_##S(const struct grid *g, const struct particles *p, real half_width, const int32_t *list,      \
                            int64_t n, const real *value, real *field)                                                  \
     {                                                                                                                  \
-        for (int64_t k = 0; k < n; k++) spread_particle(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);     \
+        for (int64_t k = 0; k < n; k++)                                                                                \
+            p2g_spread_point_value(g, p, half_width, list[k], value[k], field, D, SHAPE_##S);                          \
     }
 MAP_VARIANTS(SPREAD)
 #undef SPREAD

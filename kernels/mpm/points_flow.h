@@ -45,14 +45,14 @@ static ALWAYS_INLINE void flow_motion_of(struct flow_motion *m, const lanes *L, 
 }
 
 /* Returns a vector whose lane l is from[point[l]]. Eight loads take half the time of a gather instruction. */
-static ALWAYS_INLINE lanes flow_pick(const real *from, const int32_t *point)
+static ALWAYS_INLINE lanes flow_gather_points(const real *from, const int32_t *point)
 {
     return (lanes){from[point[0]], from[point[1]], from[point[2]], from[point[3]],
                    from[point[4]], from[point[5]], from[point[6]], from[point[7]]};
 }
 
 /* Stores the first n lanes of a to to[point[l]]. */
-static ALWAYS_INLINE void flow_put(real *to, const int32_t *point, lanes a, int n)
+static ALWAYS_INLINE void flow_scatter_points(real *to, const int32_t *point, lanes a, int n)
 {
     if (n == LANES)
         for (int l = 0; l < LANES; l++) to[point[l]] = a[l];
@@ -86,9 +86,9 @@ static NEVER_INLINE void flow_load_back_stress(const struct particles *p, const 
 /* Loads the plastic state and the stresses of eight points into *e, for law_update. point: their numbers; m: constants
  * of their material; stress, volume: their trial stresses [Pa] and volumes [m^3]; motion: their motion in the step of
  * dt [s]. */
-static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elastic *m, const int32_t *point,
-                                    const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
-                                    struct law_points *e, const int dim)
+static ALWAYS_INLINE void flow_load_points(const struct particles *p, const struct elastic *m, const int32_t *point,
+                                           const lanes *stress, lanes volume, const struct flow_motion *motion, real dt,
+                                           struct law_points *e, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
     const lanes none = lanes_broadcast(0);
@@ -104,18 +104,20 @@ static ALWAYS_INLINE void flow_load(const struct particles *p, const struct elas
         e->back[c] = none;
     }
     if (p->back_stress[0]) flow_load_back_stress(p, point, motion, e, dim);
-    e->volume = volume / flow_pick(p->volume0, point);
+    e->volume = volume / flow_gather_points(p->volume0, point);
     e->volume_before = e->volume / (1.0 + motion->trace), e->thins = true;
     e->duration = dt;
-    e->a = flow_pick(p->plastic_strain, point), e->work = flow_pick(p->plastic_work, point);
-    e->temperature = p->temperature ? flow_pick(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
+    e->a = flow_gather_points(p->plastic_strain, point), e->work = flow_gather_points(p->plastic_work, point);
+    e->temperature =
+        p->temperature ? flow_gather_points(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
 /* Clears FLAG_STRESSED of points that have yielded and whose largest principal stress does not exceed their conversion
  * stress. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the return
  * mapping. */
-static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                      unsigned flowed, const int32_t *point, const int dim)
+static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const struct elastic *m,
+                                                      const struct law_points *e, unsigned flowed, const int32_t *point,
+                                                      const int dim)
 {
     for (int l = 0; l < LANES; l++) {
         if (!(flowed >> l & 1 && p->flag[point[l]] & FLAG_STRESSED)) continue;
@@ -130,8 +132,9 @@ static ALWAYS_INLINE void flow_unmark(struct particles *p, const struct elastic 
 /* Stores the stress normal to the plane (plane strain) or the volume (plane stress, 1D) of the points point[LANES] that
  * have yielded. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the
  * return mapping. */
-static NEVER_INLINE void flow_store_across(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                           unsigned flowed, const int32_t *point)
+static NEVER_INLINE void flow_store_normal_stress_or_volume(struct particles *p, const struct elastic *m,
+                                                            const struct law_points *e, unsigned flowed,
+                                                            const int32_t *point)
 {
     const lanes across = e->s[2] - m->poisson * (e->s[0] + e->s[1]);
     for (int l = 0; l < LANES; l++)
@@ -144,15 +147,15 @@ static NEVER_INLINE void flow_store_across(struct particles *p, const struct ela
 /* Stores the state e of the n points point[n] of material m after the return mapping. flowed: bit l is set if point[l]
  * has yielded; points that have not keep their stress. stress[]: receives the stress of those that have, component by
  * component [Pa]. */
-static ALWAYS_INLINE void flow_store_lane(struct particles *p, const struct elastic *m, const struct law_points *e,
-                                          unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
+static ALWAYS_INLINE void flow_store_points(struct particles *p, const struct elastic *m, const struct law_points *e,
+                                            unsigned flowed, const int32_t *point, int n, lanes *stress, const int dim)
 {
     const lanes_mask own = lanes_mask_from_bits((uint8_t)flowed);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) stress[c] = lanes_choose(own, e->s[law_place[dim][c]], stress[c]);
-    if (m->space != SPACE_SOLID) flow_store_across(p, m, e, flowed, point);
-    flow_put(p->plastic_strain, point, e->a, n), flow_put(p->plastic_work, point, e->work, n);
-    if (p->temperature) flow_put(p->temperature, point, e->temperature, n);
-    flow_unmark(p, m, e, flowed, point, dim);
+    if (m->space != SPACE_SOLID) flow_store_normal_stress_or_volume(p, m, e, flowed, point);
+    flow_scatter_points(p->plastic_strain, point, e->a, n), flow_scatter_points(p->plastic_work, point, e->work, n);
+    if (p->temperature) flow_scatter_points(p->temperature, point, e->temperature, n);
+    flow_clear_conversion_flags(p, m, e, flowed, point, dim);
 }
 
 /* Stores the back stresses of those of eight points whose bits are set in lanes_set. They are stored for all these
@@ -202,13 +205,13 @@ static NEVER_INLINE void flow_points_return_mapping(struct particles *p, const s
         for (int l = 0; l < n; l++) own |= (unsigned)(left >> l & 1 && &t->elastic[p->material[point[l]]] == m) << l;
         left &= ~own;
         if (!m->law) continue;
-        flow_load(p, m, point, stress, lanes_load(due->volume), &motion, t->dt, &e, dim);
+        flow_load_points(p, m, point, stress, lanes_load(due->volume), &motion, t->dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m->law, &e, m->space, LAW_EXPLICIT);
         if (p->back_stress[0]) flow_store_back_stress(p, &e, own, point, dim);
-        if (flowed) flow_store_lane(p, m, &e, flowed, point, n, stress, dim);
+        if (flowed) flow_store_points(p, m, &e, flowed, point, n, stress, dim);
     }
-    for (int c = 0; c < parts; c++) flow_put(p->stress[c], point, stress[c], n);
+    for (int c = 0; c < parts; c++) flow_scatter_points(p->stress[c], point, stress[c], n);
     flow_points_remove_first(due, n, dim);
 }
 

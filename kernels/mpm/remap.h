@@ -13,8 +13,9 @@ typedef row_of_nodes remap_rows[DIM_MAX][ROWS_MAX];
 
 /* Interpolates the change of the nodal velocities (g->force) to the points of stencil s and adds it to their
  * velocities. momentum[dim]: receives their new momentum, one lane per point [kg m/s]. */
-static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cell_stencil *s, const struct grid *g,
-                                       const struct cell *c, struct particles *p, const int dim, const enum shape shape)
+static ALWAYS_INLINE void remap_gather_momentum(row_of_points *momentum, const struct cell_stencil *s,
+                                                const struct grid *g, const struct cell *c, struct particles *p,
+                                                const int dim, const enum shape shape)
 {
     row_of_points gain[DIM_MAX];
     for (int d = 0; d < dim; d++) gain[d] = points_broadcast(0);
@@ -44,19 +45,19 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
 
 /* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
  * their new momentum to the sums of the cell. */
-static ALWAYS_INLINE void remap_points(remap_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
-                                       const struct transfer_data *t, const int32_t *list, int n, const int dim,
-                                       const enum shape shape)
+static ALWAYS_INLINE void remap_update_points(remap_rows sum, const struct grid *g, const struct cell *c,
+                                              struct particles *p, const struct transfer_data *t, const int32_t *list,
+                                              int n, const int dim, const enum shape shape)
 {
     struct cell_stencil s;
     row_of_points momentum[DIM_MAX];
     cell_stencil_make(&s, g, c, p, list, n, t->half_width, dim, shape);
-    remap_gather(momentum, &s, g, c, p, dim, shape);
+    remap_gather_momentum(momentum, &s, g, c, p, dim, shape);
     stencil_transpose(&s, dim, shape);
     for (int at = 0; at < n; at++) {
         const row_of_nodes N = stencil_row_weights(&s, at, g->h, dim, shape).N;
         row_of_nodes given[DIM_MAX];
-        motion_fetch(p, t->turn, list, at, dim);
+        points_prefetch_motion(p, t->turn, list, at, dim);
         for (int d = 0; d < dim; d++) given[d] = momentum[d][at] * N;
         FOR_TOUCHED(&s, at, dim, shape)
         {
@@ -68,15 +69,16 @@ static ALWAYS_INLINE void remap_points(remap_rows sum, const struct grid *g, con
 
 /* Updates the velocities of the n listed points of one cell by the change of the nodal velocities, and adds their new
  * momentum to the nodes of the grid. */
-static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
-                                     const int32_t *list, int n, const int dim, const enum shape shape)
+static ALWAYS_INLINE void remap_update_points_of_cell(const struct grid *g, struct particles *p,
+                                                      const struct transfer_data *t, const int32_t *list, int n,
+                                                      const int dim, const enum shape shape)
 {
     const struct cell c = cell_containing_point(g, p, list[0], dim, shape);
     remap_rows sum;
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++) sum[d][PATCH(dim, shape)] = row_broadcast(0);
     for (int k = 0; k < n; k += AT_ONCE(dim))
-        remap_points(sum, g, &c, p, t, list + k, points_at_once(n - k, dim), dim, shape);
+        remap_update_points(sum, g, &c, p, t, list + k, points_at_once(n - k, dim), dim, shape);
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)
         grid_add_node_row(g, g->momentum[d] + cell_row_first_node(&c, g, k1, k2, dim), sum[d][PATCH(dim, shape)], dim,
@@ -86,7 +88,7 @@ static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, 
 #define INSTANCE(D, S)                                                                                                 \
     void remap_##D##d_##S(struct grid *g, struct particles *p, const struct transfer_data *t)                          \
     {                                                                                                                  \
-        SCATTER(D, t, g, p, remap_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));                                \
+        SCATTER(D, t, g, p, remap_update_points_of_cell(&nodes, &points, &data, list, n, D, SHAPE_##S));               \
     }
 MAP_VARIANTS(INSTANCE)
 #undef INSTANCE

@@ -96,7 +96,7 @@ static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct 
             {                                                                                                          \
                 const int32_t *list = o->particle + o->cell_start[k], n = o->cell_start[k + 1] - o->cell_start[k];     \
                 const struct cell c = cell_containing_point(&nodes, &points, list[0], D, SHAPE_##S);                   \
-                for (int m = 0; m < n; m++) motion_fetch(&points, data.turn, list, m, D);                              \
+                for (int m = 0; m < n; m++) points_prefetch_motion(&points, data.turn, list, m, D);                    \
                 for (int m = 0; m < n; m += AT_ONCE(D))                                                                \
                     turn_gather_points(&nodes, &c, &points, &data, list + m, points_at_once(n - m, D), D, SHAPE_##S);  \
             }                                                                                                          \
@@ -156,7 +156,7 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
         row_of_points slope[DIM_MAX * DIM_MAX];
         rotating_velocity_gradients(t, s.point, -0.5 * t->dt, slope, dim);
         for (int at = 0; at < points; at++) {
-            motion_fetch(p, t->turn, list, k + at, dim);
+            points_prefetch_motion(p, t->turn, list, k + at, dim);
             turn_scatter_point(sum, g, p, slope, &s, at, dim, shape);
         }
     }

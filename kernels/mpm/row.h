@@ -99,7 +99,7 @@ static ALWAYS_INLINE int points_sign_bits(row_of_points a)
 }
 
 /* Returns a in the first n lanes, 0 in the others. */
-static ALWAYS_INLINE row_of_points points_first(row_of_points a, int n)
+static ALWAYS_INLINE row_of_points points_keep_first_lanes(row_of_points a, int n)
 {
     row_of_points lane;
     for (int k = 0; k < POINTS; k++) lane[k] = k;
@@ -121,8 +121,8 @@ static ALWAYS_INLINE real points_sum(row_of_points a)
 /* Returns the smaller of two whole numbers. */
 static ALWAYS_INLINE int int_min(int a, int b) { return a < b ? a : b; }
 
-/* Returns how many of `left` remaining points of a cell are processed at once: at most AT_ONCE. */
-static ALWAYS_INLINE int points_at_once(int left, const int dim) { return int_min(left, AT_ONCE(dim)); }
+/* Returns how many of `points_left` remaining points of a cell are processed at once: at most AT_ONCE. */
+static ALWAYS_INLINE int points_at_once(int points_left, const int dim) { return int_min(points_left, AT_ONCE(dim)); }
 
 /* Returns true if all lanes of a vector of points hold the same point, as in cells with one point (2D and 3D). The
  * branch saves time there, and costs none where cells have four points. point: numbers of the points. */

@@ -19,8 +19,8 @@ static ALWAYS_INLINE void prefetch_line(const real *at) { __builtin_prefetch(at,
 
 /* Prefetches mass, position, velocity and spin of the point ORDER_AHEAD entries after entry k of the list; once per
  * cache line. turn: of transfer_data. */
-static ALWAYS_INLINE void motion_fetch(const struct particles *p, real *const *turn, const int32_t *list, int k,
-                                       const int dim)
+static ALWAYS_INLINE void points_prefetch_motion(const struct particles *p, real *const *turn, const int32_t *list,
+                                                 int k, const int dim)
 {
     int64_t i;
     if (!prefetch_next_point(list, k, &i)) return;

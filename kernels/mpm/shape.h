@@ -179,14 +179,14 @@ static ALWAYS_INLINE void grid_add_node_row(const struct grid *g, real *to, row_
 }
 
 /* Returns the eight or four corners of a cell in lanes: 1 on the upper side in direction d, 0 on the lower. */
-static ALWAYS_INLINE row_of_nodes corner_sides(int d)
+static ALWAYS_INLINE row_of_nodes corners_upper_side_of_axis(int axis)
 {
 #if ROW_NODES == 8
-    return d == 0   ? (row_of_nodes){0, 1, 0, 1, 0, 1, 0, 1}
-           : d == 1 ? (row_of_nodes){0, 0, 1, 1, 0, 0, 1, 1}
-                    : (row_of_nodes){0, 0, 0, 0, 1, 1, 1, 1};
+    return axis == 0   ? (row_of_nodes){0, 1, 0, 1, 0, 1, 0, 1}
+           : axis == 1 ? (row_of_nodes){0, 0, 1, 1, 0, 0, 1, 1}
+                       : (row_of_nodes){0, 0, 0, 0, 1, 1, 1, 1};
 #else
-    return d == 0 ? (row_of_nodes){0, 1, 0, 1} : (row_of_nodes){0, 0, 1, 1};
+    return axis == 0 ? (row_of_nodes){0, 1, 0, 1} : (row_of_nodes){0, 0, 1, 1};
 #endif
 }
 
@@ -324,8 +324,8 @@ static ALWAYS_INLINE struct touch stencil_row_weights(const struct cell_stencil 
     struct touch own = {.N = row_broadcast(1)};
     row_of_nodes hat[DIM_MAX], sign[DIM_MAX];
     for (int d = 0; d < dim; d++) {
-        sign[d] = 2 * corner_sides(d) - 1;
-        hat[d] = (1 - corner_sides(d)) + s->t[d][at] * sign[d];
+        sign[d] = 2 * corners_upper_side_of_axis(d) - 1;
+        hat[d] = (1 - corners_upper_side_of_axis(d)) + s->t[d][at] * sign[d];
     }
     for (int d = 0; d < dim; d++) {
         own.N *= hat[d];
@@ -386,9 +386,9 @@ static ALWAYS_INLINE row_of_nodes stencil_distances_in_row(const struct cell_ste
                                                            const int dim, const enum shape shape)
 {
 #if ROW_NODES == 4
-    const row_of_nodes nodes = HAS_CORNERS(dim, shape) ? corner_sides(d) : (row_of_nodes){-1, 0, 1, 2};
+    const row_of_nodes nodes = HAS_CORNERS(dim, shape) ? corners_upper_side_of_axis(d) : (row_of_nodes){-1, 0, 1, 2};
 #else
-    const row_of_nodes nodes = corner_sides(d);
+    const row_of_nodes nodes = corners_upper_side_of_axis(d);
     (void)shape, (void)dim;
 #endif
     return (nodes - s->t[d][at]) * h;

@@ -223,23 +223,23 @@ static ALWAYS_INLINE row_of_points stress_principal_bounds(const row_of_points *
 }
 
 /* Returns sqrt(J2) + g1 I1 of the stress s [Pa], the measure of the strength surface of material m
- * (data/strength_surface.h). s: symmetric components [Pa]. */
-static ALWAYS_INLINE real stress_failure(const struct elastic *m, const real *s, const int dim)
+ * (data/strength_surface.h). stress: symmetric components [Pa]. */
+static ALWAYS_INLINE real stress_drucker_prager_measure(const struct elastic *m, const real *stress, const int dim)
 {
     const real across = m->space == SPACE_PLANE_STRAIN ? m->poisson : 0;
-    return surface_share_of_components(&m->surface, s, across, dim) * m->surface.g0;
+    return strength_surface_stress_ratio_of_tensor(&m->surface, stress, across, dim) * m->surface.g0;
 }
 
-/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress s: if the largest
- * principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the material. s:
- * symmetric components [Pa]. */
-static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i, const real *s,
-                                          const int dim)
+/* Returns true if material point i, of material m, converts to a peridynamic particle at the stress stress: if the
+ * largest principal stress exceeds its conversion stress, or if the stress exceeds the strength surface of the
+ * material. stress: symmetric components [Pa]. */
+static ALWAYS_INLINE bool stress_converts(const struct elastic *m, const struct particles *p, int64_t i,
+                                          const real *stress, const int dim)
 {
     const real most = point_conversion_stress(m, p, i);
-    if (stress_principal_bound(s, dim) > most && stress_largest_principal(s, dim) > most) return true;
+    if (stress_principal_bound(stress, dim) > most && stress_largest_principal(stress, dim) > most) return true;
     if (dim == 1 || !(m->surface.g0 > 0)) return false;
-    return stress_failure(m, s, dim) > m->failure * (p->strength ? p->strength[i] : 1);
+    return stress_drucker_prager_measure(m, stress, dim) > m->failure * (p->strength ? p->strength[i] : 1);
 }
 
 /* Computes the stress that point i transmits to the grid [Pa]: all of its stress, or the part that PD-MPM bonds do not

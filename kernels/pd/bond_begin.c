@@ -223,8 +223,9 @@ static void bond_begin(struct bonds *b, const struct particles *p, int64_t row, 
         b, q, (struct bond_softness){(float)range.onset, (float)range.onset, (float)range.end, (float)b->w[q]});
     if (!(stretch > range.onset) || b->soft.settled || b->soft.whole) return;
     const real kept = bond_remaining_stiffness_fraction(b, row / LANES, q, stretch);
-    const real lost = 0.5 * square(stretch) * (1 - kept) -
-                      softening_dissipated_energy(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
+    const real lost =
+        0.5 * square(stretch) * (1 - kept) -
+        softening_normalised_dissipated_energy(b->soft.curve, range.onset, range.end, real_min(stretch, range.end));
     b->fracture_energy[row] += 0.5 * b->stiffness * b->w[q] * lost / b->inverse_length[q];
 }
 
@@ -246,7 +247,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
             if (!is_beyond_at_rate(b, p, limit, &c)) continue;
             if (!b->soft.begun[g]) row_block_initialise_softening(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
-            softness_mark_point(b, p, c.i);
+            softening_mark_point_for_conversion(b, p, c.i);
         }
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }

@@ -40,7 +40,7 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
     const int32_t i = b->particle[row], j = b->nbr[q];
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
-    bond_changed_update_column(b, row, q);
+    bond_column_update_after_bond_change(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_LOST_BOND : FLAG_LOST_BOND | FLAG_CRACKED);
@@ -127,7 +127,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
         bond_end(b, p, row, q);
     else
         b->w[q] = 0;
-    bond_changed_update_column(b, row, q);
+    bond_column_update_after_bond_change(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] +=
         0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch)));
@@ -136,7 +136,8 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
 
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
-    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_expand_stencil(b, row / LANES);
+    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE))
+        row_block_write_columns_from_stencil(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
@@ -147,13 +148,13 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]--;
     b->broken_volume[row] -= (float)p->volume0[b->nbr[q]];
-    bond_changed_update_column(b, row, q);
+    bond_column_update_after_bond_change(b, row, q);
     row_changed(b, row);
 }
 
 /* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. If it is
  * beyond its onset of softening and has not begun to soften, marks its row block (bonds of eight particles) for
- * examination before the next computation of forces (row_block_mark_due). */
+ * examination before the next computation of forces (row_block_request_softening_check). */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -161,7 +162,7 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
     if (bond_is_softening(b, row / LANES, q)) return stretch > b->soft.end[q];
     const struct softening_range range = bond_softening_range(p, limit, i, j);
-    if (stretch > range.onset && range.onset < range.end) row_block_mark_due(b, row / LANES);
+    if (stretch > range.onset && range.onset < range.end) row_block_request_softening_check(b, row / LANES);
     return stretch > range.end;
 }
 
@@ -172,7 +173,7 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     const int32_t i = b->particle[row];
     int64_t broken = 0;
     for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-        const int64_t q = bond_writable_index(b, row / LANES, k, (int)(row % LANES));
+        const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
         if (b->w[q] == 0) continue;
         const int32_t j = b->nbr[q];
         if (!is_past(b, p, limit, row, q, i, j)) continue;
@@ -253,7 +254,7 @@ static lanes_mask rows_due(const struct bonds *b, const struct particles *p, con
 
 int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block)
 {
-    if (limit->softening && !b->soft.begun[row_block]) row_block_mark_due(b, row_block);
+    if (limit->softening && !b->soft.begun[row_block]) row_block_request_softening_check(b, row_block);
     if (b->soft.whole) return 0; /* bonds of state-based models end where they soften (state_soften.c) */
     const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;

@@ -25,25 +25,31 @@ struct column {
     enum column_kind kind;
 };
 
-/* Returns stored column `number`; prefetches the columns COLUMNS_AHEAD further on. */
-static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t number,
+/* Returns stored column `column_number`; prefetches the columns COLUMNS_AHEAD further on. */
+static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t column_number,
                                                       const enum column_kind kind)
 {
-    const int64_t q = (number + COLUMNS_AHEAD) * LANES;
-    __builtin_prefetch(b->common + number + COLUMNS_AHEAD);
+    const int64_t q = (column_number + COLUMNS_AHEAD) * LANES;
+    __builtin_prefetch(b->common + column_number + COLUMNS_AHEAD);
     if (kind == COLUMN_FREE) __builtin_prefetch(b->inverse_length + q), __builtin_prefetch(b->nbr + q);
     if (kind != COLUMN_ALIKE) __builtin_prefetch(b->w + q);
-    return (struct column){b, number, b->common[number].first, NULL, NULL, kind};
+    return (struct column){b, column_number, b->common[column_number].first, NULL, NULL, kind};
 }
 
-/* Returns column k of a row block that follows a stencil, with the data of the bonds from that stencil. own: first
- * particle of the row block; number: index of the column among all columns; kind: COLUMN_STENCIL, WHOLE or UNIT. */
-static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t number,
-                                                       const struct stencil *stencil, int64_t k, int64_t own,
-                                                       const enum column_kind kind)
+/* Returns column k of a row block that follows a stencil, with the data of the bonds from that stencil. first_particle:
+ * first particle of the row block; column_number: index of the column among all columns; kind: COLUMN_STENCIL, WHOLE or
+ * UNIT. */
+static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
+                                                       const struct stencil *stencil, int64_t column_in_stencil,
+                                                       int64_t first_particle, const enum column_kind kind)
 {
-    const struct stencil_column *column = stencil->column + k;
-    return (struct column){b, number, own + column->offset, column, kind >= COLUMN_WHOLE ? NULL : stencil->w[k], kind};
+    const struct stencil_column *column = stencil->column + column_in_stencil;
+    return (struct column){b,
+                           column_number,
+                           first_particle + column->offset,
+                           column,
+                           kind >= COLUMN_WHOLE ? NULL : stencil->w[column_in_stencil],
+                           kind};
 }
 
 /* Calls VISIT(column) for every column of a row block that has an intact bond. The call is compiled once for each kind
@@ -101,12 +107,13 @@ static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, 
 }
 
 /* Returns component `axis` of weight times reference bond vector of the eight bonds of `column` [m]. w: their weights
- * [1]; xi: component `axis` of their reference vectors [m]. */
-static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w, lanes xi)
+ * [1]; reference_vector: component `axis` of their reference vectors [m]. */
+static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w,
+                                                   lanes reference_vector)
 {
     return column.kind == COLUMN_WHOLE  ? lanes_broadcast(column.stencil->w_xi[axis])
-           : column.kind == COLUMN_UNIT ? xi
-                                        : w * xi;
+           : column.kind == COLUMN_UNIT ? reference_vector
+                                        : w * reference_vector;
 }
 
 /* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of `column` [1/m]; those of broken bonds may

@@ -7,10 +7,10 @@
 #include "kernels/kernels.h"
 
 /* Returns component d of x_j - x_i a time `lag` before the present positions [m]. lag [s]. */
-static inline real bond_vector_at_earlier_time(const struct particles *p, int32_t i, int32_t j, int d, real lag)
+static inline real bond_vector_at_earlier_time(const struct particles *p, int32_t i, int32_t j, int axis, real lag)
 {
-    const real y = p->x[d][j] - p->x[d][i];
-    return lag == 0 ? y : y - lag * (p->v[d][j] - p->v[d][i]);
+    const real y = p->x[axis][j] - p->x[axis][i];
+    return lag == 0 ? y : y - lag * (p->v[axis][j] - p->v[axis][i]);
 }
 
 /* Returns the stretch [1] of the bond i-j a time `lag` before the present positions [s]. inverse_length: 1/|xi| [1/m],

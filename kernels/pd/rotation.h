@@ -69,13 +69,16 @@ static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotat
 
 /* Returns true if rotation_subtract_product reads number c of a stored rotation, so that it must be loaded: in 3D all,
  * in 2D numbers 0 and 2. */
-static ALWAYS_INLINE bool rotation_component_is_read(int c, const int dim) { return dim > 2 || c % 2 == 0; }
+static ALWAYS_INLINE bool rotation_component_is_read(int component, const int dim)
+{
+    return dim > 2 || component % 2 == 0;
+}
 
 /* Returns true if number c of a stored rotation changes sign when the particle is reflected in a plane normal to `axis`
  * (-1: no plane). All components of a rotation vector change sign except the one along the normal. */
-static inline bool rotation_component_changes_sign(int c, int axis, int dim)
+static inline bool rotation_component_changes_sign(int component, int axis, int dim)
 {
-    return axis >= 0 && (dim == 2 ? c == 1 || c == 2 : c < 3 && c != axis);
+    return axis >= 0 && (dim == 2 ? component == 1 || component == 2 : component < 3 && component != axis);
 }
 
 #endif

@@ -187,7 +187,7 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     struct family_state k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_model_has_rotations(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
-    if (__builtin_expect(p->end_strain && !row_block_is_complete(b, g), 0)) {
+    if (__builtin_expect(p->end_strain && !row_block_has_eight_pd_particles(b, g), 0)) {
         const struct family_sums seen =
             *sum; /* copies for a function that is not inlined: the originals stay in registers */
         const struct own_family own = f;

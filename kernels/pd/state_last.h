@@ -48,9 +48,9 @@ static inline struct family_left family_sums_of_unbroken_bonds(const struct bond
 
 /* Replaces *value by share * *value + (1 - share) * without_breaking, the mixture of the values with and without the
  * breaking bonds. */
-static inline void blend_with_value_without_breaking(real *value, real without_breaking, real share)
+static inline void blend_with_value_without_breaking(real *value, real without_breaking, real weight)
 {
-    *value = share * *value + (1 - share) * without_breaking;
+    *value = weight * *value + (1 - weight) * without_breaking;
 }
 
 /* Replaces the stored rotation of particle i by S R + (1 - S) R', with its rotation R over all bonds, its rotation R'

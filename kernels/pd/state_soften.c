@@ -60,7 +60,7 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     }
     b->w[q] = soft->whole[q] *
               softening_remaining_stiffness_fraction(soft->curve, soft->onset[q], soft->end[q], soft->most[q]);
-    bond_changed_update_column(b, row, q);
+    bond_column_update_after_bond_change(b, row, q);
     return 0;
 }
 
@@ -78,7 +78,7 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
         if (bond.w == 0) continue;
         const real stretch = bond_stretch_at_earlier_time(p, bond.inverse_length, i, bond.nbr, 0);
         if (!bond_is_softening(b, row / LANES, bond.entry)) {
-            if (stretch > b->soft.end[bond.entry]) row_block_mark_due(b, row / LANES);
+            if (stretch > b->soft.end[bond.entry]) row_block_request_softening_check(b, row / LANES);
             continue;
         }
         if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;

@@ -79,14 +79,14 @@ status option_read_dpi(struct picture_size *size, const char *option, const char
     return OK;
 }
 
-status option_has_value(const char *option, bool has_value, const char *usage)
+status option_check_has_value(const char *option, bool has_value, const char *usage)
 {
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
 status option_picture(struct picture_size *size, const char *option, const char *value, const char *usage)
 {
-    TRY(option_has_value(option, value != NULL, usage));
+    TRY(option_check_has_value(option, value != NULL, usage));
     return strcmp(option, "--dpi") ? option_read_picture_size(size, option, value)
                                    : option_read_dpi(size, option, value);
 }
@@ -119,7 +119,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
-        if (takes) TRY(option_has_value(word, k + 1 < argc, usage));
+        if (takes) TRY(option_check_has_value(word, k + 1 < argc, usage));
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))

@@ -35,7 +35,7 @@ status option_picture(struct picture_size *size, const char *option, const char 
 
 /* Checks that the option `option` is followed by a value. Returns OK if has_value is true, else REFUSED, with a message
  * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */
-status option_has_value(const char *option, bool has_value, const char *usage);
+status option_check_has_value(const char *option, bool has_value, const char *usage);
 
 /* Refuses a surplus word of a command that reads one scene: always returns REFUSED. scene: the scene that was read
  * before; word: the surplus word. The message suggests -s if the word has the form KEY=VALUE, else it names both

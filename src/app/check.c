@@ -215,7 +215,7 @@ static void say_materials(const struct run *e)
         else
             printf("material       %s: waves at %.4g m/s", a->name, a->wave_speed);
         if (!in_steps && a->rayleigh_speed > 0) printf(", Rayleigh %.4g m/s", a->rayleigh_speed);
-        if (material_softens(a))
+        if (material_has_softening_bonds(a))
             printf(", bonds soften");
         else if (isfinite(a->critical_stretch))
             printf(", bonds break at a stretch of %.4g", a->critical_stretch), print_brittle_strength(e->scene, a);
@@ -223,7 +223,7 @@ static void say_materials(const struct run *e)
             printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
-        if (isfinite(most) && material_has_surface(a))
+        if (isfinite(most) && material_has_strength_surface(a))
             printf(" or at %.3g of the strength surface", e->scene->conversion.alpha);
         if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
         printf("\n");
@@ -268,7 +268,7 @@ static void say_busy(double load, int threads)
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
-    const double load = machine_load();
+    const double load = machine_load_average();
     const status result = cost_measure_by_trial_steps(&cost, e, a);
     warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
@@ -276,7 +276,7 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     say_contact_cost(e, &cost);
     say_cost(e, &cost, threads);
     say_busy(load, threads);
-    print_levels_saving(e, &cost);
+    print_coarse_cells_saving(e, &cost);
     return OK;
 }
 
@@ -326,12 +326,12 @@ static void say_settings(const struct run *e)
 {
     say_particles(e);
     print_filled_volume(e);
-    print_shapes(e);
+    print_shape_file_volumes(e);
     print_separate_pieces(e);
     say_materials(e);
     print_precracks(e);
     say_frames(e);
-    print_levels(e);
+    print_coarse_cells(e);
     say_notches(e);
     print_loads(e);
     say_time_step(e);

@@ -53,12 +53,12 @@ static real mirrored_edge(const struct scene *scene, const struct bond_source *s
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-real solid_smallest_edge(const struct run *e, const struct solid *a)
+real solid_smallest_edge(const struct run *e, const struct solid *solid)
 {
     real least = INFINITY;
-    for (int d = 0; d < e->scene->dim && solid_is_unmoved_of_kind(a, SOLID_BOX); d++)
-        least = real_min(least, mirrored_edge(e->scene, &e->source, a, d));
-    return real_min(least, solid_least_thickness(a, e->scene->dim));
+    for (int d = 0; d < e->scene->dim && solid_is_of_kind_and_not_moved(solid, SOLID_BOX); d++)
+        least = real_min(least, mirrored_edge(e->scene, &e->source, solid, d));
+    return real_min(least, solid_least_thickness(solid, e->scene->dim));
 }
 
 /* Largest relative error of the stiffness of a thin peridynamic part [%] by its number of particle layers: in 2D and in
@@ -253,7 +253,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
  * them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
-    const struct shock shock = scene_fastest_collision(s);
+    const struct shock shock = scene_most_severe_collision(s);
     if (shock.share > 0)
         fprintf(
             out,
@@ -267,9 +267,9 @@ static void advise_shocks(const struct scene *s, FILE *out)
  * level are too large for the loads or for the thin parts of the body. */
 static void advise_levels(const struct run *e, FILE *out)
 {
-    const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    const struct levels_choice c = mesh_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (frame_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
+    if (mesh_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
 /* Writes a remark to `out` if a formula of a load or support has no finite value at some time of the run. */
@@ -319,7 +319,7 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * lose their common grid nodes beside the driven points. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    const struct weak_shape *weak = weak_shape_of(s->shape);
+    const struct weak_shape *weak = shape_find_weak_in_tension(s->shape);
     if (weak && stretch > weak->stretch)
         fprintf(
             out,
@@ -479,8 +479,8 @@ void print_accuracy_advice(const struct run *e, FILE *out)
 {
     advise_features(e, out);
     advise_narrow_holes(e, out);
-    print_section_advice(e, out);
-    advise_precracks(e->scene, e->fracture, out);
+    print_narrow_width_advice(e, out);
+    advise_on_close_crack_tips(e->scene, e->fracture, out);
     print_incompressible_advice(e, out);
     advise_faces(e->scene, out);
     print_particle_list_advice(e, out);
@@ -499,6 +499,6 @@ void cost_hints_list(const struct run *e, struct warnings *to)
     hint_frame(e, to);
     hint_method(e, to);
     hint_symmetry(e, to);
-    hint_signs(e, to);
+    hint_unlikely_signs_and_sizes(e, to);
     hint_idle_keys(e->scene, to);
 }

@@ -279,17 +279,17 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct r
     e->warnings.silent = true;
     if (scene_has_load_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
-        const status result = cost_load_steps(c, e);
+        const status result = cost_estimate_load_steps(c, e);
         warnings_append_from(&c->found, &e->warnings, known);
         TRY(result);
-        c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
         return OK;
     }
     if (scene_is_single_equilibrium(e->scene)) {
         /* conjugate gradients use central differences of forces: two evaluations per iteration
          * (static_body_tangent_product) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
-        c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
+        c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
         return OK;
     }
     struct quartiles step;
@@ -298,7 +298,7 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct r
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;
-    c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
+    c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
     c->output = output_seconds(e);
     cost_run(c, &e->clock, e->scene, a);
     cost_peridynamic(c, e, a);

@@ -58,7 +58,7 @@ static int64_t cover_index(const struct cover *c, const int64_t *at)
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
+void piece_coverage_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
 {
     index[0] = cell % c->n[0], index[1] = cell / c->n[0] % c->n[1], index[2] = cell / c->n[0] / c->n[1];
 }
@@ -66,7 +66,7 @@ void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
 static void cell_middle(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
@@ -77,7 +77,7 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
     bool beside = false;
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     for (int k = 0; k < 27; k++) {
         const int64_t near[DIM_MAX] = {at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
         bool within = true;
@@ -100,7 +100,7 @@ static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
     bool thin = false, beside = false;
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
         const bool before = at[d] > 0 && c->filled[cell - stride];
         const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
@@ -154,14 +154,15 @@ static real share_within_cell(const struct cover *c, const struct piece *p, int6
     return (real)inside / PLACES;
 }
 
-bool piece_cover_make(struct cover *c, const struct piece *p)
+bool piece_cell_coverage_make(struct cover *c, const struct piece *p)
 {
     const struct scene *s = p->scene;
     const bool dear = p->material == ANY_MATERIAL && is_dear(&s->body[p->body].shape);
     real from[DIM_MAX], to[DIM_MAX], all = 1;
     *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
     if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!piece_bounding_box(p, from, to) || fill_lattice_site(s, p->body, c->first) != OK) return false;
+    if (!piece_bounding_box(p, from, to) || fill_compute_lattice_site_position(s, p->body, c->first) != OK)
+        return false;
     for (int d = 0; d < s->dim; d++) {
         c->first[d] += real_max(0, floor((from[d] - c->first[d]) / s->spacing) - 1) * s->spacing;
         all *= (to[d] - c->first[d]) / s->spacing + 3;
@@ -183,7 +184,7 @@ bool piece_cover_make(struct cover *c, const struct piece *p)
     return true;
 }
 
-void piece_cover_free(struct cover *c)
+void piece_cell_coverage_free(struct cover *c)
 {
     memory_free(c->filled);
     memory_free(c->share);

@@ -29,14 +29,14 @@ struct cover {
 };
 
 /* Initialises c with the lattice cells in the bounding box of a piece (a body, or its part of one material): the share
- * of each cell that the piece covers, and whether the cell contains a particle. Release with piece_cover_free. Returns
- * false, with nothing to release, for bodies in 1D or from a particle list, for unbounded pieces, and for more cells
- * than can be computed quickly. */
-bool piece_cover_make(struct cover *c, const struct piece *piece);
+ * of each cell that the piece covers, and whether the cell contains a particle. Release with piece_cell_coverage_free.
+ * Returns false, with nothing to release, for bodies in 1D or from a particle list, for unbounded pieces, and for more
+ * cells than can be computed quickly. */
+bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
 
 /* Computes the indices index[DIM_MAX] of the cell number `cell` of c along the axes. */
-void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
+void piece_coverage_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
-void piece_cover_free(struct cover *c);
+void piece_cell_coverage_free(struct cover *c);
 
 #endif

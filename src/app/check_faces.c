@@ -159,7 +159,7 @@ void print_face_off_axis(const struct run *e, const struct boundary *b)
     if (s->dim == 1 || !(s->spacing > 0)) return;
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
     load_mark_particles_in_region(b, &e->part, s->spacing, selected);
-    exposed_face_make(&f, b, &e->part, selected, s->spacing, false);
+    exposed_face_compute_areas(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
         w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
     memory_free(c.height);

@@ -12,7 +12,7 @@ static bool all_boxes(const struct region *shape)
 {
     bool boxes = true;
     for (int k = 0; k < shape->n; k++)
-        boxes &= solid_is_unmoved_of_kind(&shape->solid[k], SOLID_BOX) && !shape->solid[k].intersect;
+        boxes &= solid_is_of_kind_and_not_moved(&shape->solid[k], SOLID_BOX) && !shape->solid[k].intersect;
     return boxes;
 }
 

@@ -6,13 +6,13 @@
 #include "mesh/mesh_part.h"
 #include "mesh/levels.h"
 
-void print_levels(const struct run *e)
+void print_coarse_cells(const struct run *e)
 {
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_is_single_equilibrium(e->scene)) return;
-    const struct levels_choice c = frame_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
-    frame_levels_describe(&c, e->scene, text, sizeof text);
+    const struct levels_choice c = mesh_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    mesh_levels_describe_choice(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
@@ -58,7 +58,7 @@ static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
     return n;
 }
 
-void print_levels_saving(const struct run *e, const struct cost *c)
+void print_coarse_cells_saving(const struct run *e, const struct cost *c)
 {
     const struct mesh_levels *l = &e->frame->levels;
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];

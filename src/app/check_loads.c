@@ -199,8 +199,8 @@ static bool face_exact(const struct scene *s, const struct boundary *b, real *ar
     const int body = b->body >= 0 ? b->body : 0;
     const struct region *shape = &s->body[body].shape, *region = &b->region;
     if ((b->body < 0 && s->bodies > 1) || s->body[body].file || shape->n != 1 || region->n > 1) return false;
-    if (!solid_is_unmoved_of_kind(&shape->solid[0], SOLID_BOX) ||
-        (region->n == 1 && !solid_is_unmoved_of_kind(&region->solid[0], SOLID_BOX)))
+    if (!solid_is_of_kind_and_not_moved(&shape->solid[0], SOLID_BOX) ||
+        (region->n == 1 && !solid_is_of_kind_and_not_moved(&region->solid[0], SOLID_BOX)))
         return false;
     *area = b->section > 0 ? b->section : 1;
     for (int d = 0; d < s->dim; d++) {

@@ -51,7 +51,7 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     const struct cover *c = k->cover;
     const int64_t next = cell + way * k->stride[k->axis];
     int64_t at[DIM_MAX];
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     if (at[k->axis] + way < 0 || at[k->axis] + way >= c->n[k->axis]) return false;
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
@@ -71,7 +71,7 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX];
-    cover_cell_indices(c, from, at);
+    piece_coverage_cell_indices(c, from, at);
     return (at[k->axis] > 0 && c->filled[from - k->stride[k->axis]]) ||
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
@@ -100,7 +100,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX], found = -1, from = cell;
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     if (at[across] + way < 0 || at[across] + way >= c->n[across]) return -1;
     while (run_goes_on(k, from, -1)) from -= k->stride[k->axis];
     const int64_t n = run_span(k, from);
@@ -118,7 +118,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
     const struct run *e = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
-    cover_cell_indices(k->cover, cell, at);
+    piece_coverage_cell_indices(k->cover, cell, at);
     const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
     for (int m = 0; m < e->source.mirrors; m++)
         found |= e->source.mirror[m].axis == across && e->source.mirror[m].outside == way &&
@@ -129,7 +129,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 static void cell_point(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    cover_cell_indices(c, cell, at);
+    piece_coverage_cell_indices(c, cell, at);
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
@@ -350,7 +350,7 @@ static void neck_mark(struct necks *k, int64_t cell)
     while (top > 0) {
         const int64_t here = k->stack[--top];
         int64_t at[DIM_MAX];
-        cover_cell_indices(k->cover, here, at);
+        piece_coverage_cell_indices(k->cover, here, at);
         for (int way = -1; way <= 1; way += 2)
             for (int d = 0; d < k->cover->dim; d++) {
                 const int64_t next = here + way * k->stride[d];
@@ -384,7 +384,7 @@ static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell,
     memory_free(p);
 }
 
-void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named)
+void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *listed_axes)
 {
     struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
@@ -395,7 +395,7 @@ void uneven_add_necks(struct uneven_list *list, const struct run *e, const struc
         rows_count(&k);
         array_fill_bytes(k.seen, 0, c->cells, sizeof *k.seen);
         for (int64_t cell = 0; cell < c->cells && k.measured < NECKS_MOST; cell++) {
-            if (k.rows[cell] == 0 || k.rows[cell] > NARROW || k.seen[cell] || named[cell] & 1 << k.axis) continue;
+            if (k.rows[cell] == 0 || k.rows[cell] > NARROW || k.seen[cell] || listed_axes[cell] & 1 << k.axis) continue;
             if (run_goes_on(&k, cell, -1)) continue;
             for (int d = 0; d < c->dim && !k.seen[cell]; d++)
                 if (d != k.axis) neck_follow(list, &k, cell, d);
@@ -427,7 +427,7 @@ void uneven_add_lengths(struct uneven_list *list)
     real from[DIM_MAX], to[DIM_MAX], first[DIM_MAX], X[DIM_MAX] = {0};
     if (s->body[p->body].file || !(s->spacing > 0) || !piece_bounding_box(p, from, to)) return;
     const real step = 0.25 * s->spacing, steps = (to[0] - from[0]) / step;
-    if (!(steps < POINTS_MOST) || fill_lattice_site(s, p->body, first) != OK) return;
+    if (!(steps < POINTS_MOST) || fill_compute_lattice_site_position(s, p->body, first) != OK) return;
     for (real m = 0.5; m < steps; m++) {
         X[0] = from[0] + m * step;
         if (!piece_contains(p, X, 0)) continue;

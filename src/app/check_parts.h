@@ -67,7 +67,7 @@ void print_precracks(const struct run *e);
 /* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart, so that they affect
  * each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a crack of twice
  * its length. */
-void advise_precracks(const struct scene *s, const struct fracture_state *fracture, FILE *out);
+void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
 /* Adds a hint to *to for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether it cuts
  * them. */
@@ -84,7 +84,7 @@ void print_load_step_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be
  * continued afterwards. Returns FAILED if no equilibrium is found. */
-status cost_load_steps(struct cost *c, struct run *run);
+status cost_estimate_load_steps(struct cost *c, struct run *run);
 
 /* Prints the estimated run time of load steps with `threads` threads, and a line if no bond will break. cost: the
  * estimate for run e. */
@@ -94,16 +94,16 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 
 /* Prints for each file from which the scene reads a solid whether its surface is closed, and the volume that the
  * surface encloses. */
-void print_shapes(const struct run *e);
+void print_shape_file_volumes(const struct run *e);
 
 /* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
 void print_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest edge, diameter or wall thickness of the solid `a` [m]. An edge that ends at a plane of symmetry
- * of the scene counts with its mirror image. Returns INFINITY if the solid has none of these. */
-real solid_smallest_edge(const struct run *e, const struct solid *a);
+/* Returns the smallest edge, diameter or wall thickness of the solid `solid` [m]. An edge that ends at a plane of
+ * symmetry of the scene counts with its mirror image. Returns INFINITY if the solid has none of these. */
+real solid_smallest_edge(const struct run *e, const struct solid *solid);
 
 /* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. For a single solid
  * this is its smallest edge over the spacing, INFINITY unless this is less than `max_layers`. For other shapes it is a
@@ -117,16 +117,16 @@ void print_incompressible_advice(const struct run *e, FILE *out);
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Prints size and number of the coarse mesh cells of the run e, and why coarse cells are used or not. */
-void print_levels(const struct run *e);
+void print_coarse_cells(const struct run *e);
 
 /* Prints the memory and time that coarse cells of the mesh save. cost: measured cost of the run. */
-void print_levels_saving(const struct run *e, const struct cost *cost);
+void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
 /* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that the
  * particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
-void print_section_advice(const struct run *e, FILE *out);
+void print_narrow_width_advice(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */
 struct length_text {
@@ -160,7 +160,7 @@ void hint_idle_keys(const struct scene *s, struct warnings *to);
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
 /* Adds a line to *to for each load whose sign, and for each setting whose size, is probably not intended. */
-void hint_signs(const struct run *e, struct warnings *to);
+void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *to);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
@@ -181,7 +181,7 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
 void print_particle_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the scene equals its mirror image in the plane normal to axis `axis` through the middle of its
- * particles. *at receives the position of this plane along the axis [m] (check_symmetry.c). */
-bool scene_is_symmetric(const struct run *e, int axis, real *at);
+ * particles. *plane_position receives the position of this plane along the axis [m] (check_symmetry.c). */
+bool scene_is_symmetric(const struct run *e, int axis, real *plane_position);
 
 #endif

@@ -38,7 +38,7 @@ static real crack_share_within(const struct scene *s, const real *from, const re
     return (real)within / PLACES;
 }
 
-void advise_precracks(const struct scene *s, const struct fracture_state *fracture, FILE *out)
+void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out)
 {
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
         const real *from = s->crack[k].corner[0], *to = s->crack[k].corner[1];

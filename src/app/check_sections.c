@@ -55,7 +55,7 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
         const int64_t cell = stack[--top];
         int64_t at[DIM_MAX];
         section->n++, section->area += c->share[cell], section->filled += c->filled[cell];
-        cover_cell_indices(c, cell, at);
+        piece_coverage_cell_indices(c, cell, at);
         for (int k = 0; k < 4; k++) {
             const int d = s->across[k / 2], way = k % 2 ? 1 : -1;
             const int64_t next = cell + way * s->side[k / 2];
@@ -87,14 +87,14 @@ static void sections_make(struct sections *s, const struct cover *c, int axis, u
     for (int64_t k = 0; k < c->cells; k++) {
         int64_t at[DIM_MAX];
         if (s->of[k] >= 0 || !is_covered(c, k)) continue;
-        cover_cell_indices(c, k, at);
+        piece_coverage_cell_indices(c, k, at);
         section_flood(s, at[axis], k, stack);
     }
     memory_free(stack);
     for (int64_t k = 0; k + s->stride < c->cells; k++) {
         const int64_t next = k + s->stride;
         int64_t at[DIM_MAX];
-        cover_cell_indices(c, k, at);
+        piece_coverage_cell_indices(c, k, at);
         if (at[axis] + 1 == c->n[axis] || s->of[k] < 0 || s->of[next] < 0) continue;
         struct section *here = &s->section[s->of[k]], *there = &s->section[s->of[next]];
         here->after = larger(s, here->after, s->of[next]);
@@ -157,7 +157,7 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
             const int64_t cell = base + a * s->side[0] + b * s->side[1];
             int64_t at[DIM_MAX];
             if (s->of[cell] != number) continue;
-            cover_cell_indices(c, cell, at);
+            piece_coverage_cell_indices(c, cell, at);
             sum += c->share[cell];
             for (int d = 0; d < c->dim; d++) u.at[d] += c->share[cell] * (c->first[d] + (real)at[d] * c->spacing);
         }
@@ -246,15 +246,15 @@ static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;
     if (e->scene->dim == 1) uneven_add_lengths(list);
-    if (e->scene->dim == 1 || !piece_cover_make(&c, &list->piece)) return;
+    if (e->scene->dim == 1 || !piece_cell_coverage_make(&c, &list->piece)) return;
     uint8_t *named = NEW("check.named", c.cells, uint8_t);
     piece_sections(list, &c, named);
     uneven_add_necks(list, e, &c, named);
     memory_free(named);
-    piece_cover_free(&c);
+    piece_cell_coverage_free(&c);
 }
 
-void print_section_advice(const struct run *e, FILE *out)
+void print_narrow_width_advice(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {

@@ -52,7 +52,7 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
     putchar('\n');
 }
 
-void print_shapes(const struct run *e)
+void print_shape_file_volumes(const struct run *e)
 {
     for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
         if (f->kind == SHAPE_IMAGE)

@@ -75,7 +75,7 @@ static void hint_frames(const struct run *e, struct warnings *to)
                      frames, (long long)e->part.n, 1e-9 * bytes);
 }
 
-void hint_signs(const struct run *e, struct warnings *to)
+void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *to)
 {
     hint_pushed(e->scene, to);
     hint_sizes(e, to);

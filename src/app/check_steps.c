@@ -224,7 +224,7 @@ static double advances_of(const struct run *e)
     return way / (SPACINGS * s->spacing);
 }
 
-status cost_load_steps(struct cost *c, struct run *e)
+status cost_estimate_load_steps(struct cost *c, struct run *e)
 {
     const double began = thread_cpu_clock();
     const real first = e->scene->duration / e->scene->steps.number;

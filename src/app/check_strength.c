@@ -60,12 +60,12 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
  * soften before the stress reaches the surface. Prints the stresses in tension and shear for which this happens. */
 static void print_surface(const struct scene *s, const struct material *m)
 {
-    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct softening_curve curve = softening_curve_of_law(m->softening);
     const struct surface_strengths surface = material_surface_strengths(m, s->space);
     const real horizon = s->horizon * s->spacing,
                unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
-        softening_curve_strength(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
+        softening_curve_normalised_strengths(&curve, s->space, square(m->critical_stretch / m->onset_stretch));
     const real own_shear = isnan(own.shear) ? m->young * m->onset_stretch / (1 + m->poisson) : unit * own.shear;
     printf("strength       %s: %.4g Pa in tension, %.4g Pa in equal biaxial tension, %.4g Pa in shear", m->name,
            surface.tension, surface.biaxial, surface.shear);
@@ -73,7 +73,7 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
-    printf("; the surface needs less than %.4g m", scene_surface_horizon(s, m));
+    printf("; the surface needs less than %.4g m", scene_strength_surface_horizon(s, m));
     if (surface.tension > unit) printf("; in tension bonds begin to soften by themselves at about %.4g Pa", unit);
     if (surface.shear > own_shear)
         printf("; shear falls short: bonds soften by themselves at about %.4g Pa", own_shear);
@@ -97,13 +97,13 @@ void print_softening(const struct scene *s, const struct material *m)
     static const char *const law[] = {[SOFTENING_LINEAR] = "linearly",
                                       [SOFTENING_BILINEAR] = "bilinearly",
                                       [SOFTENING_EXPONENTIAL] = "exponentially"};
-    if (material_has_surface(m)) print_surface(s, m);
-    if (!material_softens(m) || material_has_surface(m)) return;
-    const struct softening_curve curve = softening_curve_of(m->softening);
+    if (material_has_strength_surface(m)) print_surface(s, m);
+    if (!material_has_softening_bonds(m) || material_has_strength_surface(m)) return;
+    const struct softening_curve curve = softening_curve_of_law(m->softening);
     const real kappa = square(m->critical_stretch / m->onset_stretch);
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_model model = scene_softening_model(s, m);
-    const struct softening_strength strength = softening_model_strength(&curve, s->space, kappa, &model);
+    const struct softening_strength strength = softening_model_normalised_strengths(&curve, s->space, kappa, &model);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
     if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);
     if (s->dim == 2) printf(", %.4g Pa in shear", unit * strength.shear);

@@ -208,19 +208,20 @@ static bool rings_clear(const struct run *e, int axis, real at)
     return true;
 }
 
-bool scene_is_symmetric(const struct run *e, int axis, real *at)
+bool scene_is_symmetric(const struct run *e, int axis, real *plane_position)
 {
     const struct particles *p = &e->part;
     real low, high;
     for (int b = 0; b < e->loads.n; b++)
         if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == axis) return false;
     particles_coordinate_range(p, p->n, axis, &low, &high);
-    *at = 0.5 * (low + high);
-    if (high - low < e->scene->spacing || !rings_clear(e, axis, *at)) return false;
-    if (!rigid_bodies_agree(e->scene, &e->part, axis, *at) || !growths_agree(e->scene, &e->part, axis, *at))
+    *plane_position = 0.5 * (low + high);
+    if (high - low < e->scene->spacing || !rings_clear(e, axis, *plane_position)) return false;
+    if (!rigid_bodies_agree(e->scene, &e->part, axis, *plane_position) ||
+        !growths_agree(e->scene, &e->part, axis, *plane_position))
         return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
-    const bool same = mirror_twins_find(e, axis, *at, twin) && matter_agrees(&e->part, twin) &&
+    const bool same = mirror_twins_find(e, axis, *plane_position, twin) && matter_agrees(&e->part, twin) &&
                       voids_agree(e->source.voids, twin, p->n) && loads_agree(&e->part, &e->loads, axis, twin);
     memory_free(twin);
     return same;

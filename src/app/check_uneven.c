@@ -113,7 +113,7 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
     struct scene other = *p->scene;
     real X[DIM_MAX] = {0};
     other.spacing = spacing;
-    if (fill_lattice_site(&other, p->body, X) != OK) return -1;
+    if (fill_compute_lattice_site_position(&other, p->body, X) != OK) return -1;
     const real first = ceil((low - X[axis]) / spacing - ON_SURFACE);
     const real last = floor((high - X[axis]) / spacing + ON_SURFACE);
     return (int64_t)(last - first) + 1;

@@ -45,9 +45,9 @@ real piece_distance_to_surface(const struct piece *p, const real *X, int axis, r
 void print_uneven_parts(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of the piece list->piece to the list. A neck is a narrow part that widens on both sides, such as the
- * ligament between a hole and an edge. cover: lattice cells of the piece. named[cells] excludes parts that are in the
- * list already: bit d is set for cells of a listed part whose width is measured along axis d. */
-void uneven_add_necks(struct uneven_list *list, const struct run *run, const struct cover *cover, uint8_t *named);
+ * ligament between a hole and an edge. cover: lattice cells of the piece. listed_axes[cells] excludes parts that are in
+ * the list already: bit d is set for cells of a listed part whose width is measured along axis d. */
+void uneven_add_necks(struct uneven_list *list, const struct run *run, const struct cover *cover, uint8_t *listed_axes);
 
 /* Adds to the list the parts of the 1D body of list->piece whose length is no whole number of spacings. */
 void uneven_add_lengths(struct uneven_list *list);

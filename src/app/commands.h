@@ -68,7 +68,7 @@ void usage_print(FILE *out);
 void usage_print_of(FILE *out, const struct command *c);
 
 /* Returns true if `word`, a word of the command line, is -h or --help. */
-static inline bool wants_help(const char *word)
+static inline bool word_is_help_option(const char *word)
 {
     return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
 }

@@ -220,7 +220,7 @@ static status compare_frames(struct pair *p)
         if (lammps_run_exists(p->folder[k]))
             s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
         else if (run_has_file(p->folder[k], "frames.hdf.series"))
-            s = frames_list(p->folder[k], &t[k].n, &t[k].list);
+            s = run_list_frames(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
         printf("\nfields are not compared: %s has no frames\n", printable_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {

@@ -124,14 +124,14 @@ static void frame_fill(struct output_frame *f, const struct lammps_frame *from, 
     }
 }
 
-status lammps_run_read_frame(struct output_frame *f, const char *folder, int number)
+status lammps_run_read_frame(struct output_frame *f, const char *folder, int frame_number)
 {
     struct lammps_frame from;
     struct check c = {0};
     double dt;
     *f = (struct output_frame){0};
     TRY(lammps_time_step(folder, &dt));
-    TRY(lammps_frame_read(&from, path_join(folder, "plate.dump").text, number));
+    TRY(lammps_frame_read(&from, path_join(folder, "plate.dump").text, frame_number));
     const status s = check_read(&c, folder, from.n);
     if (s == OK) {
         frame_fill(f, &from, &c);

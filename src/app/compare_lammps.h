@@ -12,9 +12,9 @@ bool lammps_run_exists(const char *folder);
  * cannot be read or has no frame. */
 status lammps_frames_list(const char *folder, int *n, struct listed_frame **list);
 
-/* Reads the frame with the number `number` of the run of LAMMPS in a folder into *f. The frame has no stress. Returns
- * FAILED if a file of the run cannot be read or is damaged. Release f with frame_free. */
-status lammps_run_read_frame(struct output_frame *f, const char *folder, int number);
+/* Reads the frame with the number `frame_number` of the run of LAMMPS in a folder into *f. The frame has no stress.
+ * Returns FAILED if a file of the run cannot be read or is damaged. Release f with frame_free. */
+status lammps_run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
 /* Prints the differences between the run of LAMMPS in a folder and the state that Cleave has computed, which the export
  * wrote to check.csv. Prints nothing if the folder has no check.csv. Returns FAILED if a file cannot be read. */

@@ -81,7 +81,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
         const char *word = argv[k];
         bool takes = false;
         for (size_t t = 0; t < COUNT_OF(taking); t++) takes |= !strcmp(word, taking[t]);
-        if (takes) TRY(option_has_value(word, k + 1 < argc, usage));
+        if (takes) TRY(option_check_has_value(word, k + 1 < argc, usage));
         if (takes)
             TRY(converge_option(a, word, argv[++k]));
         else if (!strcmp(word, "--horizon"))

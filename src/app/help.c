@@ -63,8 +63,8 @@ static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
     if (answer) printf("%s: %s\n", word, answer);
-    if (answer && scene_has_key(word)) putchar('\n');
-    return answer && !scene_has_key(word) ? OK : scene_print_help(stdout, word);
+    if (answer && scene_help_knows_word(word)) putchar('\n');
+    return answer && !scene_help_knows_word(word) ? OK : scene_print_help(stdout, word);
 }
 
 /* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. Returns
@@ -85,7 +85,7 @@ static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
     const char *nearest = pages[0];
-    if (scene_has_key(word) || topic_answer(word)) return OK;
+    if (scene_help_knows_word(word) || topic_answer(word)) return OK;
     for (size_t k = 0; k < COUNT_OF(pages); k++)
         if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
     for (int k = 0; k < commands_count; k++)

@@ -25,7 +25,7 @@ static bool asks_help(int argc, char **argv)
 {
     bool asks = false;
     for (int k = 2; k < argc; k++)
-        asks |= wants_help(argv[k]) && (k == 2 || argv[k - 1][0] != '-' || strlen(argv[k - 1]) != 2);
+        asks |= word_is_help_option(argv[k]) && (k == 2 || argv[k - 1][0] != '-' || strlen(argv[k - 1]) != 2);
     return asks;
 }
 
@@ -35,7 +35,7 @@ static status call(int argc, char **argv)
     if (argc < 2) return usage_print(stderr), REFUSED;
     output_configure_hdf5();
     TRY(simd_select_kernels());
-    if (wants_help(argv[1])) return usage_print(stdout), OK;
+    if (word_is_help_option(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
     TRY(command_find(argv[1], &c));
     if (asks_help(argc, argv)) return usage_print_of(stdout, c), OK;
@@ -74,7 +74,7 @@ int main(int argc, char **argv)
     keep_descriptors();
     limit_spin(argv);
     crash_message_install();
-    standard_streams_replace_controls();
+    standard_streams_replace_control_characters();
     program_commit_set(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);

@@ -218,11 +218,11 @@ static status read_option(struct plot_words *w, const char *word, const char *va
     for (size_t k = 0; k < COUNT_OF(options); k++) {
         name[k] = options[k].name;
         if (strcmp(word, name[k]) != 0) continue;
-        TRY(option_has_value(word, value != NULL, usage));
+        TRY(option_check_has_value(word, value != NULL, usage));
         return options[k].read(w, value);
     }
     return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: cleave %s", printable_name(word).text,
-                      word_nearest(word, name, COUNT_OF(name)), usage);
+                      word_find_most_similar(word, name, COUNT_OF(name)), usage);
 }
 
 /* Sets the format of the picture from the file name extension of -o, unless --format is given. Returns REFUSED if the

@@ -39,8 +39,9 @@ static void print_breaks(const struct run *e)
     if (broke && w->break_ends > 1) printf(" at %lld positions", (long long)w->break_ends);
     if (tip) {
         printf("%slongest crack grew %.4g mm at %.3g degrees, from (%s) to (%s) m%s", broke ? ", " : "  ",
-               1e3 * tip->growth, tip_angle(tip, e->part.dim), position_text(tip->origin, e->part.dim, 4).text,
-               position_text(tip->place, e->part.dim, 4).text, tip->from_crack ? "" : ", not from a pre-crack");
+               1e3 * tip->growth, tip_deflection_angle(tip, e->part.dim),
+               position_text(tip->origin, e->part.dim, 4).text, position_text(tip->place, e->part.dim, 4).text,
+               tip->from_crack ? "" : ", not from a pre-crack");
     }
     if (tied > 1) printf(", one of %lld tips whose growth is equal to within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
@@ -102,7 +103,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                          int threads)
 {
     char busy[256];
-    const double start = wall_clock(), load = machine_load();
+    const double start = wall_clock(), load = machine_load_average();
     engine_announce_long_set_up(s);
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     const double made = wall_clock();
@@ -111,10 +112,9 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     e->report->began = start;
     e->report->quiet = a->quiet;
     engine_warn_of_suspicious_input(e);
-    const struct levels_choice levels = frame_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical);
+    const struct levels_choice levels = mesh_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
-    if (frame_levels_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse))
-        warnings_add(&e->warnings, "%s", coarse);
+    if (mesh_levels_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
@@ -125,14 +125,14 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
-    output_remove_temporal_file(out);
+    output_remove_vtkhdf_of_all_frames(out);
     e->report->setup_seconds = wall_clock() - opened + made - start;
     status ran = engine_run(e);
     const double run = wall_clock();
     if (ran == OK) ran = engine_run_mpm_baseline(e);
     e->report->setup_seconds += wall_clock() - run;
     if (ran == OK || ran == INTERRUPTED) {
-        const status temporal = output_write_temporal_file(out, s->text);
+        const status temporal = output_write_vtkhdf_of_all_frames(out, s->text);
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];

@@ -42,7 +42,7 @@ static status key_add(struct sweep_arguments *a, const char *text)
  * Returns REFUSED if name is NULL or the list already has FIGURES_MOST figures. */
 static status drawn_figure_add(struct sweep_arguments *a, const char *name)
 {
-    TRY(option_has_value("--of", name != NULL, usage));
+    TRY(option_check_has_value("--of", name != NULL, usage));
     if (a->asked == FIGURES_MOST) return status_set(REFUSED, "sweep: --of: at most %d figures", FIGURES_MOST);
     a->of[a->asked++] = name;
     return OK;
@@ -53,7 +53,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         const bool takes = word[0] == '-' && word[1] && strchr("osjt", word[1]) && !word[2];
-        if (takes) TRY(option_has_value(word, k + 1 < argc, usage));
+        if (takes) TRY(option_check_has_value(word, k + 1 < argc, usage));
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))
@@ -140,7 +140,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     TRY(study_make_with_keys(s, a->scene, a->folder, "sweep", a->key, a->keys));
     s->options = a->words;
     TRY(study_add_combinations(s, a->key, a->keys));
-    TRY(study_check_scenes(s, a->collect));
+    TRY(study_determine_case_states(s, a->collect));
     study_print_equal_scene_count(s, stderr);
     if (a->list) return sweep_list(s, a);
     TRY(study_check_output_files(s, a->key, a->keys));

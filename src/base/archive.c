@@ -4,7 +4,7 @@
 #include "base/arrays.h"
 #include "base/memory.h"
 
-status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size)
+status archive_save_or_load_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size)
 {
     if (a->saving || !a->now) return a->exchange(a, name, array, (size_t)n * size);
     const int64_t bytes = a->stored_size(a, name);

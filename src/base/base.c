@@ -19,7 +19,7 @@ status status_set(status s, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    text_replace_controls(text);
+    text_replace_control_characters(text);
     snprintf(message, sizeof message, "%s", text);
     placed = false;
     return s;
@@ -48,20 +48,20 @@ static int harmful_bytes(const unsigned char *c, size_t left)
     return c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9 ? 3 : 0;
 }
 
-void bytes_replace_controls(char *text, size_t length)
+void bytes_replace_control_characters(char *text, size_t length)
 {
     unsigned char *c = (unsigned char *)text;
     for (size_t k = 0; k < length; k++)
         for (int n = harmful_bytes(c + k, length - k); n > 0; n--) c[k + (size_t)n - 1] = '?';
 }
 
-void text_replace_controls(char *text) { bytes_replace_controls(text, strlen(text)); }
+void text_replace_control_characters(char *text) { bytes_replace_control_characters(text, strlen(text)); }
 
 struct printable_name printable_name(const char *name)
 {
     struct printable_name s;
     snprintf(s.text, sizeof s.text, "%s", name);
-    text_replace_controls(s.text);
+    text_replace_control_characters(s.text);
     return s;
 }
 

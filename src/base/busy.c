@@ -6,7 +6,7 @@
 
 #define UNNOTICED 0.5 /* processes too many that are not reported: the load of the last minute has ended, in part */
 
-double machine_load(void)
+double machine_load_average(void)
 {
     double load;
     return getloadavg(&load, 1) == 1 ? load : 0;

@@ -18,9 +18,10 @@
 
 static void (*remove_half_written)(void);
 
-void invariant_set_cleanup(void (*cleanup)(void)) { remove_half_written = cleanup; }
+void invariant_set_cleanup_callback(void (*cleanup)(void)) { remove_half_written = cleanup; }
 
-_Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function)
+_Noreturn void invariant_report_violation_and_abort(const char *condition, const char *file, int line,
+                                                    const char *function)
 {
     static bool reported;
     if (__atomic_exchange_n(&reported, true, __ATOMIC_ACQ_REL))

@@ -48,7 +48,7 @@ _Static_assert(sizeof(struct block) <= ALIGNMENT, "there is room for it");
 static _Noreturn void out_of_memory(const char *label, int64_t count, size_t size)
 {
     fprintf(stderr, "out of memory: %s needs %lld entries of %zu bytes; this run has used %.1f MB so far\n", label,
-            (long long)count, size, (double)memory_peak() * 1e-6);
+            (long long)count, size, (double)memory_peak_resident_size() * 1e-6);
     _exit(FAILED);
 }
 
@@ -338,7 +338,7 @@ static int64_t peak_of_program(void)
     return kilobytes * 1024;
 }
 
-int64_t memory_peak(void)
+int64_t memory_peak_resident_size(void)
 {
     int64_t peak = peak_of_program();
     if (peak > 0) return peak;

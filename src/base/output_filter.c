@@ -19,7 +19,7 @@ static const char erase_line[] = "\033[K";
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
-    bytes_replace_controls(to, length);
+    bytes_replace_control_characters(to, length);
     for (size_t k = 0; k < length; k++)
         if (from[k] == '\n' || from[k] == '\t' || (from[k] == '\r' && first && k == 0))
             to[k] = from[k];
@@ -71,7 +71,7 @@ static FILE *stream_open(const int *fd) { return fwopen((const void *)fd, stream
 static FILE *stream_open(const int *fd) { return (void)fd, NULL; }
 #endif
 
-void standard_streams_replace_controls(void)
+void standard_streams_replace_control_characters(void)
 {
     FILE *output = stream_open(&output_fd), *error = stream_open(&error_fd);
     if (output) {

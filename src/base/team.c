@@ -283,15 +283,15 @@ struct core_shares *core_shares_make(int shares)
     return NULL;
 }
 
-void core_share_bind(const struct core_shares *s, int share)
+void core_share_bind(const struct core_shares *s, int share_number)
 {
-    if (!s || share >= s->n) return;
+    if (!s || share_number >= s->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
-    const int first = share < 0 ? 0 : share * s->cores / s->n;
-    const int end = share < 0 ? s->cores : (share + 1) * s->cores / s->n;
+    const int first = share_number < 0 ? 0 : share_number * s->cores / s->n;
+    const int end = share_number < 0 ? s->cores : (share_number + 1) * s->cores / s->n;
     for (int k = first; k < end; k++) hwloc_bitmap_or(mine, mine, core_at(&s->place, k)->cpuset);
     hwloc_bitmap_and(mine, mine, s->place.mask);
-    hwloc_set_cpubind(s->place.topology, share < 0 ? s->place.mask : mine, HWLOC_CPUBIND_THREAD);
+    hwloc_set_cpubind(s->place.topology, share_number < 0 ? s->place.mask : mine, HWLOC_CPUBIND_THREAD);
     hwloc_bitmap_free(mine);
 }
 

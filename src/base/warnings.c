@@ -16,7 +16,7 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    text_replace_controls(text);
+    text_replace_control_characters(text);
     for (int k = 0; k < w->n; k++)
         if (strcmp(w->text[k], text) == 0) return false;
     GROW("warnings", w->text, w->n + 1);

@@ -172,7 +172,7 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
     const int32_t *particle = pass->b->particle + g * LANES;
     return m->map->at && !pass->b->changed[g] && row_block_row_count(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           row_block_find_regular(m->map, m->source, m->p, particle[0], &room->regular);
+           row_block_find_lattice_bonds(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
 /* Replaces *reach by |distance| if that is larger. */
@@ -209,10 +209,10 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
         if (pass->count)
             b->column_count[g] = regular_bonds_count_columns(&room->regular), note_reach(pass, room, g, true);
         else
-            row_block_fill_regular(b, room, g, m);
+            row_block_fill_lattice_bonds(b, room, g, m);
         return regular_bonds_count(&room->regular);
     }
-    if (pass->found && pass->found[g]) row_neighbours_restore(pass->found[g], room->row, rows);
+    if (pass->found && pass->found[g]) rows_restore_found_neighbours(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
         if (!pass->found || !pass->found[g]) row_find_neighbours(&room->row[l], m, particle[l]);
         if (!pass->count) row_compute_weights(&room->row[l], m, particle[l]);
@@ -223,7 +223,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else
         row_block_fill(b, room, g, rows, by_offset, m->p);
-    if (pass->count && pass->found) pass->found[g] = row_neighbours_save(room->row, rows);
+    if (pass->count && pass->found) pass->found[g] = rows_save_found_neighbours(room->row, rows);
     return made;
 }
 
@@ -238,7 +238,7 @@ static void rows_pass_begin(struct rows_pass *pass)
     pass->list = BARE("bonds.list", b->row_blocks, int64_t);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        const int64_t from = pass->kept[g] = row_block_find_unchanged(b, m, g);
+        const int64_t from = pass->kept[g] = row_block_find_equal_previous(b, m, g);
         if (from >= 0) b->column_count[g] = m->old->column_count[from];
     }
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -273,7 +273,7 @@ static void rows_pass_end(const struct rows_pass *pass)
     int64_t made = 0;
 #pragma omp parallel for schedule(static) reduction(+ : made)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (pass->kept[g] >= 0) row_block_copy_unchanged(b, pass->maker.old, g, pass->kept[g]);
+        if (pass->kept[g] >= 0) row_block_copy_from_previous(b, pass->maker.old, g, pass->kept[g]);
         made += b->made[g];
     }
     b->n = made;
@@ -292,7 +292,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass_begin(&pass);
     rows_pass(&pass);
-    bonds_assign_columns(b, &pass.maker, pass.kept);
+    bonds_assign_columns_to_row_blocks(b, &pass.maker, pass.kept);
     pass.count = false;
     rows_pass(&pass);
     rows_pass_end(&pass);
@@ -340,7 +340,7 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
         b->site_map = map;
     else
         site_map_release(map);
-    bonds_forget_taken_columns(previous, b);
+    bonds_clear_pointers_to_moved_arrays(previous, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);

@@ -13,7 +13,7 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
         if (!b->changed[g]) continue;
-        const int64_t from = bond_writable_index(b, g, 0, 0), n = b->column_count[g] * LANES;
+        const int64_t from = bond_index_for_writing(b, g, 0, 0), n = b->column_count[g] * LANES;
         array_copy(saving ? w : b->w + from, saving ? b->w + from : w, n, sizeof *w);
         w += n;
         if (saving) continue;

@@ -44,7 +44,7 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
         if (c->entry) {
-            c->entry[c->n] = bond_writable_index(b, g, k, l);
+            c->entry[c->n] = bond_index_for_writing(b, g, k, l);
             c->from[c->n] = b->particle[g * LANES + l], c->to[c->n] = bond.nbr;
             c->inverse_length[c->n] = bond.inverse_length, c->w[c->n] = bond.w;
         }

@@ -141,8 +141,8 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the column arrays of the previous rows. Both use them until bonds_forget_taken_columns takes them from
- * `old`. kept[row blocks]: row block of `old` that is taken over, -1: none. */
+/* Makes b use the column arrays of the previous rows. Both use them until bonds_clear_pointers_to_moved_arrays takes
+ * them from `old`. kept[row blocks]: row block of `old` that is taken over, -1: none. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -157,15 +157,15 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
 
 /* Assigns columns to all row blocks (rows of eight particles each), in the arrays of the previous rows if possible,
  * else in new ones. Rows with plastic bonds always get new arrays, because their plastic state is archived in the order
- * of the row blocks (bonds_archive.c). kept[row blocks]: previous row block that is taken over, -1: none; NULL: no
- * previous rows. */
-void bonds_assign_columns(struct bonds *b, const struct row_maker *m, const int64_t *kept)
+ * of the row blocks (bonds_archive.c). previous_row_block[row blocks]: previous row block that is taken over, -1: none;
+ * NULL: no previous rows. */
+void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *m, const int64_t *previous_row_block)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
     lattice_shell_lengths_make(b, m->source->family.spacing);
     if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
-        columns_fit(b, m->old, kept);
-        columns_share(b, m->old, kept);
+        columns_fit(b, m->old, previous_row_block);
+        columns_share(b, m->old, previous_row_block);
         return;
     }
     for (int64_t g = 0; g < b->row_blocks; g++) b->column[g] = b->used, b->used += b->column_count[g];
@@ -173,7 +173,7 @@ void bonds_assign_columns(struct bonds *b, const struct row_maker *m, const int6
     columns_arrays(b, m->source, m->map->at != NULL);
 }
 
-void bonds_forget_taken_columns(struct bonds *previous, const struct bonds *b)
+void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b)
 {
     if (!previous || previous->w != b->w) return;
     previous->first = previous->nbr = NULL, previous->inverse_length = previous->w = NULL, previous->common = NULL;

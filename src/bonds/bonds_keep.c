@@ -4,14 +4,14 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *m, int64_t g)
+int64_t row_block_find_equal_previous(const struct bonds *b, const struct row_maker *m, int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
     const int rows = row_block_row_count(b, g);
     if (first < 0 || first % LANES != 0 || row_block_row_count(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
-        if (m->old->row_of[particle[l]] != first + l || !row_is_still_valid(m, particle[l])) return -1;
+        if (m->old->row_of[particle[l]] != first + l || !row_previous_is_still_valid(m, particle[l])) return -1;
     return first / LANES;
 }
 
@@ -46,22 +46,27 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
     }
 }
 
-void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int64_t g, int64_t from)
+void row_block_copy_from_previous(struct bonds *b, const struct bonds *previous, int64_t g, int64_t previous_row_block)
 {
-    b->stencil[g] = previous->stencil[from];
-    b->implicit[g] = previous->implicit[from], b->changed[g] = previous->changed[from];
-    if (!b->implicit[g] && b->w != previous->w) columns_keep(b, previous, g, from);
-    if (b->soft.curve) b->soft.begun[g] = previous->soft.begun[from], b->soft.due[g] = previous->soft.due[from];
-    b->made[g] = previous->made[from];
-    b->aligned[g] = previous->aligned[from];
+    b->stencil[g] = previous->stencil[previous_row_block];
+    b->implicit[g] = previous->implicit[previous_row_block], b->changed[g] = previous->changed[previous_row_block];
+    if (!b->implicit[g] && b->w != previous->w) columns_keep(b, previous, g, previous_row_block);
+    if (b->soft.curve)
+        b->soft.begun[g] = previous->soft.begun[previous_row_block],
+        b->soft.due[g] = previous->soft.due[previous_row_block];
+    b->made[g] = previous->made[previous_row_block];
+    b->aligned[g] = previous->aligned[previous_row_block];
     if (b->state.weighted)
-        memcpy(b->state.weighted + g * LANES, previous->state.weighted + from * LANES, LANES * sizeof(real));
-    memcpy(b->trigger + g * LANES, previous->trigger + from * LANES, LANES * sizeof *b->trigger);
-    memcpy(b->family_volume + g * LANES, previous->family_volume + from * LANES, LANES * sizeof *b->family_volume);
-    memcpy(b->broken_volume + g * LANES, previous->broken_volume + from * LANES, LANES * sizeof *b->broken_volume);
+        memcpy(b->state.weighted + g * LANES, previous->state.weighted + previous_row_block * LANES,
+               LANES * sizeof(real));
+    memcpy(b->trigger + g * LANES, previous->trigger + previous_row_block * LANES, LANES * sizeof *b->trigger);
+    memcpy(b->family_volume + g * LANES, previous->family_volume + previous_row_block * LANES,
+           LANES * sizeof *b->family_volume);
+    memcpy(b->broken_volume + g * LANES, previous->broken_volume + previous_row_block * LANES,
+           LANES * sizeof *b->broken_volume);
 }
 
-struct row_block_found *row_neighbours_save(const struct row *row, int rows)
+struct row_block_found *rows_save_found_neighbours(const struct row *row, int rows)
 {
     int64_t n = 0;
     for (int l = 0; l < rows; l++) n += row[l].n;
@@ -76,7 +81,7 @@ struct row_block_found *row_neighbours_save(const struct row *row, int rows)
     return found;
 }
 
-void row_neighbours_restore(const struct row_block_found *found, struct row *row, int rows)
+void rows_restore_found_neighbours(const struct row_block_found *found, struct row *row, int rows)
 {
     const int32_t *from = found->nbr;
     for (int l = 0; l < rows; l++) {

@@ -33,12 +33,12 @@ void row_buffer_make(struct row *row, int capacity);
 /* Releases the arrays of `row`. */
 void row_buffer_free(struct row *row);
 
-/* Lists the neighbours of particle or image i within the cutoff in `found`, in ascending order and without those behind
- * a void, whose bond would cross it. capacity: capacity of `found`; map: from lattice sites to particles, used where
- * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `capacity`, the
- * list is incomplete. */
+/* Lists the neighbours of particle or image i within the cutoff in `neighbour`, in ascending order and without those
+ * behind a void, whose bond would cross it. capacity: capacity of `neighbour`; map: from lattice sites to particles,
+ * used where possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds
+ * `capacity`, the list is incomplete. */
 int particle_find_neighbours(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                             int32_t i, int32_t *found, int capacity);
+                             int32_t i, int32_t *neighbour, int capacity);
 
 /* Inputs from which rows are made; a row holds all bonds of one particle. */
 struct row_maker {
@@ -62,17 +62,17 @@ void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, con
 void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i);
 
 /* Returns true if row number `row` (all bonds of one particle) has an intact bond that has not begun to soften. */
-bool row_has_closed(const struct bonds *b, int64_t row);
+bool row_has_unsoftened_bond(const struct bonds *b, int64_t row);
 
 /* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
  * (bonds_strength.c). */
 #define SURFACE_NEAR 0.8
 
-/* Copies the softening state of the bonds in row `from` of `previous` to row `row` of b, the row of the same particle.
- * new_index: index in p of each particle and image of `previous`, -1 if it is not in p; limit: critical stretches and
- * softening by pair of materials. */
+/* Copies the softening state of the bonds in row `previous_row` of `previous` to row `row` of b, the row of the same
+ * particle. new_index: index in p of each particle and image of `previous`, -1 if it is not in p; limit: critical
+ * stretches and softening by pair of materials. */
 void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                              const struct bonds *previous, int64_t from, const int32_t *new_index);
+                              const struct bonds *previous, int64_t previous_row, const int32_t *new_index);
 
 /* Saves the softening state of all bonds to the archive `a` if a->saving, else restores it from there, and with it two
  * marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
@@ -83,10 +83,10 @@ status softening_save_or_load(struct bonds *b, struct archive *a);
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
  * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
  * peridynamic. */
-static inline bool row_is_still_valid(const struct row_maker *m, int64_t i)
+static inline bool row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
 {
-    const int64_t before = m->old ? m->old->row_of[i] : -1;
-    return before >= 0 && ((m->old->whole[before] && m->p->kind[i] == KIND_PD) || !m->fresh[i]);
+    const int64_t before = maker->old ? maker->old->row_of[i] : -1;
+    return before >= 0 && ((maker->old->whole[before] && maker->p->kind[i] == KIND_PD) || !maker->fresh[i]);
 }
 
 /* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
@@ -99,11 +99,12 @@ void row_compute_weights(struct row *row, const struct row_maker *maker, int32_t
 
 /* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
  * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
-int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
+int64_t row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `from` of the bonds `previous` to row block `row_block` of b: stencil, flags, limits and volumes,
- * and the columns unless b has taken over the column arrays of `previous`. */
-void row_block_copy_unchanged(struct bonds *b, const struct bonds *previous, int64_t row_block, int64_t from);
+/* Copies row block `previous_row_block` of the bonds `previous` to row block `row_block` of b: stencil, flags, limits
+ * and volumes, and the columns unless b has taken over the column arrays of `previous`. */
+void row_block_copy_from_previous(struct bonds *b, const struct bonds *previous, int64_t row_block,
+                                  int64_t previous_row_block);
 
 /* Neighbours of the rows of a row block (bonds of eight particles), stored between the pass that counts columns and the
  * pass that fills them. */
@@ -114,20 +115,21 @@ struct row_block_found {
 
 /* Returns a newly allocated copy of the neighbours of the first `rows` rows in the array `row`. Release with
  * memory_free. */
-struct row_block_found *row_neighbours_save(const struct row *row, int rows);
+struct row_block_found *rows_save_found_neighbours(const struct row *row, int rows);
 
 /* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
-void row_neighbours_restore(const struct row_block_found *found, struct row *row, int rows);
+void rows_restore_found_neighbours(const struct row_block_found *found, struct row *row, int rows);
 
-/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept[row
- * blocks]: number of the previous row block in maker->old whose columns are used again in place, -1 for a row block
- * that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use columns of removed row blocks if these
- * are enough, else columns behind all others (bonds_columns.c). */
-void bonds_assign_columns(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
+/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays.
+ * previous_row_block[row blocks]: number of the previous row block in maker->old whose columns are used again in place,
+ * -1 for a row block that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use columns of removed
+ * row blocks if these are enough, else columns behind all others (bonds_columns.c). */
+void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *maker,
+                                        const int64_t *previous_row_block);
 
 /* Sets the pointers in `previous` to NULL for those arrays that b has taken over, so that releasing `previous` does not
  * release them. */
-void bonds_forget_taken_columns(struct bonds *previous, const struct bonds *b);
+void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
 bool particle_is_near_crack_or_void(const struct bond_source *source, const struct particles *p, int64_t i);
@@ -163,17 +165,18 @@ void regular_bonds_free(struct regular_bonds *to);
 
 /* Lists the neighbours of the eight particles i to i + 7 in `to`, by index distance, from the map `map` of lattice
  * sites. Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
-bool regular_bonds_find(const struct site_map *map, const struct particles *p, int64_t i, struct regular_bonds *to);
+bool regular_bonds_find_on_lattice(const struct site_map *map, const struct particles *p, int64_t i,
+                                   struct regular_bonds *to);
 
-/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find does, without regard to pre-cracks.
- * Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is near one of
- * them. */
-bool regular_bonds_find_uncut(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                              int64_t i, struct regular_bonds *to);
+/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find_on_lattice does, without regard to
+ * pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is near
+ * one of them. */
+bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
+                                        const struct particles *p, int64_t i, struct regular_bonds *to);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
  * quickly (bonds_stencil_cache.c). map: of the lattice sites. Release with stencil_cache_free. */
-struct stencil_cache *stencil_cache_make(const struct site_map *map);
+struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 
 /* Releases the cache t. */
 void stencil_cache_free(struct stencil_cache *t);
@@ -182,7 +185,8 @@ void stencil_cache_free(struct stencil_cache *t);
  * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of the row block found; -1 if
  * there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not found are added to the
  * cache. weights: inputs besides lattice sites on which weights depend; NULL if there are none. */
-int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
+int64_t stencil_cache_find_equal_row_block(const struct regular_bonds *bonds, const struct bond_source *weights,
+                                           int64_t i);
 
 /* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
  * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
@@ -191,8 +195,8 @@ void regular_bonds_compute_weights(const struct bond_source *source, const struc
 
 /* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
  * is not possible, e.g. because a crack is near. */
-bool row_block_find_regular(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                            int64_t i, struct regular_bonds *to);
+bool row_block_find_lattice_bonds(const struct site_map *map, const struct bond_source *source,
+                                  const struct particles *p, int64_t i, struct regular_bonds *to);
 
 /* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
 int regular_bonds_count_columns(const struct regular_bonds *bonds);
@@ -241,12 +245,13 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t ro
 
 /* Fills row block `row_block` of b from the bonds in buffer->regular, which were found without a search, because its
  * eight particles are consecutive on one lattice. maker: parameters of the bonds. */
-void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
-                            const struct row_maker *maker);
+void row_block_fill_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
+                                  const struct row_maker *maker);
 
 /* Stores the columns in `buffer` as columns of row block `row_block`, or, if their bonds equal those of a known
  * stencil, makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
-void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block, const struct particles *p);
+void row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
+                                        const struct particles *p);
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
@@ -263,13 +268,13 @@ int bonds_find_lattice_shell(const struct bonds *b, const real *inverse, int16_t
 struct stencils *stencils_share_or_make(struct stencils *existing);
 
 /* Removes one user of the table of stencils p; the last user releases it. */
-void stencils_free(struct stencils *p);
+void stencils_free(struct stencils *stencils);
 
 /* Allocates the stencil p for up to `columns` columns. Release with stencil_free. */
-void stencil_make(struct stencil *p, int columns);
+void stencil_make(struct stencil *stencil, int columns);
 
 /* Releases the arrays of the stencil p. */
-void stencil_free(struct stencil *p);
+void stencil_free(struct stencil *stencil);
 
 /* Appends the column `from` (eight bonds) of the row block with the consecutive particles i to i + 7 to the stencil
  * `to`. A lane of `from` with w = 0 and inverse_length = 0 has no bond. Returns false, and leaves an unusable stencil,
@@ -285,7 +290,7 @@ const struct stencil *stencil_find_or_add(struct stencils *all, const struct ste
 /* Makes row block `row_block` use the stencil of the row block that contains particle `cached`, so that it needs no
  * stored columns; breaking limits and family volumes are copied from there, too. If cached = -1, `row_block` uses the
  * stencil that it already has. Returns false, and changes nothing, if there is no stencil. */
-bool row_block_use_stencil(struct bonds *b, int64_t row_block, int64_t cached);
+bool row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */
 void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from);

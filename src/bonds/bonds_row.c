@@ -56,11 +56,11 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
 }
 
 int particle_find_neighbours(const struct site_map *map, const struct bond_source *s, const struct particles *p,
-                             int32_t i, int32_t *found, int capacity)
+                             int32_t i, int32_t *neighbour, int capacity)
 {
-    int n = map && map->at && i < p->n ? site_map_find_neighbours(map, p, i, found) : -1;
-    if (n < 0) n = family_search(s, p, i, found, capacity);
-    return n > capacity ? n : family_seen(s, p, i, found, n);
+    int n = map && map->at && i < p->n ? site_map_find_neighbours(map, p, i, neighbour) : -1;
+    if (n < 0) n = family_search(s, p, i, neighbour, capacity);
+    return n > capacity ? n : family_seen(s, p, i, neighbour, n);
 }
 
 int bonds_neighbour_count_bound(const struct bond_source *source)
@@ -69,7 +69,7 @@ int bonds_neighbour_count_bound(const struct bond_source *source)
     return cells_neighbour_count_bound(source->cells, source->family.cutoff);
 }
 
-bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
+bool precracks_cut_bond_between(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
     particle_reference_position(p, i, a);
@@ -182,7 +182,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         int32_t j = row->nbr[k];
         real xi[DIM_MAX], r2 = 0;
         for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        bool cut = near && cracks_separate_particles(s->crack, s->cracks, p, i, j);
+        bool cut = near && precracks_cut_bond_between(s->crack, s->cracks, p, i, j);
         const real r = sqrt(r2);
         if (cut) row->cut_volume += p->volume0[j];
         row->inverse_length[k] = (cut ? -1 : 1) / r;
@@ -251,7 +251,7 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
 
 void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 {
-    if (row_is_still_valid(m, i))
+    if (row_previous_is_still_valid(m, i))
         row_copy_neighbours(row, m->old, m->old->row_of[i]);
     else
         row_search(row, m->map, m->source, m->p, i, m->room);
@@ -261,7 +261,7 @@ void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
     if (m->source->limit.softening) row_set_softening(row, m, i);
-    if (row_is_still_valid(m, i)) {
+    if (row_previous_is_still_valid(m, i)) {
         row_copy(row, m->old, before);
         return;
     }

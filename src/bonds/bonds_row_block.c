@@ -132,7 +132,7 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
     }
     if (b->soft.curve) row_block_fill_softness(b, buffer, g, rows);
     row_block_note(b, buffer, g, rows);
-    row_block_store(b, buffer, g, p);
+    row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
 /* Makes room->stencil for row block g (rows of eight particles) from the columns in `room`. A stencil describes each
@@ -148,7 +148,8 @@ static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int
     return true;
 }
 
-void row_block_store(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct particles *p)
+void row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
+                                        const struct particles *p)
 {
     b->stencil[g] =
         stencil_of(b, buffer, g, p) ? stencil_find_or_add(b->stencils, &buffer->stencil, buffer->likely) : NULL;
@@ -166,11 +167,11 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
     return (uint8_t)bits;
 }
 
-bool row_block_find_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p,
-                            int64_t i, struct regular_bonds *to)
+bool row_block_find_lattice_bonds(const struct site_map *map, const struct bond_source *s, const struct particles *p,
+                                  int64_t i, struct regular_bonds *to)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
-    if (!regular_bonds_find(map, p, i, to)) return false;
+    if (!regular_bonds_find_on_lattice(map, p, i, to)) return false;
     for (int l = 0; l < LANES; l++)
         if (particle_is_near_crack_or_void(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
@@ -244,13 +245,14 @@ static bool whole_families(const struct regular_bonds *bonds)
 /* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which follow from the map of
  * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, its
  * stencil and its sums over bonds are used again. */
-void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, int64_t g, const struct row_maker *m)
+void row_block_fill_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
+                                  const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &buffer->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
-    const bool follows =
-        whole_families(bonds) && row_block_use_stencil(b, g, stencil_cache_find_row(bonds, m->source, i));
+    const bool follows = whole_families(bonds) && row_block_use_stencil_of_particle(
+                                                      b, g, stencil_cache_find_equal_row_block(bonds, m->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
     if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
@@ -262,7 +264,7 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *buffer, in
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
-    row_block_store(b, buffer, g, m->p);
+    row_block_store_columns_or_stencil(b, buffer, g, m->p);
 }
 
 /* Allocates working memory for row blocks (rows of eight particles each) whose rows have up to `capacity` bonds, for

@@ -164,7 +164,7 @@ void site_map_release(struct site_map *map)
     memory_free(map);
 }
 
-int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *found)
+int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *neighbour)
 {
     const int32_t *own = map->at + site_map_find_site(map, p, i);
     int n = 0;
@@ -173,7 +173,7 @@ int site_map_find_neighbours(const struct site_map *map, const struct particles 
             const int32_t j = own[map->row[k].site + a] - 1;
             if (j < 0 || j == i) continue;
             if (j >= p->n) return -1;
-            found[n++] = j;
+            neighbour[n++] = j;
         }
     return n;
 }
@@ -214,7 +214,8 @@ static bool is_full(const struct regular_bonds *b)
     return other == 0;
 }
 
-bool regular_bonds_find(const struct site_map *map, const struct particles *p, int64_t i, struct regular_bonds *to)
+bool regular_bonds_find_on_lattice(const struct site_map *map, const struct particles *p, int64_t i,
+                                   struct regular_bonds *to)
 {
     const int64_t site = site_map_find_site(map, p, i);
     int number = 0;
@@ -233,10 +234,10 @@ bool regular_bonds_find(const struct site_map *map, const struct particles *p, i
     return columns_should_use_offsets(to->n, longest);
 }
 
-bool regular_bonds_find_uncut(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                              int64_t i, struct regular_bonds *to)
+bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
+                                        const struct particles *p, int64_t i, struct regular_bonds *to)
 {
-    if (!map->at || i + LANES > p->n || !regular_bonds_find(map, p, i, to)) return false;
+    if (!map->at || i + LANES > p->n || !regular_bonds_find_on_lattice(map, p, i, to)) return false;
     for (int lane = 0; lane < LANES; lane++)
         if (particle_is_beside_void(source->voids, i + lane)) return false;
     return true;
@@ -249,7 +250,7 @@ void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
     to->from = NEW("site_map.from", l->most, uint8_t);
     to->to = NEW("site_map.to", l->most, uint8_t);
     to->bonds = NEW("site_map.bonds", l->most, uint8_t);
-    to->stencil_cache = stencil_cache_make(l);
+    to->stencil_cache = stencil_cache_make_for_thread(l);
 }
 
 void regular_bonds_free(struct regular_bonds *to)

@@ -14,7 +14,7 @@ static void rows_watch(struct bonds *b, const struct bonds *previous, const stru
 {
     real least = INFINITY, weakest = 1;
     for (int m = 0; m < source->materials; m++)
-        if (material_has_surface(&source->material[m]))
+        if (material_has_strength_surface(&source->material[m]))
             least = real_min(least, source->material[m].surface_least_strain);
     if (isinf(least)) return;
     for (int64_t i = 0; i < p->n && p->strength; i++) weakest = real_min(weakest, p->strength[i]);
@@ -55,8 +55,8 @@ void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, con
     b->soft.any_due = previous && previous->soft.any_due;
     b->soft.least_ratio = p->strength ? 1 : INFINITY;
     for (int k = 0; k < square(source->limit.materials); k++) {
-        const struct softening_range range = softening_range_of(source->limit.curve, source->limit.softening[k].onset,
-                                                                source->limit.critical_stretch[k]);
+        const struct softening_range range = softening_range_from_onset(
+            source->limit.curve, source->limit.softening[k].onset, source->limit.critical_stretch[k]);
         if (isfinite(range.onset)) b->soft.least_ratio = real_min(b->soft.least_ratio, range.end / range.onset);
     }
     rows_watch(b, previous, source, p);
@@ -66,13 +66,13 @@ void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, con
 void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g)
 {
-    const int64_t first = bond_writable_index(b, g, 0, 0);
+    const int64_t first = bond_index_for_writing(b, g, 0, 0);
     for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
         const int32_t i = b->particle[g * LANES + (q - first) % LANES];
         bond_softness_store(b, q,
                             b->inverse_length[q] == 0
                                 ? bond_softness_none
-                                : bond_softness_initial(bond_softening_range(p, limit, i, b->nbr[q])));
+                                : bond_softness_before_onset(bond_softening_range(p, limit, i, b->nbr[q])));
     }
     b->soft.begun[g] = b->changed[g] = 1;
     b->stencil[g] = NULL;
@@ -84,7 +84,8 @@ void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i
     const struct bonds *old = maker->old;
     const int64_t before = old ? old->row_of[i] : -1;
     for (int k = 0; k < row->n; k++)
-        row->soft[k] = bond_softness_initial(bond_softening_range(maker->p, &maker->source->limit, i, row->nbr[k]));
+        row->soft[k] =
+            bond_softness_before_onset(bond_softening_range(maker->p, &maker->source->limit, i, row->nbr[k]));
     if (before < 0 || !row_block_has_softening(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
     for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
@@ -105,16 +106,16 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
         bond_softness_store(b, bond.entry, bond_softness_load(&old->soft, q));
         if (!b->soft.whole || !(b->soft.whole[bond.entry] > 0) || old->w[q] == 0) continue;
         b->w[bond.entry] = old->w[q];
-        bond_changed_update_column(b, row, bond.entry);
+        bond_column_update_after_bond_change(b, row, bond.entry);
     }
 }
 
 void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                              const struct bonds *previous, int64_t from, const int32_t *new_index)
+                              const struct bonds *previous, int64_t previous_row, const int32_t *new_index)
 {
-    if (!row_block_has_softening(previous, from / LANES)) return;
+    if (!row_block_has_softening(previous, previous_row / LANES)) return;
     if (!b->soft.begun[row / LANES]) row_block_initialise_softening(b, p, limit, row / LANES);
-    for (struct bond_iterator it = bond_iterator_of_row(previous, from); bond_next(&it);)
+    for (struct bond_iterator it = bond_iterator_of_row(previous, previous_row); bond_next(&it);)
         if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous, it.bond.entry);
 }
 
@@ -182,9 +183,9 @@ static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
     return false;
 }
 
-bool row_has_closed(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
+bool row_has_unsoftened_bond(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
 
-bool bonds_row_has_begun(const struct bonds *b, int64_t row)
+bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row)
 {
     return row >= 0 && row_block_has_softening(b, row / LANES) && row_has_bond(b, row, true);
 }

@@ -26,7 +26,7 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     for (int64_t k = 0; b->state.local && k < b->column_count[g]; k++) {
         bond_column_read(&column, b, g, k);
         for (int l = 0; l < LANES; l++) {
-            const real w = bond_whole_weight(b, g, (b->column[g] + k) * LANES + l, column.w[l]);
+            const real w = bond_weight_before_softening(b, g, (b->column[g] + k) * LANES + l, column.w[l]);
             if (w != 0) Q[l] += w / square(column.inverse_length[l]);
         }
     }

@@ -19,7 +19,7 @@ struct stencil_cache {
     } cached[REMEMBERED];
 };
 
-struct stencil_cache *stencil_cache_make(const struct site_map *map)
+struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map)
 {
     struct stencil_cache *t = NEW("bonds.stencil_cache", 1, struct stencil_cache);
     t->map = map;
@@ -85,18 +85,19 @@ static bool same_weights(const struct bond_source *s, const struct regular_bonds
                   eight_bytes_as_word(w->mirrors + i) == eight_bytes_as_word(w->mirrors + j));
 }
 
-int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i)
+int64_t stencil_cache_find_equal_row_block(const struct regular_bonds *bonds, const struct bond_source *weights,
+                                           int64_t i)
 {
-    struct stencil_cache *t = b->stencil_cache;
+    struct stencil_cache *t = bonds->stencil_cache;
     if (!t->map->uniform) return -1;
     for (int k = 0; k < t->n; k++) {
         const int at = (t->last + k) % t->n;
         const struct cached *other = &t->cached[at];
-        if (!same_sites(&other->bonds, b)) continue;
-        if (weights && !same_weights(weights, b, i, other->i)) continue;
+        if (!same_sites(&other->bonds, bonds)) continue;
+        if (weights && !same_weights(weights, bonds, i, other->i)) continue;
         t->last = at;
         return other->i;
     }
-    remember(t, b, i);
+    remember(t, bonds, i);
     return -1;
 }

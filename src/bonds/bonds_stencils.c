@@ -19,24 +19,24 @@ struct stencils *stencils_share_or_make(struct stencils *existing)
     return p;
 }
 
-void stencils_free(struct stencils *p)
+void stencils_free(struct stencils *stencils)
 {
-    if (!p || --p->users > 0) return;
-    for (int k = 0; k < p->n; k++) memory_free(p->stencil[k].column), memory_free(p->stencil[k].w);
-    memory_free(p);
+    if (!stencils || --stencils->users > 0) return;
+    for (int k = 0; k < stencils->n; k++) memory_free(stencils->stencil[k].column), memory_free(stencils->stencil[k].w);
+    memory_free(stencils);
 }
 
-void stencil_make(struct stencil *p, int columns)
+void stencil_make(struct stencil *stencil, int columns)
 {
-    *p = (struct stencil){0};
-    p->column = BARE("bonds.stencil_column", columns, struct stencil_column);
-    p->w = (real(*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
+    *stencil = (struct stencil){0};
+    stencil->column = BARE("bonds.stencil_column", columns, struct stencil_column);
+    stencil->w = (real(*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
 }
 
-void stencil_free(struct stencil *p)
+void stencil_free(struct stencil *stencil)
 {
-    memory_free(p->column);
-    memory_free(p->w);
+    memory_free(stencil->column);
+    memory_free(stencil->w);
 }
 
 /* ---- stencil of one row block ------------------------------------------------------------------------------------ */
@@ -136,7 +136,7 @@ const struct stencil *stencil_find_or_add(struct stencils *all, const struct ste
     return known;
 }
 
-bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached)
+bool row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t cached)
 {
     const int64_t from = cached >= 0 ? b->row_of[cached] / LANES : g;
     if (!b->stencil[from]) return false;
@@ -211,7 +211,7 @@ static void expand(struct bonds *b, int64_t row_block)
     }
 }
 
-void row_block_expand_stencil(struct bonds *b, int64_t row_block)
+void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block)
 {
 #pragma omp critical(bonds_unfold)
     if (b->implicit[row_block]) {
@@ -220,7 +220,7 @@ void row_block_expand_stencil(struct bonds *b, int64_t row_block)
     }
 }
 
-void bond_changed_update_column(struct bonds *b, int64_t row, int64_t q)
+void bond_column_update_after_bond_change(struct bonds *b, int64_t row, int64_t q)
 {
     b->stencil[row / LANES] = NULL;
     b->changed[row / LANES] = 1;

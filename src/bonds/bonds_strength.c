@@ -100,7 +100,7 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
         for (int d = 0; d < dim; d++) xi[d] = p->X[d][j] - p->X[d][i], y[d] = p->x[d][j] - p->x[d][i];
         const real weight = p->volume0[j] * inverse;
         if (it.bond.w == 0) {
-            const bool cut = cracks_separate_particles(e->source->crack, e->source->cracks, p, i, j);
+            const bool cut = precracks_cut_bond_between(e->source->crack, e->source->cracks, p, i, j);
             if (!cut) moment_add(sum->L, weight, xi, xi, dim);
             continue;
         }
@@ -249,14 +249,14 @@ static real row_share(const struct evaluation *e, int64_t row)
     for (int d = 0; d < dim; d++) trace += strain[d];
     for (int s = 0; s < symmetric_component_count(dim); s++)
         stress[s] = s < dim ? (m->c11 - m->c12) * strain[s] + m->c12 * trace : 2 * m->shear * strain[s];
-    return material_stress_share(m, e->source->family.space, stress);
+    return material_stress_to_strength_ratio(m, e->source->family.space, stress);
 }
 
 /* Returns the material of the particle of a row if it has a strength surface, else NULL. */
 static const struct material *row_material(const struct evaluation *e, int64_t row)
 {
     const struct material *m = &e->source->material[e->p->material[e->b->particle[row]]];
-    return material_has_surface(m) ? m : NULL;
+    return material_has_strength_surface(m) ? m : NULL;
 }
 
 /* Returns the factor on the strength of the particle of a row, its relative strength in p->strength [1]: bonds begin to
@@ -275,7 +275,7 @@ static struct evaluation evaluation_make(const struct bonds *b, const struct par
 {
     struct evaluation e = {b, p, source, 0, NULL, {NULL, NULL}, NULL};
     for (int m = 0; m < source->materials; m++)
-        if (material_has_surface(&source->material[m]) && source->material[m].surface_means > e.means)
+        if (material_has_strength_surface(&source->material[m]) && source->material[m].surface_means > e.means)
             e.means = source->material[m].surface_means;
     e.distance = NEW("bonds.distance", b->rows, uint16_t);
     e.share = NEW("bonds.share", b->rows, real);
@@ -300,7 +300,7 @@ static bool row_block_find(struct evaluation *e, int64_t g)
     const struct bonds *b = e->b;
     bool wanted[LANES] = {false}, any = false;
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
-        wanted[row % LANES] = b->whole[row] && row_material(e, row) && row_has_closed(b, row);
+        wanted[row % LANES] = b->whole[row] && row_material(e, row) && row_has_unsoftened_bond(b, row);
     row_block_strain(e, g, wanted);
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
         if (!wanted[row % LANES] || !(row_share(e, row) >= row_strength(e, row))) continue;
@@ -352,7 +352,8 @@ static void evaluate_surfaces(struct evaluation *e)
     }
 }
 
-void bonds_surface_shares(const struct bonds *b, const struct particles *p, const struct bond_source *s, real *share)
+void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
+                                             const struct bond_source *s, real *stress_ratio)
 {
     struct evaluation e = evaluation_make(b, p, s);
     for (int64_t row = 0; row < b->rows; row++) e.distance[row] = b->whole[row] ? 1 : 0;
@@ -360,7 +361,8 @@ void bonds_surface_shares(const struct bonds *b, const struct particles *p, cons
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         const bool own = p->kind[i] == KIND_PD && b->row_of[i] >= 0;
-        share[i] = own ? e.share[b->row_of[i]] : particle_stress_share(p, s->material, s->family.space, i);
+        stress_ratio[i] =
+            own ? e.share[b->row_of[i]] : particle_stress_to_strength_ratio(p, s->material, s->family.space, i);
     }
     evaluation_free(&e);
 }
@@ -409,7 +411,7 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
             if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
             if (!b->soft.begun[g]) row_block_initialise_softening(b, p, &e->source->limit, g);
             bond_softness_store(b, bond.entry, bond_started(e, &bond, i, least));
-            softness_mark_point(b, p, i);
+            softening_mark_point_for_conversion(b, p, i);
         }
     }
 }
@@ -425,7 +427,7 @@ static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touch
     }
 }
 
-void bonds_start_by_surface(struct bonds *b, struct particles *p, const struct bond_source *s)
+void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     bool any = false;
     if (!b->soft.near) return;

@@ -48,7 +48,7 @@ static void whole_volumes(real *volume, int64_t n, real full)
         if (fabs(volume[i] - full) <= WHOLE * full) volume[i] = full;
 }
 
-void bonds_compute_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
+void bonds_compute_family_volumes(real *volume, const struct particles *p, const struct bond_source *s)
 {
     const int most = bonds_neighbour_count_bound(s);
     struct family plain = s->family; /* shell weights are left out: the surface correction counts volumes */
@@ -63,8 +63,8 @@ void bonds_compute_neighbour_volume(real *volume, const struct particles *p, con
         regular_bonds_make(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            if (regular_bonds_find_uncut(&map, s, p, first, &bonds)) {
-                const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
+            if (regular_bonds_find_ignoring_cracks(&map, s, p, first, &bonds)) {
+                const int64_t cached = stencil_cache_find_equal_row_block(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else
@@ -205,7 +205,7 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
 }
 
-real bonds_critical_time_step_of_rows(const struct bonds *b, const struct particles *p)
+real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
@@ -240,7 +240,7 @@ static uint8_t *first_of_classes(const struct surface_weights *w, const struct s
     return first;
 }
 
-real bonds_critical_time_step(const struct particles *p, const struct bond_source *s)
+real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, const struct bond_source *s)
 {
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
     struct pair_table pairs = pairs_of_bound(s);
@@ -264,9 +264,9 @@ real bonds_critical_time_step(const struct particles *p, const struct bond_sourc
             bool any = !needed;
             for (int64_t i = first; i < first + LANES && i < p->n && !any; i++) any = needed[i];
             if (!any) continue;
-            if (map.at && first + LANES <= p->n && row_block_find_regular(&map, s, &all, first, &regular)) {
+            if (map.at && first + LANES <= p->n && row_block_find_lattice_bonds(&map, s, &all, first, &regular)) {
                 /* an equal row block is already in `largest` */
-                if (stencil_cache_find_row(&regular, s, first) < 0)
+                if (stencil_cache_find_equal_row_block(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }

@@ -12,27 +12,28 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
         const struct bond bond = bond_read(b, row / LANES, k, lane);
         if (bond.inverse_length == 0 || bond.nbr != nbr) continue;
         if (bond.w == 0 && bond.inverse_length < 0) return;
-        const int64_t q = bond_writable_index(b, row / LANES, k, lane);
+        const int64_t q = bond_index_for_writing(b, row / LANES, k, lane);
         b->w[q] = 0;
         b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        bond_changed_update_column(b, row, q);
+        bond_column_update_after_bond_change(b, row, q);
         return;
     }
 }
 
-void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bond_limit *limit,
-                           const struct bonds *old, const struct particles *old_particles, const int32_t *new_index)
+void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, const struct bond_limit *limit,
+                                        const struct bonds *old_bonds, const struct particles *old_particles,
+                                        const int32_t *new_index)
 {
-    for (int64_t from = 0; from < old->rows; from++) {
-        const int32_t i = new_index[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];
+    for (int64_t from = 0; from < old_bonds->rows; from++) {
+        const int32_t i = new_index[old_bonds->particle[from]], row = i < 0 ? -1 : b->row_of[i];
         if (row < 0) continue;
-        b->broken_volume[row] = old->broken_volume[from];
-        b->fracture_energy[row] = old->fracture_energy[from];
-        b->plastic_work[row] = old->plastic_work[from];
-        b->broken[row] = old->broken[from];
-        if (!old->changed[from / LANES]) continue;
-        if (old->soft.curve) bonds_copy_row_softening(b, p, limit, row, old, from, new_index);
-        for (struct bond_iterator it = bond_iterator_of_row(old, from); bond_next(&it);)
+        b->broken_volume[row] = old_bonds->broken_volume[from];
+        b->fracture_energy[row] = old_bonds->fracture_energy[from];
+        b->plastic_work[row] = old_bonds->plastic_work[from];
+        b->broken[row] = old_bonds->broken[from];
+        if (!old_bonds->changed[from / LANES]) continue;
+        if (old_bonds->soft.curve) bonds_copy_row_softening(b, p, limit, row, old_bonds, from, new_index);
+        for (struct bond_iterator it = bond_iterator_of_row(old_bonds, from); bond_next(&it);)
             if (it.bond.w == 0 && it.bond.inverse_length < 0) bond_take(b, row, new_index[it.bond.nbr]);
     }
     for (int64_t j = 0; j < old_particles->n; j++)

@@ -69,7 +69,8 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-real family_separation_work_per_area(const struct family *f, const struct state_modulus *m, bool present_family)
+real family_separation_work_over_stretch_squared(const struct family *f, const struct state_modulus *m,
+                                                 bool present_family)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);

@@ -22,7 +22,7 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
             const int64_t entry = (int64_t) class * n + k, group = a->group_of[entry];
             const real r = b->offset.length[k] * f->spacing;
             to->factor[entry] = group >= 0 ? factor[group] : 1;
-            if (bond_class_neighbour(a, b, class, k) >= 0)
+            if (bond_class_neighbour_at_offset(a, b, class, k) >= 0)
                 to->weighted[class] += to->factor[entry] * b->offset.share[k] * square(r);
         }
 }
@@ -35,7 +35,7 @@ status surface_weights_make(struct surface_weights *weights, const struct partic
     struct bond_classes a;
     TRY(near_faces_make(&b, p, s, weights->apart));
     surface_fit_targets_make(&f, &b, with_rotations);
-    bond_classes_make(&a, &b);
+    bond_classes_make_near_faces(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
     const real left = surface_fit_factors(factor, &b, &f, &a, with_rotations, SURFACE_PRODUCTS);
     *weights = (struct surface_weights){.spacing = s->family.spacing,

@@ -54,10 +54,10 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = near_face_neighbour_of(b, t, k);
+        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
         uint64_t word = 0;
         if (j >= 0) {
-            const struct seen seen = mirrored_source_of(b, j);
+            const struct seen seen = near_faces_source_of_entry(b, j);
             const int32_t near = b->place[seen.particle];
             word = near < 0 ? 1 : 2 + ((uint64_t)s->of[near] << 3) + (uint64_t)seen.mirrors;
         }
@@ -71,7 +71,7 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
 static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
-    const struct seen seen = mirrored_source_of(b, j);
+    const struct seen seen = near_faces_source_of_entry(b, j);
     const int64_t t = b->place[seen.particle];
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
@@ -84,7 +84,8 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     const struct offsets *o = &b->offset;
     uint64_t hash = mixed(HASH_START, s->colour[((int64_t)s->of[t] << o->dim) + mirrors]);
     for (int k = 0; k < o->n; k++)
-        hash = mixed(hash, colour_seen(b, s, near_face_neighbour_of(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
+        hash = mixed(hash,
+                     colour_seen(b, s, near_faces_neighbour_at_offset(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
     return hash;
 }
 
@@ -222,9 +223,9 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
     for (int32_t kind = 0; kind < n; kind++)
         for (int k = 0; k < b->offset.n; k++) {
             const int64_t t = first[kind];
-            const int32_t j = near_face_neighbour_of(b, t, k);
+            const int32_t j = near_faces_neighbour_at_offset(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
-            const struct seen seen = mirrored_source_of(b, j);
+            const struct seen seen = near_faces_source_of_entry(b, j);
             const int64_t other = entry_of(a, b, b->place[seen.particle], near_faces_reverse_offset(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);
         }
@@ -243,32 +244,32 @@ static void twins_join(const struct bond_classes *a, const struct near_faces *b,
             }
 }
 
-void bond_classes_make(struct bond_classes *a, const struct near_faces *b)
+void bond_classes_make_near_faces(struct bond_classes *classes, const struct near_faces *b)
 {
     struct kinds kinds;
-    *a = (struct bond_classes){0};
+    *classes = (struct bond_classes){0};
     kinds_start(&kinds, b);
     for (int round = 0; round < RADIUS; round++) kinds_refine(&kinds, b, true);
-    classes_make(a, b, &kinds);
+    classes_make(classes, b, &kinds);
     kinds_refine(&kinds, b, false);
-    const int64_t entries = (int64_t)a->classes * b->offset.n;
-    a->group_of = NEW("surface.group_of", entries, int64_t);
-    for (int64_t k = 0; k < entries; k++) a->group_of[k] = -1;
-    bonds_join(a, b, kinds.first, kinds.n, a->group_of);
-    twins_join(a, b, a->group_of);
+    const int64_t entries = (int64_t)classes->classes * b->offset.n;
+    classes->group_of = NEW("surface.group_of", entries, int64_t);
+    for (int64_t k = 0; k < entries; k++) classes->group_of[k] = -1;
+    bonds_join(classes, b, kinds.first, kinds.n, classes->group_of);
+    twins_join(classes, b, classes->group_of);
     kinds_free(&kinds);
     for (int64_t k = 0; k < entries; k++) { /* a root precedes its members */
-        if (a->group_of[k] < 0) continue;
-        a->group_of[k] = a->group_of[k] == k ? a->groups++ : a->group_of[a->group_of[k]];
+        if (classes->group_of[k] < 0) continue;
+        classes->group_of[k] = classes->group_of[k] == k ? classes->groups++ : classes->group_of[classes->group_of[k]];
     }
 }
 
-void bond_classes_free(struct bond_classes *a)
+void bond_classes_free(struct bond_classes *classes)
 {
-    memory_free(a->class_of);
-    memory_free(a->mirrors);
-    memory_free(a->member);
-    memory_free(a->members);
-    memory_free(a->symmetry);
-    memory_free(a->group_of);
+    memory_free(classes->class_of);
+    memory_free(classes->mirrors);
+    memory_free(classes->member);
+    memory_free(classes->members);
+    memory_free(classes->symmetry);
+    memory_free(classes->group_of);
 }

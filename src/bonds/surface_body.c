@@ -92,9 +92,9 @@ struct seen near_faces_source_of_image(const struct near_faces *b, int64_t j)
     return to;
 }
 
-int near_faces_reverse_offset(const struct near_faces *b, const struct seen *to, int k)
+int near_faces_reverse_offset(const struct near_faces *b, const struct seen *other_particle, int k)
 {
-    return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
+    return b->offset.n - 1 - b->offset.mirrored[other_particle->mirrors * b->offset.n + k];
 }
 
 /* Parameters and working memory of the neighbour search of one thread, for eight consecutive particles at a time. */
@@ -127,7 +127,7 @@ static void search_free(struct search *search)
 static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
 {
     search->first = first;
-    search->eight = regular_bonds_find_uncut(search->map, b->source, b->p, first, &search->regular);
+    search->eight = regular_bonds_find_ignoring_cracks(search->map, b->source, b->p, first, &search->regular);
 }
 
 /* Finds the neighbours of particle i among the sites in search->regular, which a map of lattice sites gave for eight
@@ -144,7 +144,7 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
     for (int k = 0; k < regular->n; k++) {
         const int32_t j = (int32_t)i + regular->offset[k];
         if (lane < regular->from[k] || lane > regular->to[k]) continue;
-        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
+        if (near && precracks_cut_bond_between(s->crack, s->cracks, b->p, i, j)) continue;
         if (to) to[regular->number[k]] = j;
         kept++;
     }
@@ -165,7 +165,7 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     const int n = particle_find_neighbours(search->map, s, b->p, (int32_t)i, search->found, search->room);
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
-        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
+        if (near && precracks_cut_bond_between(s->crack, s->cracks, b->p, i, j)) continue;
         const int at = to || kept == 0 ? offset_between(&b->offset, b->p, s->family.spacing, i, j) : 0;
         if (at < 0) return -1;
         if (to) to[at] = j;
@@ -295,13 +295,14 @@ static void apart_find(const struct near_faces *b, const struct site_map *map, i
         for (int k = 0; k < n && apart[0] < 0; k++)
             if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
                 !(particle_is_near_crack(s, b->p, i) &&
-                  cracks_separate_particles(s->crack, s->cracks, b->p, i, found[k])))
+                  precracks_cut_bond_between(s->crack, s->cracks, b->p, i, found[k])))
                 apart[0] = i, apart[1] = found[k];
     }
     memory_free(found);
 }
 
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s, int64_t apart[2])
+status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s,
+                       int64_t unfitting[2])
 {
     struct site_map map = {0};
     *b = (struct near_faces){.p = p, .source = s};
@@ -309,7 +310,7 @@ status near_faces_make(struct near_faces *b, const struct particles *p, const st
     b->whole = NEW("surface.whole", p->n, uint8_t);
     site_map_make(&map, s, p);
     const bool lattice = whole_mark(b, &map) && near_list(b, &map);
-    if (!lattice) apart_find(b, &map, apart);
+    if (!lattice) apart_find(b, &map, unfitting);
     site_map_free(&map);
     if (lattice) return OK;
     near_faces_free(b);

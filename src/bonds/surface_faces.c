@@ -37,7 +37,7 @@ struct raw_faces {
  * 0) end of an axis, because it has no neighbour there. */
 static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
 {
-    return near_face_neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
+    return near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
 }
 
 /* Returns the face of particle or image j (its position and area vector, reflected by the mirrors of an image). The
@@ -46,7 +46,7 @@ static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
     struct exposed_face f = {{0}, {0}, 0};
-    const struct seen seen = mirrored_source_of(b, j);
+    const struct seen seen = near_faces_source_of_entry(b, j);
     const int64_t t = b->place[seen.particle];
     if (t < 0) return f;
     for (int d = 0; d < b->p->dim; d++) {
@@ -92,8 +92,8 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     struct mean_face mean = {{0}, 0};
     mean_add(&own, own.centre, 1, dim, area, sums);
     for (int k = 0; k < b->offset.n; k++) {
-        if (near_face_neighbour_of(b, t, k) < 0) continue;
-        const struct exposed_face other = face_seen(raw, near_face_neighbour_of(b, t, k));
+        if (near_faces_neighbour_at_offset(b, t, k) < 0) continue;
+        const struct exposed_face other = face_seen(raw, near_faces_neighbour_at_offset(b, t, k));
         if (other.size > 0 && dot(own.area, other.area, dim) > -1e-9)
             mean_add(&other, own.centre, nearness(&b->offset, k), dim, area, sums);
     }
@@ -179,9 +179,9 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
     real sum[DIM_MAX][DIM_MAX] = {{0}}, trace = 0;
     if (s->at[t] >= 0) array_copy(sum, s->smooth[s->at[t]].square, 1, sizeof sum);
     for (int k = 0; k < b->offset.n; k++) {
-        const int32_t j = near_face_neighbour_of(b, t, k);
+        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = mirrored_source_of(b, j);
+        const struct seen seen = near_faces_source_of_entry(b, j);
         const int64_t near = b->place[seen.particle], other = near < 0 ? -1 : s->at[near];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)
@@ -205,7 +205,7 @@ static void face_spread(struct surface_fit_targets *f, const struct near_faces *
     struct seen chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
     while (length < CHAIN) { /* through mirrors too */
-        const struct seen next = mirrored_neighbour(b, &chain[length - 1], b->offset.axis[axis][!up]);
+        const struct seen next = near_faces_mirrored_neighbour(b, &chain[length - 1], b->offset.axis[axis][!up]);
         if (next.particle < 0 || b->place[next.particle] < 0) break;
         chain[length++] = next;
     }
@@ -228,7 +228,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     for (int up = 0; up < 2; up++) {
         struct seen at = {b->particle[t], 0};
         while (n < most) {
-            at = mirrored_neighbour(b, &at, b->offset.axis[axis][up]);
+            at = near_faces_mirrored_neighbour(b, &at, b->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
             if (b->place[at.particle] < 0) return most; /* not near any face */

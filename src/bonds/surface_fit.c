@@ -260,7 +260,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
         }
     for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
     for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
-        if (bond_class_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
+        if (bond_class_neighbour_at_offset(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0)
+            continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
 }
@@ -335,18 +336,19 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
     if (!across && !particle_is_near_crack(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
-        const int32_t j = near_face_neighbour_of(b, t, k);
+        const int32_t j = near_faces_neighbour_at_offset(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = mirrored_source_of(b, j);
+        const struct seen seen = near_faces_source_of_entry(b, j);
         for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
             int place = 0;
-            bool within = mirrored_neighbour(b, &seen, l).particle >= 0;
+            bool within = near_faces_mirrored_neighbour(b, &seen, l).particle >= 0;
             for (int d = o->dim - 1; d >= 0; d--) {
                 const int at = o->at[k][d] + o->at[l][d];
                 within = within && abs(at) <= o->reach;
                 place = place * (2 * o->reach + 1) + o->reach + at;
             }
-            if (within && o->number[place] >= 0 && near_face_neighbour_of(b, t, o->number[place]) < 0) return true;
+            if (within && o->number[place] >= 0 && near_faces_neighbour_at_offset(b, t, o->number[place]) < 0)
+                return true;
         }
     }
     return false;
@@ -356,7 +358,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
 static int neighbours(const struct near_faces *b, int64_t t)
 {
     int n = 0;
-    for (int k = 0; k < b->offset.n; k++) n += near_face_neighbour_of(b, t, k) >= 0;
+    for (int k = 0; k < b->offset.n; k++) n += near_faces_neighbour_at_offset(b, t, k) >= 0;
     return n;
 }
 
@@ -377,7 +379,8 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     for (int k = 0; k < n; k++) {
         const int64_t g = a->group_of[(int64_t) class * n + k];
         if (g < 0) continue;
-        const int64_t other = b->place[mirrored_source_of(b, bond_class_neighbour(a, b, class, k)).particle];
+        const int64_t other =
+            b->place[near_faces_source_of_entry(b, bond_class_neighbour_at_offset(a, b, class, k)).particle];
         const real both = own + neighbours(b, other);
         q->low[g] = q->high[g] = one ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);
     }

@@ -46,7 +46,7 @@ struct seen near_faces_source_of_image(const struct near_faces *b, int64_t entry
 
 /* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
  * an image), and the mirrors in between as one bit per reversed axis. */
-static inline struct seen mirrored_source_of(const struct near_faces *b, int64_t entry)
+static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_of_image(b, entry);
 }
@@ -56,20 +56,21 @@ static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis &
 
 /* Returns the particle or image at offset number k from the t-th particle near faces, -1 if there is none or the bond
  * is cut. */
-static inline int32_t near_face_neighbour_of(const struct near_faces *b, int64_t t, int k)
+static inline int32_t near_faces_neighbour_at_offset(const struct near_faces *b, int64_t particle_number,
+                                                     int offset_number)
 {
-    return b->neighbour[t * b->offset.n + k];
+    return b->neighbour[particle_number * b->offset.n + offset_number];
 }
 
 /* Returns the neighbour at offset number `offset`, in space, of a particle near faces that is itself seen through
  * mirrors (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there
  * is no neighbour or the bond is cut. */
-static inline struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
+static inline struct seen near_faces_mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
 {
     const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
-    const int32_t j = near_face_neighbour_of(b, b->place[from->particle], own);
+    const int32_t j = near_faces_neighbour_at_offset(b, b->place[from->particle], own);
     if (j < 0) return (struct seen){-1, 0};
-    struct seen to = mirrored_source_of(b, j);
+    struct seen to = near_faces_source_of_entry(b, j);
     to.mirrors ^= from->mirrors;
     return to;
 }
@@ -81,15 +82,15 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
 }
 
 /* Returns the number of the offset (relative position of a neighbour) of a bond as seen from its other particle.
- * offset: offset number of the bond at its first particle; to: other particle of the bond, at which the reverse offset
- * is listed; if it is seen through mirrors, the reverse offset is reflected in them. */
-int near_faces_reverse_offset(const struct near_faces *b, const struct seen *to, int offset);
+ * offset: offset number of the bond at its first particle; other_particle: other particle of the bond, at which the
+ * reverse offset is listed; if it is seen through mirrors, the reverse offset is reflected in them. */
+int near_faces_reverse_offset(const struct near_faces *b, const struct seen *other_particle, int offset);
 
 /* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
- * message, if the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a
- * whole number of spacings away, apart[1] this neighbour. Release with near_faces_free. */
+ * message, if the particles are not on a lattice; unfitting[0] is then the first particle with a neighbour that is not
+ * a whole number of spacings away, unfitting[1] this neighbour. Release with near_faces_free. */
 status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *source,
-                       int64_t apart[2]);
+                       int64_t unfitting[2]);
 
 /* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
@@ -129,19 +130,20 @@ struct bond_classes {
 
 /* Sorts the particles `near` near faces into classes with equal surroundings up to mirrors, and their bonds into groups
  * with one factor each. Release with bond_classes_free. */
-void bond_classes_make(struct bond_classes *a, const struct near_faces *near);
+void bond_classes_make_near_faces(struct bond_classes *classes, const struct near_faces *near);
 
 /* Returns the particle or image at offset number k from the first member of a class of particles with equal
  * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
-static inline int32_t bond_class_neighbour(const struct bond_classes *a, const struct near_faces *b, int32_t class,
-                                           int k)
+static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *classes, const struct near_faces *near,
+                                                     int32_t class, int offset_number)
 {
-    const int64_t t = a->member[class];
-    return near_face_neighbour_of(b, t, b->offset.mirrored[a->mirrors[t] * b->offset.n + k]);
+    const int64_t t = classes->member[class];
+    return near_faces_neighbour_at_offset(near, t,
+                                          near->offset.mirrored[classes->mirrors[t] * near->offset.n + offset_number]);
 }
 
 /* Releases all arrays of a. */
-void bond_classes_free(struct bond_classes *a);
+void bond_classes_free(struct bond_classes *classes);
 
 /* Number of third and fourth moments of a bond in space, and in the plane (_2D), each padded to an even number. */
 enum { THIRDS = 10, FOURTHS = 16, THIRDS_2D = 4, FOURTHS_2D = 6, MOMENTS = THIRDS + FOURTHS };

@@ -139,7 +139,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_may_act_on_row(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
             if (faces)
-                contact_face_evaluate(c, p, row, dt, &own);
+                contact_face_compute_gap(c, p, row, dt, &own);
             else
                 contact_pair_add_force(c, p, row, &own);
         }
@@ -159,7 +159,7 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_may_act_on_row(c, row)) continue;
             contact_face_add_force(c, p, row);
-            if (c->spring) contact_face_advance_spring(c, p, row, dt);
+            if (c->spring) contact_face_advance_friction_spring(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
@@ -167,7 +167,7 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
     }
 }
 
-void contact_allocate_forces(struct contact *c, const struct particles *p)
+void contact_allocate_force_record(struct contact *c, const struct particles *p)
 {
     for (int d = 0; d < p->dim && contact_is_possible(c); d++)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
@@ -283,13 +283,13 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
         TRY(contact_array_save_or_load(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
-        if (!a->saving) contact_reactions_make(c);
+        if (!a->saving) contact_friction_reactions_make(c);
     }
     TRY(contact_rigid_save_or_load(c, a));
     TRY(contact_selection_save_or_load(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
-    contact_list_compute_arrays(c, p);
+    contact_list_compute_entry_data(c, p);
     if (c->touch) contact_selection_activate_all(c);
     return OK;
 }

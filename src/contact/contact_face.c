@@ -135,8 +135,8 @@ static struct face_gap face_gap(const struct contact *c, const struct face_field
     return at;
 }
 
-void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
-                           struct contact_found *found)
+void contact_face_compute_gap(struct contact *c, const struct particles *p, int64_t row, real dt,
+                              struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
     face->push = face->lift = 0;
@@ -174,8 +174,8 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                                          real lag)
+struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p, int64_t k,
+                                                        int64_t l, real lag)
 {
     struct contact_weight w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -212,7 +212,8 @@ void contact_face_add_force(const struct contact *c, struct particles *p, int64_
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
-void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term)
+void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
+                                      struct contact_term *term)
 {
     const struct face_field field = face_field_at(c, p, p->x, row);
     const struct face_gap at = face_gap(c, &field, c->face[row].zero);

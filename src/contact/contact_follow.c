@@ -27,7 +27,7 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
 {
     const int32_t i = c->particle[k];
     for (int d = 0; d < p->dim; d++)
-        if (!bits_equal(p->x[d][i], p->X[d][i])) return true;
+        if (!reals_are_bitwise_equal(p->x[d][i], p->X[d][i])) return true;
     return false;
 }
 
@@ -87,7 +87,7 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     for (int64_t row = 0; row < c->rows; row++)
         if (contact_may_act_on_row(c, row)) list[n++] = c->particle[row];
     loads_set_contact_particles(l, p, list, n);
-    active_rows_activate(b, p, l, list, n);
+    active_rows_activate_particles(b, p, l, list, n);
     memory_free(list);
 }
 
@@ -96,7 +96,8 @@ void contact_activate_newly_moving(struct contact *c, const struct particles *p,
     if (c->waiting > 0 && rows_follow(c, p)) rows_touch(c, p, b, l);
 }
 
-void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
+                                              struct loads *l)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);

@@ -17,8 +17,8 @@ static void lay_down(real *spring, const real *normal, int dim)
     for (int d = 0; d < dim; d++) spring[d] = (spring[d] - out * normal[d]) * sqrt(before / after);
 }
 
-void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real k,
-                            real slip_force)
+void contact_friction_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real k,
+                                     real slip_force)
 {
     real along[DIM_MAX], before[DIM_MAX], length2 = 0, stored = 0, work = 0;
     lay_down(s->length, normal, dim);
@@ -73,7 +73,7 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_face_weight(c, p, row, c->other[q], lag);
+        const struct contact_weight w = contact_face_density_contribution(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -130,7 +130,7 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_face_weight(c, p, row, c->other[q], lag);
+        const struct contact_weight w = contact_face_density_contribution(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
         real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
@@ -160,7 +160,7 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
 /* Advances the friction spring of row `row` of the contact list (particles that may come into contact) by a step dt
  * [s], and stores its reaction on the face. The slip is the mean of those at start and end of the step, because
  * leap-frog applies the forces of both times to it. */
-void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
+void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
     struct contact_reaction *reaction = &c->reaction[row];
@@ -175,7 +175,7 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
         slid[d] = 0.5 * (first[d] + now.slip[d]) * dt;
     }
     s->density = now.density;
-    contact_spring_advance(s, p->dim, normal, slid, k, c->law.friction * force);
+    contact_friction_spring_advance(s, p->dim, normal, slid, k, c->law.friction * force);
     vector_product(now.arm, s->drag, moment);
     for (int d = 0; d < DIM_MAX; d++) {
         reaction->arm[d] = now.arm[d];
@@ -188,7 +188,7 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
-    const struct contact_weight w = contact_face_weight(c, p, l, row, 0);
+    const struct contact_weight w = contact_face_density_contribution(c, p, l, row, 0);
     const real share = w.weight / c->spring[l].density;
     real r[DIM_MAX] = {0}, turning[DIM_MAX];
     for (int d = 0; d < p->dim; d++) r[d] = reaction->arm[d] - w.apart[d];
@@ -231,7 +231,7 @@ static real springs_sum(const struct contact *c, real (*term)(const void *contex
 real contact_friction_stored_energy(const struct contact *c) { return springs_sum(c, stored_in); }
 real contact_friction_work(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
 
-void contact_reactions_make(struct contact *c)
+void contact_friction_reactions_make(struct contact *c)
 {
     memory_free(c->reaction);
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
@@ -239,17 +239,18 @@ void contact_reactions_make(struct contact *c)
 
 /* Allocates the friction springs of a new contact list c. Springs of particles that were in the list `previous` are
  * copied from it. The elastic energy of springs that are not copied is lost. Does nothing without friction. */
-void contact_springs_copy(struct contact *c, const struct contact *previous)
+void contact_friction_springs_copy(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
-    contact_reactions_make(c);
+    contact_friction_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
-        contact_spring_copy(&c->spring[row], previous->spring,
-                            previous->made ? contact_list_find_particle(previous, c->particle[row]) : -1);
+        contact_friction_spring_copy(&c->spring[row], previous->spring,
+                                     previous->made ? contact_list_find_particle(previous, c->particle[row]) : -1);
 }
 
-void contact_spring_copy(struct contact_spring *to, const struct contact_spring *previous, int64_t previous_entry)
+void contact_friction_spring_copy(struct contact_spring *to, const struct contact_spring *previous,
+                                  int64_t previous_entry)
 {
     if (!previous || previous_entry < 0) return;
     *to = previous[previous_entry];

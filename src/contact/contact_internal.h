@@ -42,11 +42,11 @@ static inline void contact_found_add_overlap(struct contact_found *found, real o
 }
 
 /* Computes vector[dim], the vector between the present positions of two particles of the contact list, from that of
- * entry `other` to that of entry `entry` [m]. Returns its square [m^2]. */
-static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
-                                       real *vector)
+ * entry `other_entry` to that of entry `entry` [m]. Returns its square [m^2]. */
+static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry,
+                                       int64_t other_entry, real *vector)
 {
-    const int32_t i = c->particle[entry], j = c->particle[other];
+    const int32_t i = c->particle[entry], j = c->particle[other_entry];
     real r2 = 0;
     for (int d = 0; d < p->dim; d++) {
         vector[d] = p->x[d][i] - p->x[d][j];
@@ -55,12 +55,12 @@ static inline real contact_pair_vector(const struct contact *c, const struct par
     return r2;
 }
 
-/* Returns the contact stiffness k of the pair of entries `entry` and `other` of the contact list c->particle [N/m],
- * from their materials and volumes. */
+/* Returns the contact stiffness k of the pair of entries `entry` and `other_entry` of the contact list c->particle
+ * [N/m], from their materials and volumes. */
 static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t entry,
-                                          int64_t other)
+                                          int64_t other_entry)
 {
-    const int32_t i = c->particle[entry], j = c->particle[other];
+    const int32_t i = c->particle[entry], j = c->particle[other_entry];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
@@ -71,8 +71,8 @@ static inline bool contact_is_possible(const struct contact *c)
 }
 
 /* Returns true if contact forces may act on the particle of row `row` of the contact list in this step.
- * contact_activate_newly_moving and contact_activate_particles determine on which they may: particles at rest, or far
- * from all faces, are left out. */
+ * contact_activate_newly_moving and contact_activate_particles_after_restart determine on which they may: particles at
+ * rest, or far from all faces, are left out. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
@@ -83,25 +83,26 @@ static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 void contact_activate_newly_moving(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_active): one per particle of the contact list for the form `surface`, one per pair for the form
- * `pair`. Returns NULL if overlapping contacts act. */
+ * (contact_select_for_equilibrium): one per particle of the contact list for the form `surface`, one per pair for the
+ * form `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_active), one per particle listed near this body. Returns NULL if overlapping contacts act. */
+ * (contact_select_for_equilibrium), one per particle listed near this body. Returns NULL if overlapping contacts act.
+ */
 static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact number `number` acts. marks: an array with a byte for each contact that is not 0 if it acts;
- * NULL if those contacts act that overlap. overlaps: true if the contact overlaps. */
-static inline bool contact_is_active(const uint8_t *marks, int64_t number, bool overlaps)
+/* Returns true if contact number `contact_number` acts. marks: an array with a byte for each contact that is not 0 if
+ * it acts; NULL if those contacts act that overlap. overlaps: true if the contact overlaps. */
+static inline bool contact_is_active(const uint8_t *marks, int64_t contact_number, bool overlaps)
 {
-    return marks ? marks[number] != 0 : overlaps;
+    return marks ? marks[contact_number] != 0 : overlaps;
 }
 
 /* Returns the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
@@ -121,13 +122,14 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
 /* Describes the contact of the particle of row `row` of the contact list with the faces beside it as a linear spring:
  * stiffness, and derivatives of the gap by the positions of the particles, in *term. Its arrays must have a capacity of
  * one element more than the row has pairs. Only for laws of the form `surface`. */
-void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
+void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
+                                      struct contact_term *term);
 
 /* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
 void contact_selection_activate_all(struct contact *c);
 
-/* Saves the selection of contacts for equilibria (contact_select_active) to the archive if a->saving, else restores it.
- * Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the selection of contacts for equilibria (contact_select_for_equilibrium) to the archive if a->saving, else
+ * restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
 /* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
@@ -148,7 +150,7 @@ real contact_notch_width(const struct contact *c, const struct particles *p, int
 /* Computes three arrays for all entries of the contact list: c->root, the entry of the particle that a mirror image
  * mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise, the height of the surface of the
  * body above the particle, minus 1/2 [spacings]. */
-void contact_list_compute_arrays(struct contact *c, const struct particles *p);
+void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
  * contact law of form `pair`. found: receives largest overlap and number of contacts. */
@@ -161,8 +163,8 @@ real contact_pair_energy(const struct contact *c, const struct particles *p, int
 /* Returns the distance at which contact of the entries `entry` and `other` of the contact list begins [m]: the contact
  * distance, reduced if they are closer in the reference configuration or at present. previous_distance: contact
  * distance on the previous list of pairs [m], NAN if the pair was not on it. */
-real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
-                           real previous_distance);
+real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
+                                 real previous_distance);
 
 /* Computes the table of the height of a position above the particles of a face as a function of the density of the face
  * there, for a face that is a layer of a square or cubic lattice. dim: dimensions of space. */
@@ -172,11 +174,11 @@ void contact_density_profile_make(struct contact_profile *profile, int dim);
  * of its contact energy, into c->face[row]. It is the first of two passes over the rows; contact_face_add_force adds
  * the forces. Only for laws of the form `surface`. dt: time since the last call [s]; found: receives largest overlap
  * and number of contacts. */
-void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
-                           struct contact_found *found);
+void contact_face_compute_gap(struct contact *c, const struct particles *p, int64_t row, real dt,
+                              struct contact_found *found);
 
 /* Adds the contact force on particle number `row` of the contact list to p->f, by the contact law of form `surface`.
- * Second of two passes: contact_face_evaluate must have been called for all particles of the list. */
+ * Second of two passes: contact_face_compute_gap must have been called for all particles of the list. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic contact energy of particle number `row` of the contact list [J], by the contact law of form
@@ -209,22 +211,22 @@ struct contact_weight {
 
 /* Computes the contribution of entry `other` of the contact list to the density of the face at entry `entry`, at the
  * positions x - lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
-struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t entry,
-                                          int64_t other, real lag);
+struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
+                                                        int64_t entry, int64_t other, real lag);
 
 /* Advances the friction spring *s by a step. dim: dimensions; normal[dim]: outward unit normal of the face, 0 if
  * contact has ended; slip[dim]: displacement of the particle relative to the face in the step [m]; stiffness: stiffness
  * of the spring [N/m]; slip_force: force at which the spring slides [N], 0 after separation. */
-void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip, real stiffness,
-                            real slip_force);
+void contact_friction_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip,
+                                     real stiffness, real slip_force);
 
 /* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
  * of form `surface`. First of two passes over the particles; contact_face_add_friction adds the forces. */
-void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
+void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
 /* Adds friction forces on particle number `row` of the contact list to p->f: the force of its own spring, and the
  * reactions to springs of particles that slide on a face to which it belongs. Second of two passes, after
- * contact_face_advance_spring for all particles. */
+ * contact_face_advance_friction_spring for all particles. */
 void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
@@ -232,15 +234,16 @@ real contact_friction_stored_energy(const struct contact *c);
 
 /* Allocates the reactions to friction springs, one for each particle of the contact list. Their values are computed
  * with the next contact forces. */
-void contact_reactions_make(struct contact *c);
+void contact_friction_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
  * previous list `previous`. */
-void contact_springs_copy(struct contact *c, const struct contact *previous);
+void contact_friction_springs_copy(struct contact *c, const struct contact *previous);
 
 /* Copies friction spring number `previous_entry` of the previous list `previous` to *to. Leaves *to unchanged if
  * `previous` is NULL or `previous_entry` is -1, i.e. if the particle was not listed. */
-void contact_spring_copy(struct contact_spring *to, const struct contact_spring *previous, int64_t previous_entry);
+void contact_friction_spring_copy(struct contact_spring *to, const struct contact_spring *previous,
+                                  int64_t previous_entry);
 
 /* Sets the friction work of a new list of particles to that of the previous list `previous` plus the elastic energy of
  * springs that are not on the new list. */
@@ -259,9 +262,9 @@ void contact_rigid_free(struct contact *c);
 bool contact_rigid_has_moved(const struct contact *c, real distance);
 
 /* Adds the contact forces of all rigid bodies on particles to p->f, and stores the opposite forces and moments in the
- * rigid bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest
+ * rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found: receives largest
  * overlap and number of contacts. */
-void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *all);
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found);
 
 /* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
  * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */

@@ -56,8 +56,8 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
  * distance in the reference configuration and their mean spacing, minus the width of a notch between them. If a new
  * pair is closer than that, it is its present distance until the pair opens. previous_distance: that distance in the
  * list before the present search [m], NAN if the pair was not in it. Bitwise equal for (k, l) and (l, k). */
-real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                           real previous_distance)
+real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                                 real previous_distance)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real reference2 = 0, apart[DIM_MAX];

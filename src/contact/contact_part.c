@@ -37,7 +37,7 @@ static status contact_state(struct run *e, struct archive *a)
     struct contact *c = e->contact;
     c->marked = scene_has_load_steps(e->scene);
     TRY(contact_save_or_load(c, &e->part, a));
-    if (!a->saving && c->made && !c->touch) contact_activate_particles(c, &e->part, &e->bonds, &e->loads);
+    if (!a->saving && c->made && !c->touch) contact_activate_particles_after_restart(c, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -58,7 +58,7 @@ static void put_rigid(const struct rigid_set *rigid, const struct contact *c, co
         json_write_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_write_real(j, velocity[d], v[d]);
         json_write_real(j, "force_max", r->force_most);
-        json_write_real(j, "patch", contact_patch_diagonal(c, p, k));
+        json_write_real(j, "patch", contact_patch_bounding_box_diagonal(c, p, k));
         json_close(j, '}');
     }
     json_close(j, ']');

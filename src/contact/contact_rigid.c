@@ -42,7 +42,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][c->particle[row]];
-    return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
+    return rigid_may_be_within_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
 /* Returns the entry that particle `particle` had in the list of particles near rigid body `body` before the present
@@ -85,7 +85,8 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         if (!found[row]) continue;
         const int64_t was = near_before(before, body, c->particle[row]);
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
-        if (near->spring) contact_spring_copy(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
+        if (near->spring)
+            contact_friction_spring_copy(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
@@ -142,7 +143,7 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
     return marks ? overlap : real_max(0, overlap);
 }
 
-real contact_patch_diagonal(const struct contact *c, const struct particles *p, int rigid_body)
+real contact_patch_bounding_box_diagonal(const struct contact *c, const struct particles *p, int rigid_body)
 {
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX], width2 = 0;
     for (int d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
@@ -191,7 +192,7 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     rigid_velocity_at_point(&c->rigid[body], x, v);
     for (int d = 0; d < p->dim; d++) slid[d] = (p->v[d][i] - v[d]) * dt;
-    contact_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
+    contact_friction_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
 
 struct rigid_sum {
@@ -243,9 +244,9 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];
 }
 
-void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *all)
+void contact_rigid_compute_forces(struct contact *c, struct particles *p, real dt, struct contact_found *found)
 {
-    for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, all);
+    for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, found);
 }
 
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p)

@@ -84,7 +84,7 @@ static real contact_rise(const struct contact_law *law, const struct particles *
     return fabs(rise) < ROUND_OFF || rise > RISE_MOST ? 0 : real_max(rise, -RISE_MOST);
 }
 
-void contact_list_compute_arrays(struct contact *c, const struct particles *p)
+void contact_list_compute_entry_data(struct contact *c, const struct particles *p)
 {
     memory_free(c->root);
     memory_free(c->size);
@@ -127,7 +127,7 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
         c->at[d] = BARE("contact.at", c->n, real);
         for (int64_t k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
     }
-    contact_list_compute_arrays(c, p);
+    contact_list_compute_entry_data(c, p);
 }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
@@ -243,8 +243,8 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
             contact_face_set_onset_height(c, before, was, p, row);
         else
             for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
-                c->distance[q] = contact_pair_distance(c, p, row, c->other[q],
-                                                       distance_before(before, was, c->particle[c->other[q]]));
+                c->distance[q] = contact_pair_onset_distance(c, p, row, c->other[q],
+                                                             distance_before(before, was, c->particle[c->other[q]]));
     }
 }
 
@@ -276,7 +276,7 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
-    contact_springs_copy(c, &before);
+    contact_friction_springs_copy(c, &before);
     contact_rigid_list_particles(c, &before, p, contact_list_margin(c));
     contact_friction_transfer_work(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
@@ -344,5 +344,5 @@ void contact_update_pair_list(struct contact *c, const struct particles *p, stru
         return;
     }
     c->changed = conversions;
-    contact_activate_particles(c, p, b, l); /* also after conversions, which rebuild row blocks */
+    contact_activate_particles_after_restart(c, p, b, l); /* also after conversions, which rebuild row blocks */
 }

@@ -75,7 +75,7 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select_active(struct contact *c, const struct particles *p, real gap_limit)
+int64_t contact_select_for_equilibrium(struct contact *c, const struct particles *p, real gap_limit)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
@@ -88,22 +88,22 @@ int64_t contact_select_active(struct contact *c, const struct particles *p, real
     return changed;
 }
 
-int64_t contact_search_and_select_active(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                                         const struct family *family, real gap_limit)
+int64_t contact_search_and_select_for_equilibrium(struct contact *c, const struct particles *p, struct bonds *b,
+                                                  struct loads *l, const struct family *family, real gap_limit)
 {
     c->due = true;
     contact_update_pair_list(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
     contact_selection_activate_all(c);
     balances_rest(c);
-    return contact_select_active(c, p, gap_limit);
+    return contact_select_for_equilibrium(c, p, gap_limit);
 }
 
-real contact_list_largest_safe_motion(const struct contact *c) { return 0.5 * contact_list_margin(c); }
+real contact_pair_list_safe_displacement(const struct contact *c) { return 0.5 * contact_list_margin(c); }
 
-void contact_use_selection(struct contact *c, bool use) { c->by_overlap = !use; }
+void contact_use_equilibrium_selection(struct contact *c, bool use) { c->by_overlap = !use; }
 
-void contact_end_selection(struct contact *c)
+void contact_end_equilibrium_selection(struct contact *c)
 {
     memory_free(c->touch);
     c->touch = NULL;
@@ -170,7 +170,7 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
     for (int64_t row = 0; row < c->rows; row++) {
         if (c->law.form == CONTACT_PAIR) pair_terms(&v, row);
         if (c->law.form == CONTACT_PAIR || !c->touch[row]) continue;
-        contact_face_spring(c, p, row, &v.term);
+        contact_face_linearise_as_spring(c, p, row, &v.term);
         visit(context, &v.term);
     }
     for (int b = 0; b < c->rigids; b++) rigid_terms(&v, b);
@@ -180,8 +180,8 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of the contacts that act in the equilibrium (contact_select_active) to the archive if a->saving, else
- * restores them. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the marks of the contacts that act in the equilibrium (contact_select_for_equilibrium) to the archive if
+ * a->saving, else restores them. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;

@@ -61,7 +61,7 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     for (int k = 0; k < rigids; k++)
-        if (rigid_may_reach(&rigid[k], x, reach) && rigid_distance(&rigid[k], x, normal) < reach) return true;
+        if (rigid_may_be_within_reach(&rigid[k], x, reach) && rigid_distance(&rigid[k], x, normal) < reach) return true;
     return false;
 }
 

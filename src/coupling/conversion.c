@@ -27,12 +27,13 @@ static bool loses_bond(const struct bond_source *s, const struct particles *p, i
                        const struct neighbour_list *near)
 {
     for (int k = 0; k < near->n; k++)
-        if (p->body[near->at[k]] == p->body[i] && cracks_separate_particles(s->crack, s->cracks, p, i, near->at[k]))
+        if (p->body[near->at[k]] == p->body[i] && precracks_cut_bond_between(s->crack, s->cracks, p, i, near->at[k]))
             return true;
     return false;
 }
 
-void convert_particles_at_precracks(struct particles *p, const struct bond_source *source, const struct region *region)
+void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_source *source,
+                                         const struct region *region)
 {
 #pragma omp parallel
     {
@@ -166,7 +167,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t)
 {
-    if (!particles_are_flagged_for_conversion(p)) return 0;
+    if (!particles_any_is_flagged_for_conversion(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     list_stiffened(&touched, source, p, b);
     convert_marked(c, rule, p, source, b->site_map, &changed, t);

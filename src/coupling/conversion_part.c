@@ -11,7 +11,7 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
                                  struct particles *p, const struct material *material)
 {
     if (!p->end_strain) return;
-    bonded_points_strain_from_stress(partial, p, material);
+    bonded_points_compute_strain_from_stress(partial, p, material);
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
@@ -21,7 +21,7 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||
-           r->levels.returned || mesh_exceeds_conversion_stress(&r->mesh);
+           r->levels.returned || mesh_may_exceed_conversion_stress(&r->mesh);
 }
 
 /* Updates positions and velocities of those of the n particles list[k] that are points of the mesh. context: the run
@@ -29,7 +29,7 @@ static bool may_convert(const struct scene *s, const struct particles *p, const 
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
+    reference_frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
 /* Requests a contact search for the n particles list[k], which have become peridynamic. context: the run (struct run).
@@ -44,7 +44,7 @@ bool conversion_flag_points(struct run *e)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) {
-        frame_update_point_motion(e->frame, &e->part, &e->loads);
+        reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
         flag_points_near_bodies(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
                                 APPROACH_REACH * e->scene->spacing);
     }
@@ -55,13 +55,14 @@ void conversion_update_mesh(struct run *e, int64_t converted)
 {
     struct partial_stress *partial = &e->coupling->partial;
     const bool due = converted > 0 || partial->touches > 0;
-    const bool anew = due && frame_update_after_conversion(e->frame, &e->part, converted, partial, &e->damped);
-    if (anew) frame_find_exposed_points(e->frame, &e->part, &e->bonds, &e->loads);
+    const bool anew =
+        due && reference_frame_update_after_conversion(e->frame, &e->part, converted, partial, &e->damped);
+    if (anew) reference_frame_find_exposed_points(e->frame, &e->part, &e->bonds, &e->loads);
     if (converted > 0 || (due && !anew)) bonded_points_update_strain(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
-int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade)
+int64_t conversion_convert_and_update_run(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade)
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
@@ -69,7 +70,7 @@ int64_t conversion_apply(struct run *e, int64_t broken_bonds, bool faces_examine
         !may_convert(e->scene, &e->part, e->frame))
         return 0;
     e->bonds.soft.at_points = false;
-    frame_levels_postpone_conversion(&e->frame->levels, &e->part);
+    mesh_levels_postpone_conversion(&e->frame->levels, &e->part);
     const int64_t converted =
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);

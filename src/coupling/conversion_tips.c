@@ -16,7 +16,7 @@ static void region_add(struct region *r, const struct solid *s)
  * of X, and no plane of symmetry continues the crack there. Outside the body an end is the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
-    return !mirrors_continue_crack_end(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
+    return !crack_end_is_continued_by_mirrors(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_find_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 

@@ -65,4 +65,4 @@ static status coupling_state_of(struct run *e, struct archive *a)
 }
 
 const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,
-                                   .warn = warn_of_joined_bodies, .state = coupling_state_of};
+                                   .warn = warn_of_bodies_that_pass_or_stick, .state = coupling_state_of};

@@ -122,9 +122,9 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
                          : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
 }
 
-void warn_of_joined_bodies(const struct run *e, struct warnings *to)
+void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *to)
 {
     warn_of_contact(e->scene, e->frame, e->coupling->approaches, to);
     warn_of_touch(e, to);
-    warn_of_voids(e, to);
+    warn_of_voids_treated_as_closed(e, to);
 }

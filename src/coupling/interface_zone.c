@@ -85,7 +85,7 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
         const int32_t j = near->at[q];
         if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT))
             continue;
-        if (cracks_separate_particles(s->crack, s->cracks, p, i, j)) continue;
+        if (precracks_cut_bond_between(s->crack, s->cracks, p, i, j)) continue;
         if (to) to[n] = slot[j];
         n++;
     }

@@ -40,7 +40,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
             away[d] = 0.5 * (from[d] + to[d]) - middle[d];
             length2 += square(away[d]);
         }
-        if (mirrors_continue_crack_end(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
+        if (crack_end_is_continued_by_mirrors(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
         if (cells_find_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
     }
@@ -176,7 +176,7 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (p->body[j] != p->body[i]) continue;
-        const bool cut = cracks_separate_particles(n->slit, n->slits + n->images, p, i, j);
+        const bool cut = precracks_cut_bond_between(n->slit, n->slits + n->images, p, i, j);
         all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
         faces |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
     }
@@ -238,7 +238,8 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
     if (n->slits > 0 || n->voids) faces_find(n, p, source);
 }
 
-void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source)
+void notches_convert_particles_at_slit_ends(const struct notches *n, struct particles *p,
+                                            const struct bond_source *source)
 {
     for (int k = 0; k < n->slits; k++) {
         const struct crack_edges zone = crack_edges_of(&n->slit[k], p, source, n->radius);

@@ -44,7 +44,7 @@ static status notches_check(const struct scene *s, const struct notches *n)
     return OK;
 }
 
-status precracks_apply(struct run *e)
+status precracks_apply_as_slits_or_cut_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct grid *g = &e->grid->field[0].grid;
@@ -57,9 +57,10 @@ status precracks_apply(struct run *e)
     cut.crack = n->cut, cut.cracks = n->cuts;
     initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                            tips);
-    notches_convert(n, &e->part, &e->source);
-    convert_particles_beside_voids(&e->part, e->source.voids, mesh_ignores_voids(g, s));
-    convert_particles_at_precracks(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    notches_convert_particles_at_slit_ends(n, &e->part, &e->source);
+    convert_to_peridynamic_beside_voids(&e->part, e->source.voids, mesh_cannot_double_nodes_at_voids(g, s));
+    convert_to_peridynamic_at_precracks(&e->part, &cut,
+                                        e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
@@ -79,7 +80,7 @@ bool flag_points_at_closing_slits(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
-    frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
+    reference_frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
     notches_flag_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;
 }

@@ -14,7 +14,8 @@ void particle_find_family(struct neighbour_list *near, const struct bond_source 
 
 /* Returns the share of the length of the segment from a to b (dim components [m]) that is inside a square or cube [1].
  * X: middle of the cube; half_edge: half of its edge [m]. */
-real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim);
+real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *X, real half_edge,
+                              int dim);
 
 /* Reflection that maps the particle `root` of the body, at X, to one of its mirror images, at X', by one or several
  * mirrors: X'_d = sign_d X_d + offset_d. */
@@ -41,11 +42,11 @@ struct response bond_strain_response(const struct particles *p, const struct bon
 
 /* Adds the contribution of a bond to the tensor T = `tensor` of a cell [J], by which bonds reduce the stiffness of the
  * cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l: length of the bond inside the cell; e: unit vector
- * along the bond; F: its force. point, other: positions of its material point and of its other particle, dim components
- * each [m]; centre, half_edge: centre and half edge of the cell [m]; response: r dF/deps, with the length r of the
- * bond. */
-void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
-                             struct response response, int dim);
+ * along the bond; F: its force. point, other_position: positions of its material point and of its other particle, dim
+ * components each [m]; centre, half_edge: centre and half edge of the cell [m]; response: r dF/deps, with the length r
+ * of the bond. */
+void partial_tensor_add_bond(real *tensor, const real *point_position, const real *other_position, const real *centre,
+                             real half_edge, struct response response, int dim);
 
 /* Reduces the tensor `tensor` of material point i [J], by which state-based bonds reduce the stiffness of its cell, as
  * far as needed for a positive elastic energy of the point (partial_positive.c). mean_strain_derivative: receives the
@@ -62,7 +63,7 @@ void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, co
                                      int64_t i);
 
 /* Returns half the edge of the square or cubic cell of particle i, from its volume [m]. */
-real particle_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
+real particle_cell_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Table for particles on a lattice (partial_table.c): the share of every bond vector inside every cell that it crosses.
  * From it the tensor T follows quickly, by which bonds reduce the stiffness of the cell of a material point. Empty if
@@ -70,9 +71,9 @@ real particle_half_edge(const struct particles *p, const struct bond_source *sou
 struct partial_table;
 
 /* Creates the table of the shares of bonds inside cells for the particles p. It is empty if they are not on lattices or
- * have too many bond vectors. size: number of values of the tensor T, by which bonds reduce the stiffness of a cell.
- * Release with partial_table_free. */
-struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *source, int size);
+ * have too many bond vectors. tensor_size: number of values of the tensor T, by which bonds reduce the stiffness of a
+ * cell. Release with partial_table_free. */
+struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *source, int tensor_size);
 
 /* Releases the table t. */
 void partial_table_free(struct partial_table *t);
@@ -88,8 +89,8 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
 
 /* Recomputes the stored strain responses (struct response) of the bonds of the n material points `list`, or of all
  * material points if `list` is NULL. Responses of other points are kept. */
-void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                          const struct bond_source *source, const int32_t *list, int64_t n);
+void partial_table_update_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
+                                    const struct bond_source *source, const int32_t *list, int64_t n);
 
 /* Computes the tensor `tensor` of material point i [J], by which bonds reduce the stiffness of its cell, from the table
  * and the stored strain responses of the bonds of the material points around it. near: working memory. */

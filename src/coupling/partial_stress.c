@@ -25,13 +25,14 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the fraction of the segment from a[dim] to b[dim] that is inside a cube [1]. X[dim]: centre of the cube;
- * half_edge: half of its edge; all positions and lengths in [m]. */
-real segment_fraction_in_cube(const real *a, const real *b, const real *X, real half_edge, int dim)
+/* Returns the fraction of the segment from segment_start[dim] to segment_end[dim] that is inside a cube [1]. X[dim]:
+ * centre of the cube; half_edge: half of its edge; all positions and lengths in [m]. */
+real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *X, real half_edge,
+                              int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
-        real from = a[d] - X[d], along = b[d] - a[d];
+        real from = segment_start[d] - X[d], along = segment_end[d] - segment_start[d];
         if (fabs(along) < 1e-14 * half_edge) {
             if (fabs(from) >= half_edge) return 0;
             continue;
@@ -63,12 +64,13 @@ struct reflection mirror_image_reflection(const struct bond_source *s, const str
 /* Returns 1 for equal indices a and b, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
-void partial_tensor_add_bond(real *tensor, const real *point, const real *other, const real *centre, real half_edge,
-                             struct response k, int dim)
+void partial_tensor_add_bond(real *tensor, const real *point_position, const real *other_position, const real *centre,
+                             real half_edge, struct response k, int dim)
 {
-    real share = segment_fraction_in_cube(point, other, centre, half_edge, dim), e[DIM_MAX], length = 0;
+    real share = segment_fraction_in_cube(point_position, other_position, centre, half_edge, dim), e[DIM_MAX],
+         length = 0;
     if (share == 0) return;
-    for (int d = 0; d < dim; d++) e[d] = other[d] - point[d], length += square(e[d]);
+    for (int d = 0; d < dim; d++) e[d] = other_position[d] - point_position[d], length += square(e[d]);
     length = sqrt(length);
     for (int d = 0; d < dim; d++) e[d] /= length;
     const int n = symmetric_component_count(dim);
@@ -162,7 +164,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     }
 }
 
-real particle_half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+real particle_cell_half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
@@ -173,7 +175,7 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
-    const real half = particle_half_edge(p, s, i);
+    const real half = particle_cell_half_edge(p, s, i);
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
     particles_find_near(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
@@ -427,7 +429,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
     if (partial_table_is_filled(partial->table))
-        partial_table_update(partial->table, p, b, source, all ? NULL : r.list, r.n);
+        partial_table_update_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = BARE("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     entries_make(M, crossed, partial, &r, p, b, source);
@@ -447,8 +449,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     renewal_free(&r);
 }
 
-void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
-                                      const struct material *material)
+void bonded_points_compute_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                              const struct material *material)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];

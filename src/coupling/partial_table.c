@@ -231,14 +231,14 @@ static bool all_known(const struct particles *p, const struct bond_source *s)
     return known;
 }
 
-struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size)
+struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int tensor_size)
 {
     const struct family *f = &s->family;
     struct partial_table *t = NEW("partial.table", 1, struct partial_table);
     *t = (struct partial_table){.dim = p->dim,
                                 .reach = (int)floor(f->cutoff / f->spacing * (1 + LATTICE_NEAR)),
                                 .parts = s->modulus ? 2 : 1,
-                                .size = size,
+                                .size = tensor_size,
                                 .spacing = f->spacing,
                                 .per_spacing = 1 / f->spacing};
     if (!on_lattice(p, f->spacing)) return t;
@@ -351,8 +351,8 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
     return last->rows >> row % LANES & 1;
 }
 
-void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                          const struct bond_source *s, const int32_t *list, int64_t n)
+void partial_table_update_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
+                                    const struct bond_source *s, const int32_t *list, int64_t n)
 {
     struct responses *a = &t->responses;
     struct row_block_intact last = {.row_block = -1};

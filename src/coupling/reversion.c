@@ -74,7 +74,7 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
             p->low_since[i] = INFINITY;
         else if (!(p->low_since[i] < INFINITY))
             p->low_since[i] = t;
-        cut[i] = p->damage[i] > 0 || bonds_row_has_begun(b, b->row_of[i]);
+        cut[i] = p->damage[i] > 0 || bonds_row_has_begun_softening(b, b->row_of[i]);
         held[i] = cut[i] || !(t - p->low_since[i] >= rule->hold_time) ||
                   (rule->kept && region_contains(rule->kept, X, p->dim, ON_SURFACE * rule->source->family.spacing));
         rested += !held[i];
@@ -253,7 +253,7 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
-    *to = (struct crossing){.half = particle_half_edge(p, source, i)};
+    *to = (struct crossing){.half = particle_cell_half_edge(p, source, i)};
     particle_reference_position(p, i, to->X);
     particles_find_near(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++) {
@@ -320,8 +320,9 @@ static void point_from_family(struct particles *p, const struct bonds *b, const 
     for (int d = 0; d < dim && p->stretch[d]; d++) p->stretch[d][i] = known ? G[d * dim + d] : 1;
 }
 
-void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
-                     struct partial_stress *partial, const int32_t *list, int64_t n)
+void reversion_revert_listed_particles(struct conversion *c, struct particles *p, struct bonds *b,
+                                       const struct bond_source *source, struct partial_stress *partial,
+                                       const int32_t *list, int64_t n)
 {
 #pragma omp parallel
     {

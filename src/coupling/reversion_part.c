@@ -47,17 +47,17 @@ static real energy_now(struct run *e)
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
-    reversion_apply(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
-                    e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
-    frame_insert_points(e->frame, &e->part, list, n, &e->damped);
+    reversion_revert_listed_particles(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
+                                      e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
+    reference_frame_insert_points(e->frame, &e->part, list, n, &e->damped);
     conversion_update_mesh(e, n);
-    frame_update_point_motion(e->frame, &e->part, &e->loads);
+    reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
     interface_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
 
-void reversion_apply_due(struct run *e)
+void reversion_revert_relaxed_particles(struct run *e)
 {
     const struct scene *s = e->scene;
     int32_t *list;

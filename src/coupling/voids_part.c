@@ -9,12 +9,12 @@
 
 #define ALONG 0.999 /* least cosine between an axis and a direction that counts as along the axis */
 
-bool mesh_ignores_voids(const struct grid *g, const struct scene *s)
+bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s)
 {
     return s->dim == 1 || grid_has_mirror_off_nodes(g, s);
 }
 
-void convert_particles_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
+void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
 {
     for (int64_t i = 0; i < p->n && v; i++)
         if (v->near[i] & VOID_ACROSS && (include_meshed || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
@@ -86,10 +86,10 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void warn_of_voids(const struct run *e, struct warnings *to)
+void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    const bool uncut = mesh_ignores_voids(&e->grid->field[0].grid, s);
+    const bool uncut = mesh_cannot_double_nodes_at_voids(&e->grid->field[0].grid, s);
     const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
     if (grid.n > 0)
         warnings_add(

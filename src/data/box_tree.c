@@ -102,7 +102,7 @@ void box_search_start(struct box_search *search, const struct box_tree *tree, co
     if (tree->n > 0) box_wait(search, 0);
 }
 
-int box_search_next(struct box_search *search, real reach)
+int box_search_find_next_box_within(struct box_search *search, real reach)
 {
     while (search->waiting > 0) {
         const struct box_waiting next = search->wait[--search->waiting];

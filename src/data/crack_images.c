@@ -11,8 +11,8 @@ static real inner_height(const struct mirror_plane *m, const real *X)
     return (real)-m->outside * (X[m->axis] - m->at);
 }
 
-bool mirrors_continue_crack_end(const struct mirror_plane *mirror, int mirrors, const struct crack *c, const real *end,
-                                real tolerance)
+bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror, int mirrors, const struct crack *c,
+                                       const real *end, real tolerance)
 {
     for (int k = 0; k < mirrors; k++)
         for (int a = 0; a < c->n && inner_height(&mirror[k], end) <= tolerance; a++)

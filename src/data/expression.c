@@ -100,7 +100,7 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
     real stack[EXPRESSION_STACK + 1];
     int top = -1;
     for (const struct expression_step *step = e->step, *end = step + e->n; step < end; step++) {
-        if (expression_op_is_leaf(step->op)) {
+        if (expression_op_has_no_operands(step->op)) {
             stack[++top] = leaf(step, X, dim, t);
         } else if (expression_op_is_binary(step->op)) {
             top--;
@@ -122,7 +122,7 @@ void expression_make(struct expression *e, const struct expression_step *step, i
     for (int k = 0; k < n; k++) {
         e->in_time |= step[k].op == EXPRESSION_T;
         e->in_space |=
-            expression_op_is_leaf(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
+            expression_op_has_no_operands(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
     }
 }
 

@@ -104,7 +104,7 @@ bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t 
     return true;
 }
 
-void grid_add_wall(struct grid *g, const struct wall *wall)
+void grid_add_prescribed_velocity(struct grid *g, const struct wall *wall)
 {
     GROW("grid.wall", g->wall, g->walls + 1);
     g->wall[g->walls++] = *wall;

@@ -146,7 +146,7 @@ real hull_winding_number(const struct hull *s, const real *X)
     return sum;
 }
 
-real hull_ambiguous_fraction(const struct hull *s)
+real hull_ambiguous_inside_fraction(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
@@ -264,7 +264,7 @@ static bool hull_outside(const struct hull *s, const real *X)
 
 /* Returns true if the signed distance of X[dim] from the surface, negative inside, is at most max_distance [m].
  * Faces that are farther than |max_distance| are not searched, since then only the side of X matters. */
-bool hull_is_within(const struct hull *s, const real *X, real max_distance)
+bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance)
 {
     real size = 0, point[DIM_MAX];
     if (s->faces == 0) return max_distance == INFINITY;

@@ -123,7 +123,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays
     particles_update_kind_lists(p);
 }
 
-void particles_add_images(struct particles *p, int64_t images, int optional_arrays)
+void particles_add_mirror_images(struct particles *p, int64_t images, int optional_arrays)
 {
     INVARIANT(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
     int64_t old = p->n_all + LANES, count = old + images;
@@ -243,7 +243,7 @@ static bool in_order(const struct place *place, int64_t n)
     return sorted;
 }
 
-void particles_sort(struct particles *p, real spacing, int optional_arrays)
+void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optional_arrays)
 {
     INVARIANT(p->n_all == p->n && spacing > 0);
     struct place *place = NEW("particles.place", p->n, struct place);
@@ -294,7 +294,7 @@ void particles_update_kind_lists(struct particles *p)
 /* Returns true if a particle is marked for conversion from material point to peridynamic particle: it lost a bond,
  * has a high stress, or is near another body. Eight particles are tested at a time; entries behind the last particle
  * are images, which never have these flags. */
-bool particles_are_flagged_for_conversion(const struct particles *p)
+bool particles_any_is_flagged_for_conversion(const struct particles *p)
 {
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
@@ -329,7 +329,7 @@ status particles_save_or_load(struct particles *p, int optional_arrays, struct a
     return OK;
 }
 
-real particles_largest_speed(const struct particles *p, const int32_t *list, int64_t n)
+real particles_largest_speed_of_list(const struct particles *p, const int32_t *list, int64_t n)
 {
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
@@ -343,6 +343,6 @@ real particles_largest_speed(const struct particles *p, const int32_t *list, int
 
 real particles_largest_speed_of_all(const struct particles *p)
 {
-    return real_max(particles_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                    particles_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
+    return real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                    particles_largest_speed_of_list(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
 }

@@ -288,24 +288,24 @@ static bool far_apart(const struct crack *c, const real *a, const real *b, int d
     return false;
 }
 
-bool crack_cuts_bond(const struct crack *c, const real *a, const real *b, int dim)
+bool crack_cuts_bond(const struct crack *c, const real *position, const real *other_position, int dim)
 {
     struct crack_plane plane;
     int d = 0;
-    if (far_apart(c, a, b, dim)) return false;
-    while (d < dim && a[d] == b[d]) d++;
+    if (far_apart(c, position, other_position, dim)) return false;
+    while (d < dim && position[d] == other_position[d]) d++;
     if (d == dim) return false;
-    if (a[d] > b[d]) { /* one order of the ends, so that both directions give equal bits */
-        const real *other = a;
-        a = b, b = other;
+    if (position[d] > other_position[d]) { /* one order of the ends, so that both directions give equal bits */
+        const real *other = position;
+        position = other_position, other_position = other;
     }
-    if (!crack_plane(c, a, b, dim, &plane)) return false;
-    real above_a = region_height(c, &plane, a, dim), above_b = region_height(c, &plane, b, dim),
+    if (!crack_plane(c, position, other_position, dim, &plane)) return false;
+    real above_a = region_height(c, &plane, position, dim), above_b = region_height(c, &plane, other_position, dim),
          snap = touch * plane.length;
     if ((above_a >= -snap) == (above_b >= -snap)) return false;
     if (dim == 1) return true;
     real share = real_min(1, real_max(0, above_a / (above_a - above_b))), P[DIM_MAX]; /* clamped to the bond */
-    for (d = 0; d < dim; d++) P[d] = a[d] + share * (b[d] - a[d]);
+    for (d = 0; d < dim; d++) P[d] = position[d] + share * (other_position[d] - position[d]);
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
@@ -339,11 +339,14 @@ struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const rea
     return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
 }
 
-real segment_distance(const real *from, const real *to, const real *point, int dim)
+real segment_distance(const real *segment_start, const real *segment_end, const real *point, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
-    for (int d = 0; d < dim; d++) along += (point[d] - from[d]) * (to[d] - from[d]), length2 += square(to[d] - from[d]);
+    for (int d = 0; d < dim; d++)
+        along += (point[d] - segment_start[d]) * (segment_end[d] - segment_start[d]),
+            length2 += square(segment_end[d] - segment_start[d]);
     along = length2 > 0 ? real_max(0, real_min(1, along / length2)) : 0;
-    for (int d = 0; d < dim; d++) r2 += square(point[d] - from[d] - along * (to[d] - from[d]));
+    for (int d = 0; d < dim; d++)
+        r2 += square(point[d] - segment_start[d] - along * (segment_end[d] - segment_start[d]));
     return sqrt(r2);
 }

@@ -57,10 +57,10 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
 {
     struct box_search near;
     bool within = false;
-    if (run->count == 1) return solid_is_within(s, X, dim, most);
+    if (run->count == 1) return solid_level_set_is_at_most(s, X, dim, most);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, solid_distance_bound_from_level(most))) >= 0;)
-        within = solid_is_within(&s[k], X, dim, most);
+    for (int k; !within && (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(most))) >= 0;)
+        within = solid_level_set_is_at_most(&s[k], X, dim, most);
     return within;
 }
 
@@ -72,7 +72,7 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     real nearest = INFINITY;
     if (run->count == 1) return solid_level_set_value(s, X, dim);
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;)
+    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;)
         nearest = real_min(nearest, solid_level_set_value(&s[k], X, dim));
     return nearest;
 }
@@ -88,7 +88,7 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
     if (run->count == 1) return solid_distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &run->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         const real distance = solid_distance(&s[k], X, dim, own);
         if (!(distance < nearest || (distance == nearest && k < first))) continue;
         nearest = distance, first = k;

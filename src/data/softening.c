@@ -34,7 +34,7 @@ static void exponential_points(real *x, real *y)
 /* Returns the softening curve of a law: force of a bond over the force at the onset, as a function of (s - s_0)/(s_f
  * - s_0) from 0 to 1, with the stretch s, its onset s_0 and its end s_f. The bilinear curve of concrete has its kink
  * at 2/9 of this range and 1/3 of the force (Petersson 1981). */
-struct softening_curve softening_curve_of(enum softening law)
+struct softening_curve softening_curve_of_law(enum softening law)
 {
     struct softening_curve c;
     real x[SOFTENING_PIECES + 1], y[SOFTENING_PIECES + 1];
@@ -58,12 +58,14 @@ static real area_to(const struct softening_curve *c, real x)
     return area;
 }
 
-real softening_dissipated_energy(const struct softening_curve *c, real onset, real end, real largest_stretch)
+real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
+                                            real largest_stretch)
 {
-    const real x = real_min(1, (largest_stretch - onset) / (end - onset));
+    const real x = real_min(1, (largest_stretch - onset) / (breaking_stretch - onset));
     if (!(x > 0)) return 0;
     const real force = onset * softening_curve_value(c, x);
-    return 0.5 * square(onset) + onset * (end - onset) * area_to(c, x) - 0.5 * force * real_min(largest_stretch, end);
+    return 0.5 * square(onset) + onset * (breaking_stretch - onset) * area_to(c, x) -
+           0.5 * force * real_min(largest_stretch, breaking_stretch);
 }
 
 /* ---- uniform strain ---------------------------------------------------------------------------------------------- */
@@ -221,22 +223,22 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
 
 static const struct softening_model bond_based = {0, 0, false};
 
-struct softening_strength softening_model_strength(const struct softening_curve *c, enum space space,
-                                                   real squared_ratio, const struct softening_model *model)
+struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
+                                                               real squared_ratio, const struct softening_model *model)
 {
     const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area), model};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 
-struct softening_strength softening_curve_strength(const struct softening_curve *c, enum space space,
-                                                   real squared_ratio)
+struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
+                                                               real squared_ratio)
 {
-    return softening_model_strength(c, space, squared_ratio, &bond_based);
+    return softening_model_normalised_strengths(c, space, squared_ratio, &bond_based);
 }
 
-real softening_model_onset(const struct material *m, enum space space, const struct softening_model *model)
+real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model)
 {
-    const struct softening_curve c = softening_curve_of(m->softening);
+    const struct softening_curve c = softening_curve_of_law(m->softening);
     const real strain = m->tensile_strength / material_uniaxial_tension_modulus(m, space);
     real onset = strain;
     for (int k = 0; k < 20; k++) {
@@ -250,9 +252,9 @@ real softening_model_onset(const struct material *m, enum space space, const str
     return onset;
 }
 
-real softening_onset_from_strength(const struct material *m, enum space space)
+real softening_onset_stretch_from_strength(const struct material *m, enum space space)
 {
-    return softening_model_onset(m, space, &bond_based);
+    return softening_model_onset_stretch(m, space, &bond_based);
 }
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
@@ -266,13 +268,13 @@ real strength_rate_interpolate(const struct strength_rate *r, const real *value,
     return value[k - 1] + part * (value[k] - value[k - 1]);
 }
 
-real strength_rate_compute_onsets(struct material *m, enum space space, const struct softening_model *model)
+real strength_rate_compute_onset_factors(struct material *m, enum space space, const struct softening_model *model)
 {
     real least = INFINITY;
     for (int k = 0; k < m->rate.points; k++) {
         struct material stronger = *m;
         stronger.tensile_strength *= m->rate.factor[k];
-        const real onset = softening_model_onset(&stronger, space, model);
+        const real onset = softening_model_onset_stretch(&stronger, space, model);
         m->rate.onset[k] = onset / m->onset_stretch;
         least = real_min(least, square(m->critical_stretch / onset));
     }

@@ -384,7 +384,8 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
 static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
-    return s->radius == 0 ? hull_is_within(s->hull, X, most) : hull_distance(s->hull, X, NULL) - s->radius <= most;
+    return s->radius == 0 ? hull_point_is_within_distance(s->hull, X, most)
+                          : hull_distance(s->hull, X, NULL) - s->radius <= most;
 }
 
 static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)

@@ -186,7 +186,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     if (s->images == 0) return solid_types[s->kind].distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         const struct placement *i = &s->image[k];
         place_back(i, X, dim, at);
         const real distance = solid_types[s->kind].distance(s, at, dim, own);
@@ -214,7 +214,7 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     struct box_search near;
     if (s->images == 0) return image_level(s, X, dim);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; (k = box_search_next(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
+    for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         nearest = real_min(nearest, image_level(s, at, dim));
     }
@@ -229,14 +229,15 @@ static bool image_within(const struct solid *s, const real *X, int dim, real mos
     return type->within ? type->within(s, X, dim, most) : image_level(s, X, dim) <= most;
 }
 
-bool solid_is_within(const struct solid *s, const real *X, int dim, real max_distance)
+bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, real max_distance)
 {
     real at[DIM_MAX];
     bool within = false;
     struct box_search near;
     if (s->images == 0) return image_within(s, X, dim, max_distance);
     box_search_start(&near, &s->tree, X, dim);
-    for (int k; !within && (k = box_search_next(&near, solid_distance_bound_from_level(max_distance))) >= 0;) {
+    for (int k;
+         !within && (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(max_distance))) >= 0;) {
         place_back(&s->image[k], X, dim, at);
         within = image_within(s, at, dim, max_distance);
     }

@@ -6,14 +6,15 @@
 #include "data/solid.h"
 
 /* Functions of one kind of solid, which treat a solid without its copies. The members distance, level, support and
- * within do for it what solid_distance, solid_level_set_value, solid_support_function and solid_is_within do for a
- * solid with copies. */
+ * within do for it what solid_distance, solid_level_set_value, solid_support_function and solid_level_set_is_at_most do
+ * for a solid with copies. */
 struct solid_type {
     real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */
     real (*support)(const struct solid *s, const real *along,
                     int dim); /* as solid_support_function, for `along` of any length */
-    bool (*within)(const struct solid *s, const real *X, int dim, real most); /* as solid_is_within; NULL: by level */
+    bool (*within)(const struct solid *s, const real *X, int dim,
+                   real most); /* as solid_level_set_is_at_most; NULL: by level */
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
 

@@ -10,30 +10,30 @@ static struct strength_surface surface_through(real tension, real g1)
     return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
 }
 
-struct strength_surface surface_of_compression(real tension, real compression)
+struct strength_surface strength_surface_from_compression(real tension, real compression)
 {
     return surface_through(tension, (compression - tension) / (sqrt(3) * (compression + tension)));
 }
 
-struct strength_surface surface_of_hydrostatic(real tension, real hydrostatic)
+struct strength_surface strength_surface_from_hydrostatic(real tension, real hydrostatic)
 {
     return surface_through(tension, tension / (sqrt(3) * (3 * hydrostatic - tension)));
 }
 
-struct strength_surface surface_of_biaxial(real tension, real biaxial)
+struct strength_surface strength_surface_from_biaxial(real tension, real biaxial)
 {
     return surface_through(tension, (tension - biaxial) / (sqrt(3) * (2 * biaxial - tension)));
 }
 
-void material_set_surface(struct material *m, enum space space, struct strength_surface surface)
+void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface)
 {
     m->surface = surface;
-    m->surface_least_strain = material_least_strain(m, space);
+    m->surface_least_strain = material_smallest_strain_at_strength(m, space);
 }
 
-real surface_strength(const struct strength_surface *s, const real *direction)
+real strength_surface_strength_along(const struct strength_surface *s, const real *direction)
 {
-    const real share = surface_share(s, direction[0], direction[1], direction[2], 0);
+    const real share = strength_surface_stress_ratio(s, direction[0], direction[1], direction[2], 0);
     return share > 0 ? 1 / share : INFINITY;
 }
 
@@ -53,14 +53,14 @@ static real largest_strain(const struct material *m, enum space space, real *str
     const int dim = space_dim(space);
     real most = -INFINITY;
     complete_state(m, space, stress);
-    const real strength = surface_strength(&m->surface, stress), sum = stress[0] + stress[1] + stress[2];
+    const real strength = strength_surface_strength_along(&m->surface, stress), sum = stress[0] + stress[1] + stress[2];
     for (int k = 0; k < dim; k++) most = real_max(most, ((1 + m->poisson) * stress[k] - m->poisson * sum) / m->young);
     return isinf(strength) ? INFINITY : strength * most;
 }
 
 enum { ANGLES = 360 }; /* of a half circle; the least strain is found to 1e-4 */
 
-real material_least_strain(const struct material *m, enum space space)
+real material_smallest_strain_at_strength(const struct material *m, enum space space)
 {
     real least = INFINITY;
     for (int k = 0; k < 2 * ANGLES; k++) {
@@ -81,12 +81,13 @@ struct surface_strengths material_surface_strengths(const struct material *m, en
     real tension[] = {1, 0, 0}, biaxial[] = {1, 1, 0};
     const real shear[] = {1, -1, 0}, hydrostatic[] = {1, 1, 1};
     if (space != SPACE_SOLID) complete_state(m, space, tension), complete_state(m, space, biaxial);
-    return (struct surface_strengths){surface_strength(&m->surface, tension), surface_strength(&m->surface, biaxial),
-                                      surface_strength(&m->surface, shear), surface_strength(&m->surface, hydrostatic)};
+    return (struct surface_strengths){
+        strength_surface_strength_along(&m->surface, tension), strength_surface_strength_along(&m->surface, biaxial),
+        strength_surface_strength_along(&m->surface, shear), strength_surface_strength_along(&m->surface, hydrostatic)};
 }
 
-real material_stress_share(const struct material *m, enum space space, const real *stress)
+real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress)
 {
-    return surface_share_of_components(&m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0,
-                                       space_dim(space));
+    return strength_surface_stress_ratio_of_tensor(&m->surface, stress, space == SPACE_PLANE_STRAIN ? m->poisson : 0,
+                                                   space_dim(space));
 }

@@ -58,14 +58,14 @@ static bool region_is_box(const struct region *r)
     real from[DIM_MAX], to[DIM_MAX];
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
-        if (!solid_is_unmoved_of_kind(s, SOLID_BOX) || s->subtract || s->intersect) return false;
+        if (!solid_is_of_kind_and_not_moved(s, SOLID_BOX) || s->subtract || s->intersect) return false;
         if (k == 0) array_copy(from, s->from, DIM_MAX, sizeof *from), array_copy(to, s->to, DIM_MAX, sizeof *to);
         if (k > 0 && !box_joins(from, to, s)) return false;
     }
     return true;
 }
 
-bool region_has_voids(const struct region *r)
+bool region_may_have_voids(const struct region *r)
 {
     const bool convex = region_is_box(r) || (r->n == 1 && solid_convex(&r->solid[0]));
     return !convex && !region_has_voxel_image(r);
@@ -132,17 +132,19 @@ static void line_normal(const struct voids *v, int body, const struct void_line 
     }
 }
 
-bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *facing)
+bool void_separates_points(const struct voids *v, int body, const real *point, const real *other_point, bool *facing)
 {
     const int dim = v->dim;
-    struct void_line there = {.from = a}, back = {.from = b};
+    struct void_line there = {.from = point}, back = {.from = other_point};
     int first = 0;
-    while (first < dim && a[first] == b[first]) first++;
+    while (first < dim && point[first] == other_point[first]) first++;
     if (first == dim) return false;
-    if (a[first] > b[first]) return void_separates_points(v, body, b, a, facing); /* equal bits in both directions */
-    for (int d = 0; d < dim; d++) there.length += square(b[d] - a[d]);
+    if (point[first] > other_point[first])
+        return void_separates_points(v, body, other_point, point, facing); /* equal bits in both directions */
+    for (int d = 0; d < dim; d++) there.length += square(other_point[d] - point[d]);
     there.length = back.length = sqrt(there.length);
-    for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.length, back.along[d] = -there.along[d];
+    for (int d = 0; d < dim; d++)
+        there.along[d] = (other_point[d] - point[d]) / there.length, back.along[d] = -there.along[d];
     const real out = line_inside(v, body, &there);
     if (out >= there.length) return false;
     if (!facing) return true;
@@ -180,7 +182,7 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     for (int m = 0; m < v->mirrors; m++) {
         const struct mirror_plane *plane = &v->mirror[m];
         if (fabs(X[plane->axis] - plane->at) > reach) continue;
-        if (!solid_is_unmoved_of_kind(s, SOLID_BOX) ||
+        if (!solid_is_of_kind_and_not_moved(s, SOLID_BOX) ||
             !(s->from[plane->axis] <= plane->at && plane->at <= s->to[plane->axis]))
             return false;
     }
@@ -236,8 +238,8 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
     return bits;
 }
 
-void voids_mark_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                          const struct image *image, real reach)
+void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
+                                    const struct image *image, real reach)
 {
     real *depth = NEW("voids.depth", p->n_all, real);
     uint32_t *inside = NEW("voids.inside", p->n_all, uint32_t);

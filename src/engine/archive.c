@@ -107,7 +107,7 @@ static status body_restore(struct run *e, struct archive *a)
     mesh_free(&e->frame->mesh);
     memory_free(e->frame->elastic);
     TRY(coupling_make_mesh(e, true));
-    return frame_levels_make(e, true);
+    return mesh_levels_make_coarse_cells(e, true);
 }
 
 status parts_save_or_load(struct run *e, struct archive *a)

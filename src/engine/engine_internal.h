@@ -82,7 +82,7 @@ void engine_warn_of_uncorrected_faces(const struct scene *s, const struct partic
 
 /* Computes the bounding box of the particles of body b and of all bodies that are joined to it, and stores its corners
  * in low[dim] and high[dim] [m]. Returns false if there are no such particles. */
-bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int b, real *low, real *high);
+bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int body, real *low, real *high);
 
 /* Returns the number of particles along the axis `axis` between the positions `low` and `high` [m], including their
  * mirror images beyond planes of symmetry. */

@@ -52,17 +52,18 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
 static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
-    for (int m = 0; m < s->materials; m++) any |= material_softens(&s->material[m]);
+    for (int m = 0; m < s->materials; m++) any |= material_has_softening_bonds(&s->material[m]);
     if (!any) return;
     tables->pair_softening = NEW("engine.pair_softening", s->materials * s->materials, struct softening_pair);
     for (int a = 0; a < s->materials; a++) {
-        if (material_softens(&s->material[a])) tables->curve = softening_curve_of(s->material[a].softening);
+        if (material_has_softening_bonds(&s->material[a]))
+            tables->curve = softening_curve_of_law(s->material[a].softening);
         for (int b = 0; b < s->materials; b++) {
             const struct material *m = &s->material[a], *n = &s->material[b];
             const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
             tables->pair_softening[a * s->materials + b] = (struct softening_pair){
                 first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH,
-                material_has_surface(first), first->rate.points > 0 ? &first->rate : NULL};
+                material_has_strength_surface(first), first->rate.points > 0 ? &first->rate : NULL};
         }
     }
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
@@ -98,7 +99,7 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     if (s->model == MODEL_BOND) return;
     tables->modulus = NEW("engine.modulus", s->materials, struct state_modulus);
     for (int k = 0; k < s->materials; k++)
-        tables->modulus[k] = state_modulus_of_material(&s->material[k], s->space, s->model == MODEL_MOSPD);
+        tables->modulus[k] = state_based_moduli_of_material(&s->material[k], s->space, s->model == MODEL_MOSPD);
     source->modulus = tables->modulus;
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
@@ -185,21 +186,22 @@ static status make_bonds(struct run *e, struct predecessor *before)
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
     if (run_list_shapes_with_voids(&e->tables, s, &e->loads)) {
-        voids_mark_particles(&e->tables.voids, &e->part, &e->cells, e->loads.image,
-                             voids_interaction_distance(s, e->source.family.cutoff));
+        voids_mark_separated_particles(&e->tables.voids, &e->part, &e->cells, e->loads.image,
+                                       voids_interaction_distance(s, e->source.family.cutoff));
         e->source.voids = &e->tables.voids;
     }
     e->source.room = bonds_neighbour_count_bound(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
-        bonds_compute_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
+        bonds_compute_family_volumes(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
         TRY(run_surface_weights_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
-    if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply(e));
+    if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply_as_slits_or_cut_bonds(e));
     if (before)
-        engine_transfer_particles(e, before); /* after precracks_apply, which makes slits from initial particles */
+        engine_transfer_particles(
+            e, before); /* after precracks_apply_as_slits_or_cut_bonds, which makes slits from initial particles */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     if (before) engine_transfer_bonds(e, before);
     e->coupling->conversion.first_time = NAN;
@@ -244,7 +246,7 @@ static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
     const int meshed =
-        scene_has_load_steps(s) || scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS : 0;
+        scene_has_load_steps(s) || scene_has_yielding_body_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS : 0;
     for (int m = 0; m < s->materials; m++)
         if (s->material[m].law.given) optional |= meshed | law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
@@ -343,7 +345,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
-    TRY(rigids_check(e->rigid, s, &e->part));
+    TRY(rigids_check_start_positions(e->rigid, s, &e->part));
     TRY(scene_prepend_location(s, joined_bodies_check(s, &e->part, &e->cells, e->source.family.cutoff)));
     TRY(scene_prepend_location(s, statics_check_scene(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
@@ -370,7 +372,7 @@ status engine_make_from_predecessor(struct run *e, const struct scene *s, struct
     TRY(make_forces(e, predecessor));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!predecessor) TRY(scene_prepend_location(s, frame_levels_make(e, false)));
+    if (!predecessor) TRY(scene_prepend_location(s, mesh_levels_make_coarse_cells(e, false)));
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&

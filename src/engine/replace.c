@@ -50,8 +50,8 @@ static void nodes_take(struct run *e, struct run *old)
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
     levels_reconnect_finest_mesh(&r->levels, &e->part, &r->source);
-    frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
-    frame_update_point_motion(r, &e->part, &e->loads);
+    mesh_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
+    reference_frame_update_point_motion(r, &e->part, &e->loads);
     bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
@@ -103,6 +103,6 @@ status engine_replace_particles(struct run *e, const uint8_t *level)
     }
     cells_without_particles_update(e->frame, level);
     TRY(run_replace(e));
-    if (e->report->out) contact_allocate_forces(e->contact, &e->part);
+    if (e->report->out) contact_allocate_force_record(e->contact, &e->part);
     return OK;
 }

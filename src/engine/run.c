@@ -22,13 +22,13 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
  * replaced by one that has them; returns FAILED, with a message, if that is not possible. */
 static status refine(struct run *e)
 {
-    if (!frame_levels_may_change(&e->frame->levels, e->clock.step)) return OK;
+    if (!mesh_levels_may_change(&e->frame->levels, e->clock.step)) return OK;
     const struct observed_run seen = observed_run_of(e);
     rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = frame_levels_choose_next(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
+    uint8_t *level = mesh_levels_choose_next(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
     const status s = levels_need_more_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
-    if (s == OK) frame_levels_apply(e, level);
+    if (s == OK) mesh_levels_apply(e, level);
     memory_free(level);
     return s;
 }

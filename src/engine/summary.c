@@ -121,7 +121,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_write_rounded(j, "setup_seconds", spent->setup, JSON_TIMING);
     json_write_rounded(j, "loop_seconds", spent->loop, JSON_TIMING);
     json_write_rounded(j, "output_seconds", spent->wall - spent->setup - spent->loop, JSON_TIMING);
-    json_write_integer(j, "memory_peak_bytes", memory_peak());
+    json_write_integer(j, "memory_peak_bytes", memory_peak_resident_size());
     json_write_rounded(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
     json_write_rounded(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
     json_write_rounded(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);

@@ -40,7 +40,8 @@ void engine_transfer_particles(struct run *e, struct predecessor *predecessor)
 void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
 {
     struct run *old = predecessor->run;
-    bonds_transfer_damage(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part, predecessor->now);
+    bonds_copy_damage_to_new_particles(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part,
+                                       predecessor->now);
     state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);

@@ -105,8 +105,9 @@ static void warn_of_materials(const struct scene *s, const struct material_table
                          "%s) at which bonds %s, so that they may exceed %s stretch before they convert: "
                          "use a lower conversion.stress",
                          a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
-                         material_softens(a) ? "s_0" : "s_c", material_softens(a) ? "begin to soften" : "break",
-                         material_softens(a) ? "this" : "the critical");
+                         material_has_softening_bonds(a) ? "s_0" : "s_c",
+                         material_has_softening_bonds(a) ? "begin to soften" : "break",
+                         material_has_softening_bonds(a) ? "this" : "the critical");
     }
 }
 

@@ -39,7 +39,7 @@ static bool point_found(const struct solid *solid, const struct region *before, 
     for (int k = 1; k <= POINTS_OF_SOLID; k++) {
         real X[DIM_MAX] = {0};
         for (int d = 0; d < dim; d++) X[d] = low[d] + (high[d] - low[d]) * radical_inverse(k, base[d]);
-        if (solid_is_within(solid, X, dim, 0) && region_contains(before, X, dim, 0) == inside) return true;
+        if (solid_level_set_is_at_most(solid, X, dim, 0) && region_contains(before, X, dim, 0) == inside) return true;
     }
     return false;
 }

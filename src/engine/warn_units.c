@@ -149,7 +149,7 @@ static void units_of_brittleness(const struct scene *s, real longest, struct war
     char subject[NAME_MAX_LENGTH + 16], note[80];
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
-        if (!material_softens(a) || isnan(a->tensile_strength) || isnan(a->energy_release_rate)) continue;
+        if (!material_has_softening_bonds(a) || isnan(a->tensile_strength) || isnan(a->energy_release_rate)) continue;
         const real length = a->young * a->energy_release_rate / square(a->tensile_strength);
         snprintf(subject, sizeof subject, "material %s", a->name);
         snprintf(note, sizeof note, " (%.3g m over %.3g m)", length, longest);
@@ -432,12 +432,12 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
-bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int b, real *low, real *high)
+bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int body, real *low, real *high)
 {
     for (int d = 0; d < s->dim; d++) {
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < p->n; i++) {
-            if (s->body[p->body[i]].joined != b) continue;
+            if (s->body[p->body[i]].joined != body) continue;
             low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
         }
     }

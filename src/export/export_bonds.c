@@ -193,7 +193,7 @@ static void touched_near(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-status lammps_find_cut_bonds(struct touched *t, struct exported *x)
+status lammps_find_bonds_to_cut(struct touched *t, struct exported *x)
 {
     struct search a = {.room = bonds_neighbour_count_bound(&x->e->source) + 1};
     a.found = NEW("touched.found", a.room, int32_t);

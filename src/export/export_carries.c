@@ -12,7 +12,7 @@ static status lammps_refuse(const struct scene *s, const char *what)
 static bool stretches_differ(const struct scene *s)
 {
     for (int m = 1; m < s->materials; m++)
-        if (!bits_equal(s->material[m].critical_stretch, s->material[0].critical_stretch)) return true;
+        if (!reals_are_bitwise_equal(s->material[m].critical_stretch, s->material[0].critical_stretch)) return true;
     for (int k = 0; k < s->interfaces; k++)
         if (s->interface[k].critical_stretch > 0) return true;
     return false;
@@ -43,7 +43,7 @@ static status carries_materials(const struct scene *s, bool bond_style)
 {
     if (any_yields(s)) return lammps_refuse(s, "yield_stress: plastic bonds are not in LAMMPS; inf is expected");
     for (int m = 0; m < s->materials; m++)
-        if (material_softens(&s->material[m]))
+        if (material_has_softening_bonds(&s->material[m]))
             return lammps_refuse(s,
                                  "tensile_strength: bonds that soften are not in LAMMPS; without it, bonds are brittle "
                                  "and their strength is E s_c");
@@ -118,7 +118,7 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
                  "paths of a crack are nearly alike");
 }
 
-status lammps_check_features(struct lammps_settings *to, const struct scene *s, bool bond_style)
+status lammps_list_required_key_changes(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     to->n = 0;
     TRY(carries_method(s));

@@ -28,12 +28,12 @@ static void check_rows_write(FILE *to, const struct particles *p, const real *be
     }
 }
 
-int64_t lammps_check_step_count(const struct exported *x)
+int64_t lammps_reference_step_count(const struct exported *exported)
 {
-    return x->e->clock.steps < CHECK_STEPS ? x->e->clock.steps : CHECK_STEPS;
+    return exported->e->clock.steps < CHECK_STEPS ? exported->e->clock.steps : CHECK_STEPS;
 }
 
-status lammps_check_write(FILE *to, struct exported *x)
+status lammps_write_reference_positions(FILE *to, struct exported *x)
 {
     struct run *e = x->e;
     const int64_t n = e->part.n, steps = e->clock.steps;
@@ -42,7 +42,7 @@ status lammps_check_write(FILE *to, struct exported *x)
     joined_volume(before, &e->part, &e->bonds);
     array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report->quiet = e->report->excerpt = true;
-    e->clock.steps = lammps_check_step_count(x);
+    e->clock.steps = lammps_reference_step_count(x);
     const status ran = engine_run(e);
     e->clock.steps = steps;
     if (ran == OK) {

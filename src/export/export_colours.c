@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 
-void touched_free(struct touched *t)
+void touched_particles_free(struct touched *t)
 {
     memory_free(t->particle);
     memory_free(t->first);
@@ -89,7 +89,7 @@ int particle_colours_assign(int32_t *colour, const struct touched *t)
     return a.n;
 }
 
-uint8_t *particle_colours_pair_states(const int32_t *colour, int colours, const struct touched *t)
+uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colours, const struct touched *t)
 {
     uint8_t *pair = NEW("colours.pairs", (int64_t)colours * colours, uint8_t);
     for (int64_t k = 0; k < t->n; k++)

@@ -73,7 +73,7 @@ static void variables_add(struct exodus_export *x, int field)
 static status frames_open(struct exodus_export *x)
 {
     struct output_frame f;
-    TRY(frames_list(x->folder, &x->frames, &x->frame));
+    TRY(run_list_frames(x->folder, &x->frames, &x->frame));
     if (x->frames == 0) return status_set(REFUSED, "%s: has no frames", printable_name(x->folder).text);
     const struct path path = run_frame_path(x->folder, x->frame[0].number);
     TRY(frame_read(&f, path.text));
@@ -322,11 +322,11 @@ static void sets_write(struct exodus_export *x)
     for (int k = 0; k < l->n; k++) netcdf_write_integers(&x->w, 1, (const int32_t[]){k + 1});
     netcdf_end_array(&x->w);
     for (int k = 0; k < l->n; k++)
-        netcdf_write_text_row(&x->w, export_set_name(&x->mesh, k).text, NAME_WIDTH - 1),
+        netcdf_write_text_row(&x->w, export_node_set_name_of_load(&x->mesh, k).text, NAME_WIDTH - 1),
             netcdf_write_text_row(&x->w, "", 1);
     netcdf_end_array(&x->w);
     for (int k = 0; k < l->n; k++) {
-        int32_t *node = export_set_nodes(&x->mesh, k);
+        int32_t *node = export_node_set_particles_of_load(&x->mesh, k);
         netcdf_write_integers(&x->w, l->load[k].n, node);
         netcdf_end_array(&x->w);
         memory_free(node);

@@ -53,16 +53,16 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 {
     const struct lammps_settings none = {0};
     TRY(scene_read(s, r->scene, r->override, r->overrides));
-    TRY(lammps_check_features(settings, s, r->bond_style));
+    TRY(lammps_list_required_key_changes(settings, s, r->bond_style));
     scene_free(s);
     TRY(scene_make(s, r, &none));
-    TRY(lammps_check_features(settings, s, r->bond_style));
+    TRY(lammps_list_required_key_changes(settings, s, r->bond_style));
     if (settings->n == 0 && !lammps_normalisation_differs(s)) return OK;
     if (!r->allow_different) return settings_refuse(settings, s);
     struct lammps_settings left;
     scene_free(s);
     TRY(scene_make(s, r, settings));
-    TRY(lammps_check_features(&left, s, r->bond_style));
+    TRY(lammps_list_required_key_changes(&left, s, r->bond_style));
     if (left.n > 0) return settings_refuse(&left, s);
     return OK;
 }
@@ -84,7 +84,7 @@ static void left_out_write(FILE *to, const struct scene *s)
 static void readme_write(FILE *to, const struct exported *x)
 {
     const char *style = x->bond_style ? "bond_style bpm/peri" : x->s->model == MODEL_BOND ? "peri/pmb" : "peri/lps";
-    const long long steps = (long long)lammps_check_step_count(x);
+    const long long steps = (long long)lammps_reference_step_count(x);
     fprintf(
         to,
         "%s for LAMMPS (%s), exported by Cleave %s\n\n"
@@ -97,7 +97,7 @@ static void readme_write(FILE *to, const struct exported *x)
         "counts it), and\n"
         "            damage at the start, by pre-cracks: in all d = start + (1 - start) damage\n\n",
         x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
-    lammps_cost_write(to, x);
+    lammps_write_run_time_estimate(to, x);
     left_out_write(to, x->s);
     fprintf(to, "\nThe method is `pd`: the whole body has bonds, also where `adaptive` would take material points.\n");
     for (int k = 0; k < x->settings.n; k++)
@@ -149,7 +149,7 @@ static status put_scene_text(FILE *to, struct exported *x, const struct lammps_t
 static status put_check(FILE *to, struct exported *x, const struct lammps_types *t)
 {
     (void)t;
-    return lammps_check_write(to, x);
+    return lammps_write_reference_positions(to, x);
 }
 
 static status put_script(FILE *to, struct exported *x, const struct lammps_types *t)
@@ -254,7 +254,7 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     if (x->cut > 0 && t->pairs > 0)
         printf(": LAMMPS excludes %lld pairs among %d types of particles", (long long)t->pairs, t->n);
     if (x->cut > 0) puts("");
-    lammps_cost_write(stdout, x);
+    lammps_write_run_time_estimate(stdout, x);
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);

@@ -60,29 +60,30 @@ static status load_carries(const struct load *load)
 
 static void columns_make(struct exported *x);
 
-status lammps_loads_make(struct exported *x)
+status lammps_loads_make(struct exported *exported)
 {
-    const struct loads *l = &x->e->loads;
+    const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
     if (l->n > LOADS_MOST)
-        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", printable_name(x->s->path).text, l->n,
-                          LOADS_MOST);
-    x->loads = NEW("export.loads", x->e->part.n, uint32_t);
+        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", printable_name(exported->s->path).text,
+                          l->n, LOADS_MOST);
+    exported->loads = NEW("export.loads", exported->e->part.n, uint32_t);
     for (int k = 0; k < l->n; k++)
-        for (int64_t q = 0; q < l->load[k].n; q++) x->loads[l->load[k].particle[q]] |= 1u << k;
-    columns_make(x);
+        for (int64_t q = 0; q < l->load[k].n; q++) exported->loads[l->load[k].particle[q]] |= 1u << k;
+    columns_make(exported);
     return OK;
 }
 
-void lammps_initial_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
+void lammps_initial_velocity(const struct exported *exported, int64_t i, real v[DIM_MAX])
 {
-    const struct loads *l = &x->e->loads;
-    const int dim = x->e->part.dim;
-    for (int d = 0; d < DIM_MAX; d++) v[d] = d < dim ? x->e->part.v[d][i] : 0;
+    const struct loads *l = &exported->e->loads;
+    const int dim = exported->e->part.dim;
+    for (int d = 0; d < DIM_MAX; d++) v[d] = d < dim ? exported->e->part.v[d][i] : 0;
     for (int k = 0; k < l->n; k++) {
         const struct boundary *b = l->load[k].boundary;
-        if (is_force(&l->load[k]) || !(x->loads[i] >> k & 1)) continue;
-        const struct prescribed_motion by = prescribed_motion_make(b, dim, 0.5 * x->e->clock.dt, x->e->clock.dt);
+        if (is_force(&l->load[k]) || !(exported->loads[i] >> k & 1)) continue;
+        const struct prescribed_motion by =
+            prescribed_motion_make(b, dim, 0.5 * exported->e->clock.dt, exported->e->clock.dt);
         for (int d = 0; d < dim; d++)
             if (b->components >> d & 1) v[d] = prescribed_velocity_at(&by, NULL, d, false);
     }
@@ -116,7 +117,7 @@ static bool is_displaced(const struct particles *p)
 {
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++)
-            if (!bits_equal(p->x[d][i], p->X[d][i])) return true;
+            if (!reals_are_bitwise_equal(p->x[d][i], p->X[d][i])) return true;
     return false;
 }
 
@@ -171,13 +172,13 @@ static int64_t index_in_load(const struct load *load, int64_t i)
     return low < load->n && load->particle[low] == i ? low : -1;
 }
 
-real lammps_column_value(const struct exported *x, int c, int64_t i)
+real lammps_column_value(const struct exported *exported, int c, int64_t i)
 {
-    const int d = x->column[c].axis;
-    if (x->column[c].load < 0) return x->e->part.x[d][i] - x->e->part.X[d][i];
-    const struct load *load = &x->e->loads.load[x->column[c].load];
+    const int d = exported->column[c].axis;
+    if (exported->column[c].load < 0) return exported->e->part.x[d][i] - exported->e->part.X[d][i];
+    const struct load *load = &exported->e->loads.load[exported->column[c].load];
     const int64_t k = index_in_load(load, i);
-    return k < 0 ? 0 : force_on(x, load, d, k);
+    return k < 0 ? 0 : force_on(exported, load, d, k);
 }
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */

@@ -65,17 +65,17 @@ void export_mesh_free(struct export_mesh *m)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the name of the node set of load k: the name of its boundary, or nodelist_N with N = k + 1 if the boundary
- * has none or an earlier load has the same name. */
-struct set_name export_set_name(const struct export_mesh *m, int k)
+/* Returns the name of the node set of load load_number: the name of its boundary, or nodelist_N with N = k + 1 if the
+ * boundary has none or an earlier load has the same name. */
+struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number)
 {
     const struct load *load = m->e->loads.load;
-    const char *name = load[k].boundary->name;
+    const char *name = load[load_number].boundary->name;
     struct set_name set;
     bool taken = !name[0];
-    for (int j = 0; j < k; j++) taken = taken || strcmp(load[j].boundary->name, name) == 0;
+    for (int j = 0; j < load_number; j++) taken = taken || strcmp(load[j].boundary->name, name) == 0;
     if (taken)
-        snprintf(set.text, sizeof set.text, "nodelist_%d", k + 1);
+        snprintf(set.text, sizeof set.text, "nodelist_%d", load_number + 1);
     else
         snprintf(set.text, sizeof set.text, "%s", name);
     return set;
@@ -88,9 +88,9 @@ static int int32_order(const void *a, const void *b)
     return (*p > *q) - (*p < *q);
 }
 
-int32_t *export_set_nodes(const struct export_mesh *m, int k)
+int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load_number)
 {
-    const struct load *load = &m->e->loads.load[k];
+    const struct load *load = &m->e->loads.load[load_number];
     int32_t *node = NEW("export.set", load->n, int32_t);
     for (int64_t i = 0; i < load->n; i++) node[i] = m->place[load->particle[i]] + 1;
     array_sort(node, load->n, sizeof *node, int32_order);

@@ -25,13 +25,13 @@ struct set_name {
     char text[NAME_MAX_LENGTH];
 };
 
-/* Returns the name of the node set of load k: the name of its boundary condition, or nodelist_N with N = k + 1 if it
- * has no name or an earlier load has the same one. */
-struct set_name export_set_name(const struct export_mesh *m, int k);
+/* Returns the name of the node set of load load_number: the name of its boundary condition, or nodelist_N with N = k +
+ * 1 if it has no name or an earlier load has the same one. */
+struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number);
 
-/* Returns a new array with the numbers of the particles of load k: positions in the order of m, counted from 1,
- * ascending. Its length is the number of particles of the load. The caller releases it with memory_free. */
-int32_t *export_set_nodes(const struct export_mesh *m, int k);
+/* Returns a new array with the numbers of the particles of load load_number: positions in the order of m, counted from
+ * 1, ascending. Its length is the number of particles of the load. The caller releases it with memory_free. */
+int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load_number);
 
 /* Releases the memory of *m. */
 void export_mesh_free(struct export_mesh *m);

@@ -196,7 +196,7 @@ static void frames_write(FILE *to, const struct exported *x)
 
 static void runs_write(FILE *to, const struct exported *x)
 {
-    const int64_t steps = x->e->clock.steps, check = lammps_check_step_count(x);
+    const int64_t steps = x->e->clock.steps, check = lammps_reference_step_count(x);
     if (!x->bond_style) fputs("\ncompute damage all damage/atom\n", to);
     frames_write(to, x);
     fprintf(to,

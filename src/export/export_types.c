@@ -18,7 +18,7 @@ static bool class_alike(const struct exported *x, int64_t i, int64_t j)
 {
     const struct particles *p = &x->e->part;
     return p->material[i] == p->material[j] && x->loads[i] == x->loads[j] &&
-           (!x->bond_style || bits_equal(p->mass[i], p->mass[j]));
+           (!x->bond_style || reals_are_bitwise_equal(p->mass[i], p->mass[j]));
 }
 
 /* Returns the index of the class of particle i. Particles of one class have the same material, the same loads and, for
@@ -109,7 +109,7 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
 {
     struct touched touched;
     *t = (struct lammps_types){0};
-    status s = lammps_find_cut_bonds(&touched, x);
+    status s = lammps_find_bonds_to_cut(&touched, x);
     int32_t *colour = NEW("types.colour", touched.n, int32_t);
     uint8_t *pair = NULL;
     const int colours = s == OK && touched.n > 0 ? particle_colours_assign(colour, &touched) : 0;
@@ -118,12 +118,12 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
                        "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
                        "whose tables grow with their square; straight cracks on a lattice need fewer",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
-    if (s == OK && colours > 0 && !(pair = particle_colours_pair_states(colour, colours, &touched)))
+    if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
         s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
     if (s == OK) s = types_give(t, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);
-    touched_free(&touched);
+    touched_particles_free(&touched);
     return s;
 }
 

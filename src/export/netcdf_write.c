@@ -17,21 +17,21 @@ static void name_set(char *to, const char *name, int number)
         snprintf(to, NETCDF_NAME, "%s", name);
 }
 
-int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length)
+int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_suffix, int64_t length)
 {
     GROW("netcdf.dimensions", w->dimension, w->dimensions + 1);
-    name_set(w->dimension[w->dimensions].name, name, number);
+    name_set(w->dimension[w->dimensions].name, name, name_suffix);
     w->dimension[w->dimensions].length = length;
     return w->dimensions++;
 }
 
-void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type, int ranks,
                          const int *dimension, const char *attribute, const char *text)
 {
     GROW("netcdf.arrays", w->array, w->arrays + 1);
     struct netcdf_array *a = &w->array[w->arrays++];
     *a = (struct netcdf_array){.type = type, .ranks = ranks, .attribute = attribute, .text = text};
-    name_set(a->name, name, number);
+    name_set(a->name, name, name_suffix);
     for (int k = 0; k < ranks; k++) a->dimension[k] = dimension[k];
 }
 

@@ -46,14 +46,14 @@ struct netcdf_writer {
 };
 
 /* Defines a dimension with `length` entries; `length` 0 defines the dimension of records, which grows while the file is
- * written. It is called `name` followed by `number`, or only `name` if `number` is 0. Returns its index, for
+ * written. It is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. Returns its index, for
  * netcdf_define_array. */
-int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int number, int64_t length);
+int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_suffix, int64_t length);
 
-/* Defines an array of numbers of type `type`. It is called `name` followed by `number`, or only `name` if `number` is
- * 0. dimension[ranks]: indices of its dimensions; attribute, text: name and text of its only attribute, kept by
- * reference, or NULL for none. */
-void netcdf_define_array(struct netcdf_writer *w, const char *name, int number, enum netcdf_type type, int ranks,
+/* Defines an array of numbers of type `type`. It is called `name` followed by `name_suffix`, or only `name` if
+ * `name_suffix` is 0. dimension[ranks]: indices of its dimensions; attribute, text: name and text of its only
+ * attribute, kept by reference, or NULL for none. */
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type, int ranks,
                          const int *dimension, const char *attribute, const char *text);
 
 /* Writes the header of the file, which follows from the definitions, to w->to. To be called after all definitions and

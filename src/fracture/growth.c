@@ -37,8 +37,8 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
                most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
     real wanted = 0;
     if (g->intensity > 0) {
-        const real filtered_speed = crack_speed_sif_factor(m, SPEED_EXACT, g->filtered_speed);
-        wanted = crack_speed_from_sif_factor(m, filtered_speed * g->rule->toughness / g->intensity, most);
+        const real filtered_speed = crack_sif_ratio_at_speed(m, SPEED_EXACT, g->filtered_speed);
+        wanted = crack_speed_from_sif_ratio(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
     g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->control_time) / (SMOOTHING * settling));
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
@@ -193,7 +193,7 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
 {
     *row = b->row_of[i];
     for (struct bond_iterator it = bond_iterator_of_row(b, *row); bond_next(&it);)
-        if (it.bond.nbr == j) return bond_writable_index(b, it.row_block, it.k - 1, it.lane);
+        if (it.bond.nbr == j) return bond_index_for_writing(b, it.row_block, it.k - 1, it.lane);
     return -1;
 }
 
@@ -207,7 +207,7 @@ static void step_back(struct growing_crack *g, struct bonds *b)
         const int64_t q = growth_entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
-        bond_changed_update_column(b, row, q);
+        bond_column_update_after_bond_change(b, row, q);
         g->fading[kept++] = *bond;
     }
     g->n = kept;
@@ -263,14 +263,14 @@ int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct p
     return fade(g, b, p, &source->family);
 }
 
-real growing_crack_angle(const struct growing_crack *g)
+real growing_crack_deflection_angle(const struct growing_crack *g)
 {
     const real *e = g->rule->direction, chord[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
     if (!(g->grown > 0)) return NAN;
     return fabs(atan2(e[0] * chord[1] - e[1] * chord[0], dot(e, chord, 2))) * 180 / 3.14159265358979323846;
 }
 
-status growing_crack_save_or_load(struct growing_crack *g, int which, struct archive *a)
+status growing_crack_save_or_load(struct growing_crack *g, int crack_number, struct archive *a)
 {
     char name[64];
     struct {
@@ -288,7 +288,7 @@ status growing_crack_save_or_load(struct growing_crack *g, int which, struct arc
            g->filtered_speed,
            g->control_time,
            g->n};
-    snprintf(name, sizeof name, "growth/%d", which);
+    snprintf(name, sizeof name, "growth/%d", crack_number);
     ARCHIVE_VALUE(a, name, s);
     for (int d = 0; d < 2; d++) g->place[d] = s.place[d], g->along[d] = s.along[d], g->heading[d] = s.heading[d];
     g->speed = s.speed, g->grown = s.grown, g->start_time = s.start_time;
@@ -299,6 +299,6 @@ status growing_crack_save_or_load(struct growing_crack *g, int which, struct arc
         g->n = s.n;
         g->fading = NEW("growth.fading", g->n, struct fading);
     }
-    snprintf(name, sizeof name, "growth/fading%d", which);
+    snprintf(name, sizeof name, "growth/fading%d", crack_number);
     return a->exchange(a, name, g->fading, (size_t)g->n * sizeof *g->fading);
 }

@@ -167,7 +167,7 @@ static real factor_exact(const struct crack_medium *m, real v)
     return (1 - v / m->rayleigh) / sqrt(1 - v / m->longitudinal) * exp(sum / pi);
 }
 
-real crack_speed_sif_factor(const struct crack_medium *m, enum speed_factor form, real speed)
+real crack_sif_ratio_at_speed(const struct crack_medium *m, enum speed_factor form, real speed)
 {
     const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - speed / m->rayleigh;
     if (form == SPEED_EXACT) return factor_exact(m, speed);
@@ -176,7 +176,7 @@ real crack_speed_sif_factor(const struct crack_medium *m, enum speed_factor form
     return falling / sqrt(1 - h * speed);
 }
 
-real crack_speed_from_sif_factor(const struct crack_medium *m, real factor, real max_speed)
+real crack_speed_from_sif_ratio(const struct crack_medium *m, real factor, real max_speed)
 {
     real low = 0, high = max_speed;
     if (factor >= 1) return 0;

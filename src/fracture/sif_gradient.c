@@ -23,7 +23,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
  * the other. s: cracks and bonds that are considered. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
-    return cracks_separate_particles(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
+    return precracks_cut_bond_between(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
 }
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }

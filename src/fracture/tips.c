@@ -367,7 +367,7 @@ void tips_update(struct crack_tips *t, const struct particles *p, const struct c
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree]; NAN if the crack has not grown. dim: number of dimensions; in 3D only the part perpendicular
  * to the crack front counts. */
-real tip_angle(const struct crack_tip *tip, int dim)
+real tip_deflection_angle(const struct crack_tip *tip, int dim)
 {
     if (!(tip->growth > 0)) return NAN;
     real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
@@ -414,5 +414,5 @@ status tips_save_or_load(struct crack_tips *t, struct archive *a)
         TRY(a->exchange(a, "tips/time", t->time, (size_t)samples * sizeof *t->time));
         TRY(a->exchange(a, "tips/growth", t->growth, (size_t)samples * TIPS_MAX * sizeof *t->growth));
     }
-    return archive_particle_array(a, "tips/label", t->label, t->count, sizeof *t->label);
+    return archive_save_or_load_particle_array(a, "tips/label", t->label, t->count, sizeof *t->label);
 }

@@ -264,7 +264,7 @@ static status elements_read(struct deck *d)
     TRY(set_named(d, "ELSET", false, &set));
     if (!size) {
         snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
-        text_replace_controls(d->m->skipped);
+        text_replace_control_characters(d->m->skipped);
         return OK;
     }
     for (; data_line(d->s); source_next_line(d->s)) {

@@ -86,7 +86,7 @@ int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_node
     GROW("mesh.set", m->set, m->sets + 1);
     struct element_set *set = &m->set[m->sets];
     snprintf(set->name, sizeof set->name, "%s", name);
-    text_replace_controls(set->name);
+    text_replace_control_characters(set->name);
     set->of_nodes = of_nodes;
     return m->sets++;
 }
@@ -120,11 +120,11 @@ static int label_entry_order(const void *a, const void *b)
                                 : (p->index > q->index) - (p->index < q->index);
 }
 
-void label_map_make(struct label_map *map, const int64_t *label, int64_t first, int64_t n)
+void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t n)
 {
     map->n = n;
     map->entry = NEW("mesh.labels", n, struct label_entry);
-    for (int64_t k = 0; k < n; k++) map->entry[k] = (struct label_entry){label[k], first + k};
+    for (int64_t k = 0; k < n; k++) map->entry[k] = (struct label_entry){label[k], first_index + k};
     array_sort(map->entry, n, sizeof *map->entry, label_entry_order);
 }
 

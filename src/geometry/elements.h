@@ -120,7 +120,7 @@ struct label_entry {
 
 /* Creates *map, which maps the numbers that nodes or elements have in a file (labels) to indices: label[k] is mapped to
  * first + k, k = 0 .. n - 1. Release it with label_map_free. */
-void label_map_make(struct label_map *map, const int64_t *label, int64_t first, int64_t n);
+void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t n);
 
 /* Releases the entries of `map`. */
 void label_map_free(struct label_map *map);

@@ -117,7 +117,7 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
 {
     char name[NAME_MAX_LENGTH];
     int64_t *number = NULL;
-    exodus_read_name(&x->file, names, 0, row, n, name);
+    exodus_read_text_row(&x->file, names, 0, row, n, name);
     bool taken = name[0] == '\0';
     for (int k = 0; k < x->m->sets; k++) taken = taken || strcasecmp(x->m->set[k].name, name) == 0;
     if (taken) {
@@ -138,7 +138,8 @@ static status element_block_add(struct exodus *x, int64_t number)
     enum element_kind kind = ELEMENT_POINT;
     bool skip;
     int set = -1;
-    if (!exodus_has_array(&x->file, "connect", number) && exodus_read_dimension(&x->file, "num_el_in_blk", number) == 0)
+    if (!exodus_has_array(&x->file, "connect", number) &&
+        exodus_read_dimension_length(&x->file, "num_el_in_blk", number) == 0)
         return OK;
     TRY(exodus_read_block_header(&x->file, number, type, &elements, &nodes));
     TRY(kind_of(x, type, nodes, &kind, &skip));
@@ -227,7 +228,7 @@ static status element_of(const struct exodus *x, int set, int64_t label, int64_t
  * empty side set has no arrays and makes no set. Returns REFUSED for unknown elements or sides. */
 static status side_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_read_dimension(&x->file, "num_side_ss", number);
+    const int64_t n = exodus_read_dimension_length(&x->file, "num_side_ss", number);
     int64_t *element = NULL, *side = NULL, index;
     int set;
     if (n == 0) return OK;
@@ -247,7 +248,7 @@ static status side_set_add(struct exodus *x, int64_t number)
  * nodes. */
 static status node_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_read_dimension(&x->file, "num_nod_ns", number);
+    const int64_t n = exodus_read_dimension_length(&x->file, "num_nod_ns", number);
     int64_t *node = NULL;
     int set;
     if (n == 0) return OK;
@@ -268,7 +269,7 @@ static status node_set_add(struct exodus *x, int64_t number)
  * elements. */
 static status element_set_add(struct exodus *x, int64_t number)
 {
-    const int64_t n = exodus_read_dimension(&x->file, "num_ele_els", number);
+    const int64_t n = exodus_read_dimension_length(&x->file, "num_ele_els", number);
     int64_t *element = NULL, index;
     int set;
     if (n == 0) return OK;
@@ -303,7 +304,7 @@ status exodus_read(struct element_mesh *m, struct source *s)
 {
     struct exodus x = {.s = s, .m = m};
     s->binary = true;
-    TRY(exodus_open(&x.file, s->path, s->text, s->length));
+    TRY(exodus_open_from_memory(&x.file, s->path, s->text, s->length));
     const status result = mesh_read(&x);
     exodus_close(&x.file);
     memory_free(x.element);

@@ -60,7 +60,7 @@ static void next_text(struct header *h, int64_t length, char *text)
     const size_t kept = !h->good ? 0 : length < NAME_MAX_LENGTH ? (size_t)length : NAME_MAX_LENGTH - 1;
     memcpy(text, h->f->text + (h->good ? from : 0), kept);
     text[kept] = '\0';
-    exodus_text_clean(text);
+    exodus_text_make_printable(text);
 }
 
 /* Reads a name, preceded by its length, into text[NAME_MAX_LENGTH]. */

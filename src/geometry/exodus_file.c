@@ -23,11 +23,11 @@ status exodus_report_fault(const struct exodus_file *f, const char *format, ...)
     va_start(more, format);
     vsnprintf(what, sizeof what, format, more);
     va_end(more);
-    text_replace_controls(what);
+    text_replace_control_characters(what);
     return status_set(REFUSED, "%s: %s", f->path, what);
 }
 
-bool is_exodus_name(const char *path)
+bool path_has_exodus_extension(const char *path)
 {
     static const char *const endings[] = {".exo", ".e", ".ex2", ".exii", ".g", ".gen"};
     const char *point = strrchr(path, '.');
@@ -53,12 +53,12 @@ static status arrays_open(struct exodus_file *f)
  * are not those of a mesh. */
 static status counts_read(struct exodus_file *f)
 {
-    const int64_t dim = exodus_read_dimension(f, "num_dim", 0);
-    f->nodes = exodus_read_dimension(f, "num_nodes", 0);
-    f->blocks = exodus_read_dimension(f, "num_el_blk", 0);
-    f->node_sets = exodus_read_dimension(f, "num_node_sets", 0);
-    f->side_sets = exodus_read_dimension(f, "num_side_sets", 0);
-    f->element_sets = exodus_read_dimension(f, "num_elem_sets", 0);
+    const int64_t dim = exodus_read_dimension_length(f, "num_dim", 0);
+    f->nodes = exodus_read_dimension_length(f, "num_nodes", 0);
+    f->blocks = exodus_read_dimension_length(f, "num_el_blk", 0);
+    f->node_sets = exodus_read_dimension_length(f, "num_node_sets", 0);
+    f->side_sets = exodus_read_dimension_length(f, "num_side_sets", 0);
+    f->element_sets = exodus_read_dimension_length(f, "num_elem_sets", 0);
     f->dim = (int)dim;
     if (dim >= 1 && dim <= DIM_MAX && f->nodes >= 1) return OK;
     return exodus_report_fault(
@@ -68,7 +68,7 @@ static status counts_read(struct exodus_file *f)
         (long long)dim, (long long)f->nodes);
 }
 
-status exodus_open(struct exodus_file *f, const char *path, const char *content, int64_t length)
+status exodus_open_from_memory(struct exodus_file *f, const char *path, const char *content, int64_t length)
 {
     *f = (struct exodus_file){.path = path, .text = (const uint8_t *)content, .length = length, .hdf5 = -1};
     status s = arrays_open(f);
@@ -77,11 +77,11 @@ status exodus_open(struct exodus_file *f, const char *path, const char *content,
     return s;
 }
 
-status exodus_open_path(struct exodus_file *f, const char *path)
+status exodus_open_from_path(struct exodus_file *f, const char *path)
 {
     struct source s;
     TRY(source_open(&s, path));
-    const status opened = exodus_open(f, path, s.text, s.length);
+    const status opened = exodus_open_from_memory(f, path, s.text, s.length);
     if (opened == OK)
         f->owned = s.text;
     else
@@ -109,10 +109,10 @@ static void name_numbered(char *text, const char *name, int64_t number)
         snprintf(text, NAME_MAX_LENGTH, "%s", name);
 }
 
-int64_t exodus_read_dimension(const struct exodus_file *f, const char *name, int64_t number)
+int64_t exodus_read_dimension_length(const struct exodus_file *f, const char *name, int64_t name_suffix)
 {
     char called[NAME_MAX_LENGTH];
-    name_numbered(called, name, number);
+    name_numbered(called, name, name_suffix);
     if (f->hdf5 >= 0) return exodus_hdf5_dimension(f, called);
     for (int64_t k = 0; k < f->dimensions; k++)
         if (strcmp(f->dimension[k].name, called) == 0) return f->dimension[k].length;
@@ -131,11 +131,11 @@ static bool array_find(const struct exodus_file *f, const char *name, struct exo
     return false;
 }
 
-bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t number)
+bool exodus_has_array(const struct exodus_file *f, const char *name, int64_t name_suffix)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
-    name_numbered(called, name, number);
+    name_numbered(called, name, name_suffix);
     return array_find(f, called, &a);
 }
 
@@ -185,15 +185,16 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     return OK;
 }
 
-status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t number, int64_t count, real **value)
+status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
+                         real **value)
 {
-    return array_read(f, name, number, count, value, NULL);
+    return array_read(f, name, name_suffix, count, value, NULL);
 }
 
-status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t number, int64_t count,
+status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                             int64_t **value)
 {
-    return array_read(f, name, number, count, NULL, value);
+    return array_read(f, name, name_suffix, count, NULL, value);
 }
 
 status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
@@ -213,13 +214,13 @@ status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
     return OK;
 }
 
-void exodus_read_name(const struct exodus_file *f, const char *name, int64_t number, int64_t row, int64_t rows,
-                      char *text)
+void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t row, int64_t rows,
+                          char *text)
 {
     char called[NAME_MAX_LENGTH], *all = NULL;
     struct exodus_array a;
     text[0] = '\0';
-    name_numbered(called, name, number);
+    name_numbered(called, name, name_suffix);
     if (!array_find(f, called, &a) || a.type != EXODUS_CHAR || a.extent[0] != rows) return;
     const int64_t length = a.extent[1];
     const char *from = f->hdf5 < 0 ? (const char *)f->text + a.at + row * length : NULL;
@@ -229,21 +230,21 @@ void exodus_read_name(const struct exodus_file *f, const char *name, int64_t num
     }
     if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
     memory_free(all);
-    exodus_text_clean(text);
+    exodus_text_make_printable(text);
 }
 
-status exodus_read_block_header(const struct exodus_file *f, int64_t number, char *type, int64_t *elements,
+status exodus_read_block_header(const struct exodus_file *f, int64_t block_number, char *type, int64_t *elements,
                                 int64_t *nodes_per_element)
 {
     char called[NAME_MAX_LENGTH];
     struct exodus_array a;
-    name_numbered(called, "connect", number);
+    name_numbered(called, "connect", block_number);
     if (!array_find(f, called, &a) || a.type == EXODUS_CHAR)
         return exodus_report_fault(f, "block %lld has no list of nodes %s; blocks of elements with nodes are expected",
-                                   (long long)number, called);
+                                   (long long)block_number, called);
     if (!a.elements[0])
         return exodus_report_fault(f, "block %lld does not name the type of its elements (attribute elem_type of %s)",
-                                   (long long)number, called);
+                                   (long long)block_number, called);
     *elements = a.extent[0], *nodes_per_element = a.extent[1];
     memcpy(type, a.elements, NAME_MAX_LENGTH);
     for (char *c = type; *c; c++) *c = (char)toupper((unsigned char)*c);

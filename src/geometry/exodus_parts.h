@@ -35,10 +35,10 @@ struct exodus_array {
 };
 
 /* Removes the blanks at the end of `text`, a text read from the file, and replaces its control characters by `?`. */
-static inline void exodus_text_clean(char *text)
+static inline void exodus_text_make_printable(char *text)
 {
     for (size_t end = strlen(text); end > 0 && text[end - 1] == ' '; end--) text[end - 1] = '\0';
-    text_replace_controls(text);
+    text_replace_control_characters(text);
 }
 
 /* Reads the header of a file of the classic netCDF format into f: its dimensions and arrays. Arrays over time and

@@ -24,7 +24,7 @@ static const struct format *format_of(const char *path)
     const size_t length = strlen(path);
     for (size_t k = 0; k < COUNT_OF(formats); k++)
         if (length > 4 && strcasecmp(path + length - 4, formats[k].ending) == 0) return &formats[k];
-    return is_exodus_name(path) ? &exodus : NULL;
+    return path_has_exodus_extension(path) ? &exodus : NULL;
 }
 
 /* Returns REFUSED if all faces of a surface in 3D lie in one plane x, y or z = const to 1e-6 of their extent, as in a
@@ -58,7 +58,7 @@ static status check_closed(const struct hull *s, const char *path)
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
     TRY(check_not_plane(s, path));
-    const real doubt = s->open_edges > 0 ? hull_ambiguous_fraction(s) : 0;
+    const real doubt = s->open_edges > 0 ? hull_ambiguous_inside_fraction(s) : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "

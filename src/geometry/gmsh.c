@@ -176,7 +176,7 @@ static status names_read(struct gmsh *g)
 {
     int64_t n;
     TRY(source_read_integer(g->s, "number of names", &n));
-    TRY(source_check_count(g->s, "names", n, 4));
+    TRY(source_check_count_fits_file(g->s, "names", n, 4));
     if (n > ELEMENT_SETS_MAX) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
@@ -206,14 +206,14 @@ static status entity_read(struct gmsh *g, int64_t dim)
     TRY(source_read_int32(g->s, "tag of an entity", &tag));
     for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(source_read_real(g->s, "coordinate", &box));
     TRY(source_read_int64(g->s, "number of groups", &groups));
-    TRY(source_check_count(g->s, "groups", groups, 2));
+    TRY(source_check_count_fits_file(g->s, "groups", groups, 2));
     for (int64_t k = 0; k < groups; k++) {
         TRY(source_read_int32(g->s, "tag of a group", &group));
         entity_group_add(g, entity_key(dim, tag), group < 0 ? -group : group);
     }
     if (dim == 0) return OK;
     TRY(source_read_int64(g->s, "number of bounding entities", &bounds));
-    TRY(source_check_count(g->s, "bounding entities", bounds, 2));
+    TRY(source_check_count_fits_file(g->s, "bounding entities", bounds, 2));
     for (int64_t k = 0; k < bounds; k++) TRY(source_read_int32(g->s, "tag of an entity", &tag));
     return OK;
 }
@@ -225,7 +225,7 @@ static status entities_read(struct gmsh *g)
     int64_t n[1 + DIM_MAX];
     for (int d = 0; d <= DIM_MAX; d++) TRY(source_read_int64(g->s, "number of entities", &n[d]));
     for (int d = 0; d <= DIM_MAX; d++) {
-        TRY(source_check_count(g->s, "entities", n[d], 8));
+        TRY(source_check_count_fits_file(g->s, "entities", n[d], 8));
         for (int64_t k = 0; k < n[d]; k++) TRY(entity_read(g, d));
     }
     label_map_free(&g->of_entity);
@@ -244,7 +244,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     TRY(source_read_integer(g->s, what, n));
     source_next_line(g->s);
     g->s->binary = g->bytes;
-    return source_check_count(g->s, what, *n, bytes);
+    return source_check_count_fits_file(g->s, what, *n, bytes);
 }
 
 /* Reads the section of nodes of a file in format 2.2 into the mesh. Returns REFUSED if it is malformed or a label
@@ -268,7 +268,7 @@ static status old_nodes(struct gmsh *g)
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
-    TRY(source_check_count(g->s, "tags", tags, 2));
+    TRY(source_check_count_fits_file(g->s, "tags", tags, 2));
     for (int64_t k = 0; k < tags; k++) TRY(source_read_int32(g->s, "tag", k == 0 ? &group : &tag));
     TRY(element_next(g, type, label));
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
@@ -288,7 +288,7 @@ static status old_elements(struct gmsh *g)
         TRY(source_read_int32(g->s, "number of tags", &tags));
         TRY(type_of(g->s, number, &type));
         if (block < 1) return source_report_fault(g->s, "a block of %lld elements", (long long)block);
-        TRY(source_check_count(g->s, "elements", block, g->bytes ? 8 : 2));
+        TRY(source_check_count_fits_file(g->s, "elements", block, g->bytes ? 8 : 2));
         for (int64_t e = 0; e < block; e++) {
             if (g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
             TRY(old_element(g, type, label, tags));
@@ -306,7 +306,7 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
     int64_t skipped;
     TRY(source_read_int64(g->s, "number of blocks", blocks));
     for (int k = 0; k < 3; k++) TRY(source_read_int64(g->s, what, &skipped));
-    return source_check_count(g->s, "blocks", *blocks, 8);
+    return source_check_count_fits_file(g->s, "blocks", *blocks, 8);
 }
 
 /* Reads a block of nodes in format 4.1: their labels, then their coordinates. Each node may have parameters on its
@@ -318,7 +318,7 @@ static status new_node_block(struct gmsh *g)
     TRY(source_read_int32(g->s, "tag of an entity", &tag));
     TRY(source_read_int32(g->s, "parametric", &parametric));
     TRY(source_read_int64(g->s, "number of nodes", &n));
-    TRY(source_check_count(g->s, "nodes", n, 8));
+    TRY(source_check_count_fits_file(g->s, "nodes", n, 8));
     if (dim < 0 || dim > 3)
         return source_report_fault(g->s, "a block of $Nodes has the dimension %lld; 0 to 3 is expected",
                                    (long long)dim);
@@ -356,7 +356,7 @@ static status new_element_block(struct gmsh *g)
     TRY(source_read_int32(g->s, "type of an element", &number));
     TRY(source_read_int64(g->s, "number of elements", &n));
     TRY(type_of(g->s, number, &type));
-    TRY(source_check_count(g->s, "elements", n, 4));
+    TRY(source_check_count_fits_file(g->s, "elements", n, 4));
     const int64_t key = entity_key(dim, tag), link = label_map_find(&g->of_entity, key), first = g->m->elements;
     for (int64_t k = 0; k < n; k++) {
         TRY(source_read_int64(g->s, "number of an element", &label));

@@ -72,8 +72,8 @@ static void rows_flip(struct pages *p)
         }
 }
 
-status image_read(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
-                  const real *lower_corner)
+status image_read_voxels(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
+                         const real *lower_corner)
 {
     struct pages p = {0};
     const status result = files_read(&p, files, path, dim);

@@ -79,7 +79,7 @@ status png_read_pages(struct pages *p, struct source *s)
         png_set_chunk_malloc_max(png, 1 << 24);
         result = page_read(png, info, p, s, &rows, &bytes);
     } else {
-        text_replace_controls(what);
+        text_replace_control_characters(what);
         result = status_set(REFUSED, "%s: no whole PNG: %s", s->path, what);
     }
     memory_free((void *)rows);

@@ -48,7 +48,7 @@ status source_report_fault(const struct source *s, const char *format, ...)
     va_start(more, format);
     vsnprintf(what, sizeof what, format, more);
     va_end(more);
-    text_replace_controls(what);
+    text_replace_control_characters(what);
     if (s->binary) return status_set(REFUSED, "%s: %s", s->path, what);
     for (int64_t k = 0; k < s->at && k < s->length; k++) line += s->text[k] == '\n';
     return status_set(REFUSED, "%s:%lld: %s", s->path, (long long)line, what);
@@ -96,43 +96,43 @@ static status bytes_take(struct source *s, const char *what, void *value, int64_
     return OK;
 }
 
-status source_read_real(struct source *s, const char *what, real *value)
+status source_read_real(struct source *s, const char *quantity, real *value)
 {
-    if (!s->binary) return text_real(s, what, value);
-    TRY(bytes_take(s, what, value, sizeof *value));
-    return isfinite(*value) ? OK : source_report_fault(s, "%s is not finite", what);
+    if (!s->binary) return text_real(s, quantity, value);
+    TRY(bytes_take(s, quantity, value, sizeof *value));
+    return isfinite(*value) ? OK : source_report_fault(s, "%s is not finite", quantity);
 }
 
-status source_read_integer(struct source *s, const char *what, int64_t *value)
+status source_read_integer(struct source *s, const char *quantity, int64_t *value)
 {
     real number = 0;
-    TRY(text_real(s, what, &number));
+    TRY(text_real(s, quantity, &number));
     if (number != floor(number) || fabs(number) > 9e15)
-        return source_report_fault(s, "%s is %.17g; a whole number is expected", what, number);
+        return source_report_fault(s, "%s is %.17g; a whole number is expected", quantity, number);
     *value = (int64_t)number;
     return OK;
 }
 
-status source_read_int32(struct source *s, const char *what, int64_t *value)
+status source_read_int32(struct source *s, const char *quantity, int64_t *value)
 {
     int32_t number = 0;
-    if (!s->binary) return source_read_integer(s, what, value);
-    TRY(bytes_take(s, what, &number, sizeof number));
+    if (!s->binary) return source_read_integer(s, quantity, value);
+    TRY(bytes_take(s, quantity, &number, sizeof number));
     *value = number;
     return OK;
 }
 
-status source_read_int64(struct source *s, const char *what, int64_t *value)
+status source_read_int64(struct source *s, const char *quantity, int64_t *value)
 {
-    return s->binary ? bytes_take(s, what, value, sizeof *value) : source_read_integer(s, what, value);
+    return s->binary ? bytes_take(s, quantity, value, sizeof *value) : source_read_integer(s, quantity, value);
 }
 
-status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes)
+status source_check_count_fits_file(const struct source *s, const char *items, int64_t count, int64_t bytes)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
     return source_report_fault(
         s, "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
-        (long long)count, what);
+        (long long)count, items);
 }
 
 void source_next_line(struct source *s)

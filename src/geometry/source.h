@@ -29,26 +29,26 @@ bool source_skip_blanks(struct source *s);
  * "" at the end of the file. */
 void source_read_word(struct source *s, char *word, size_t capacity);
 
-/* Reads the next number of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
+/* Reads the next number of the file s into *value: a word of text, or 8 bytes of a binary file. quantity: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not finite. */
-status source_read_real(struct source *s, const char *what, real *value);
+status source_read_real(struct source *s, const char *quantity, real *value);
 
-/* Reads the next word of the text file s as an integer into *value. what: name of the number, for the message. Returns
- * REFUSED, with a message, if it is missing or not an integer. */
-status source_read_integer(struct source *s, const char *what, int64_t *value);
+/* Reads the next word of the text file s as an integer into *value. quantity: name of the number, for the message.
+ * Returns REFUSED, with a message, if it is missing or not an integer. */
+status source_read_integer(struct source *s, const char *quantity, int64_t *value);
 
-/* Reads the next integer of the file s into *value: a word of text, or 4 bytes of a binary file. what: name of the
+/* Reads the next integer of the file s into *value: a word of text, or 4 bytes of a binary file. quantity: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
-status source_read_int32(struct source *s, const char *what, int64_t *value);
+status source_read_int32(struct source *s, const char *quantity, int64_t *value);
 
-/* Reads the next integer of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
+/* Reads the next integer of the file s into *value: a word of text, or 8 bytes of a binary file. quantity: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
-status source_read_int64(struct source *s, const char *what, int64_t *value);
+status source_read_int64(struct source *s, const char *quantity, int64_t *value);
 
 /* Checks that `count` items of at least `bytes` bytes each can follow in the file s, before memory is allocated for
- * them. what: name of the items, for the message. Returns REFUSED, with a message, if the rest of the file is
+ * them. items: name of the items, for the message. Returns REFUSED, with a message, if the rest of the file is
  * shorter. */
-status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes);
+status source_check_count_fits_file(const struct source *s, const char *items, int64_t count, int64_t bytes);
 
 /* Moves the reading position of s to the beginning of the next line. */
 void source_next_line(struct source *s);

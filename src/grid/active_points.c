@@ -15,9 +15,10 @@ static bool active_points_is_inactive(const struct loads *l, const struct partic
 {
     const int dim = p->dim;
     bool inactive = !particle_is_loaded(l, i) && (!b->row_of || b->row_of[i] < 0);
-    for (int d = 0; d < dim && inactive; d++) inactive = bits_equal(p->v[d][i], 0) && p->f[d][i] == 0;
-    for (int c = 0; c < dim * (dim + 1) / 2 && inactive; c++) inactive = bits_equal(p->stress[c][i], 0);
-    for (int c = 0; has_gradient && c < dim * dim && inactive; c++) inactive = bits_equal(p->gradient[c][i], 0);
+    for (int d = 0; d < dim && inactive; d++) inactive = reals_are_bitwise_equal(p->v[d][i], 0) && p->f[d][i] == 0;
+    for (int c = 0; c < dim * (dim + 1) / 2 && inactive; c++) inactive = reals_are_bitwise_equal(p->stress[c][i], 0);
+    for (int c = 0; has_gradient && c < dim * dim && inactive; c++)
+        inactive = reals_are_bitwise_equal(p->gradient[c][i], 0);
     return inactive;
 }
 

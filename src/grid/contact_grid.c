@@ -184,7 +184,8 @@ void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, cons
         }
 }
 
-void grid_contact_find_nodes(struct grid_contact *c, const struct grid_contact_side *side, const struct particles *p)
+void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_contact_side *side,
+                                    const struct particles *p)
 {
     c->nodes = 0;
     for (int a = 0; a < c->sides; a++)

@@ -23,7 +23,7 @@ static void warn_of_mirrors(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_fits_grid(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
+            !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
             warnings_add(to,
                          "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
                          "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",

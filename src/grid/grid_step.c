@@ -134,7 +134,7 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     struct grid_contact_side *side = NEW("engine.sides", mpm->fields, struct grid_contact_side);
     for (int k = 0; k < mpm->fields; k++)
         grid_contact_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
-    grid_contact_find_nodes(&mpm->contact, side, part);
+    grid_contact_find_shared_nodes(&mpm->contact, side, part);
     return side;
 }
 

@@ -14,7 +14,7 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
         for (int d = 0; d < p->dim; d++)
-            if (!bits_equal(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
+            if (!reals_are_bitwise_equal(p->x[d][b->particle[row]], p->X[d][b->particle[row]])) return true;
     return false;
 }
 
@@ -27,7 +27,7 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
         const int32_t i = b->particle[row];
         if (particle_is_loaded(l, i) || particle_moves_with_nodes(p, i)) return false;
         for (int d = 0; d < p->dim; d++)
-            if (!bits_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
+            if (!reals_are_bitwise_equal(p->v[d][i], 0) || p->f[d][i] != 0) return false;
     }
     return !has_moved(b, p, row_block);
 }
@@ -129,8 +129,8 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
     active_set_rebuild_list(&b->active);
 }
 
-void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
-                          int64_t n)
+void active_rows_activate_particles(struct bonds *b, const struct particles *p, const struct loads *l,
+                                    const int32_t *list, int64_t n)
 {
     bool any = false;
     if (!b->active.is_current) return;

@@ -178,7 +178,7 @@ static void displacement_update(struct load *load, const struct particles *p, co
     }
 }
 
-void loads_complete_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -186,7 +186,7 @@ void loads_complete_particle_forces(struct loads *l, struct particles *p, real t
         memset(load->reaction, 0, sizeof load->reaction);
         load->held_work = 0;
     }
-    loads_add_forces(l, p, t, dt_velocity);
+    loads_add_applied_forces(l, p, t, dt_velocity);
     loads_add_dashpot_forces(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) { /* after all forces, which reactions include */
         struct load *load = &l->load[c];
@@ -276,7 +276,7 @@ bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t
         velocities_set(l, load, p, &by);
         if (load->boundary->displaces) moved = positions_set(load, p, &by, l->spacing) || moved;
     }
-    loads_add_work(l, p, t, dt);
+    loads_add_work_of_applied_forces(l, p, t, dt);
     return moved;
 }
 

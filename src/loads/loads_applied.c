@@ -198,7 +198,7 @@ static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 /* Adds the applied forces at time t [s] to their particles, and their impulses over dt_velocity [s] to l->impulse.
  * The impulse of a step is summed before it is added to that of all steps, so that round-off grows with the number
  * of steps alone. */
-void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
+void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
@@ -225,7 +225,7 @@ static real drift_factor(const struct time_function *f, real t, real dt)
            0.25 * (time_function_value(f, real_max(0, t - dt)) + time_function_value(f, t + dt));
 }
 
-void loads_add_work(struct loads *l, struct particles *p, real t, real dt)
+void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real t, real dt)
 {
     real factor[BOUNDARIES_MAX], done;
     struct push a;

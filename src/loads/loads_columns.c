@@ -369,8 +369,8 @@ void face_visit_surface_particles(const struct boundary *b, const struct particl
     }
 }
 
-void exposed_face_make(struct exposed_face *f, const struct boundary *b, const struct particles *p,
-                       const uint8_t *selected, real spacing, bool extrapolate)
+void exposed_face_compute_areas(struct exposed_face *f, const struct boundary *b, const struct particles *p,
+                                const uint8_t *selected, real spacing, bool extrapolate)
 {
     *f = (struct exposed_face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
     for (struct faced of = {0}; faced_next(&of, b, p, selected, spacing);)

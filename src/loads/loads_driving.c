@@ -80,9 +80,9 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
     return s;
 }
 
-struct prescribed_motion loads_prescribed_motion(const struct loads *l, int number, int dim, real t, real dt)
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt)
 {
-    const struct boundary *b = l->load[number].boundary;
+    const struct boundary *b = l->load[boundary_number].boundary;
     return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
@@ -228,23 +228,25 @@ real load_largest_velocity_change(const struct load *l, const struct particles *
     return most;
 }
 
-real loads_largest_velocity_difference(const struct load *a, const struct load *b, const struct particles *p,
-                                       real t_end)
+real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
+                                       const struct particles *p, real t_end)
 {
-    const unsigned both = a->boundary->components & b->boundary->components;
+    const unsigned both = load->boundary->components & other_load->boundary->components;
     real most = 0;
-    if (both == 0 || a->n == 0 || b->n == 0) return 0;
-    if (boundary_motion_varies_in_space(a->boundary) || boundary_motion_varies_in_space(b->boundary)) return INFINITY;
+    if (both == 0 || load->n == 0 || other_load->n == 0) return 0;
+    if (boundary_motion_varies_in_space(load->boundary) || boundary_motion_varies_in_space(other_load->boundary))
+        return INFINITY;
     for (int m = 0; m < MOMENTS; m++) {
         const real at = t_end * m / (MOMENTS - 1), dt = t_end / MOMENTS;
-        const struct prescribed_motion by[] = {prescribed_motion_make(a->boundary, p->dim, at, dt),
-                                               prescribed_motion_make(b->boundary, p->dim, at, dt)};
+        const struct prescribed_motion by[] = {prescribed_motion_make(load->boundary, p->dim, at, dt),
+                                               prescribed_motion_make(other_load->boundary, p->dim, at, dt)};
         real X[2][DIM_MAX], apart2 = 0;
-        particle_reference_position(p, a->particle[0], X[0]), particle_reference_position(p, b->particle[0], X[1]);
+        particle_reference_position(p, load->particle[0], X[0]),
+            particle_reference_position(p, other_load->particle[0], X[1]);
         for (int d = 0; d < p->dim; d++)
             if (both >> d & 1)
-                apart2 += square(prescribed_velocity_at(&by[0], X[0], d, false) - p->v[d][a->particle[0]] -
-                                 prescribed_velocity_at(&by[1], X[1], d, false) + p->v[d][b->particle[0]]);
+                apart2 += square(prescribed_velocity_at(&by[0], X[0], d, false) - p->v[d][load->particle[0]] -
+                                 prescribed_velocity_at(&by[1], X[1], d, false) + p->v[d][other_load->particle[0]]);
         most = real_max(most, sqrt(apart2));
     }
     return most;

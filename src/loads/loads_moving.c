@@ -85,7 +85,7 @@ status load_prepare_varying_shares(struct load *l, const struct particles *p)
 void load_varying_shares_free(struct load *l)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
-    surface_free(l->surface);
+    load_surface_free(l->surface);
 }
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
@@ -113,7 +113,7 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     for (int b = 0; b < l->n; b++) {
         struct load *load = &l->load[b];
         if (!load->moving) continue;
-        if (load->surface) surface_compute_area_vectors(load->surface, p, load->base);
+        if (load->surface) load_surface_compute_area_vectors(load->surface, p, load->base);
         for (int d = 0; d < p->dim; d++)
             if (load->boundary->value[d] != 0) moving_shares(load, p, d, t, dt, half);
     }

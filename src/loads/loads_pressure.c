@@ -46,10 +46,11 @@ static void end_found(void *context, int32_t i, real area)
     if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
-                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context)
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int boundary_number,
+                          const struct particles *p, real spacing, const uint8_t *selected, pressure_face_fn *visit,
+                          void *context)
 {
-    struct boundary one = boundary[number];
+    struct boundary one = boundary[boundary_number];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
             struct ends e = {&one, boundary, boundaries, p, spacing, visit, context};
@@ -102,10 +103,10 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     return l->n > 0;
 }
 
-status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int number,
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing)
 {
-    const struct boundary *b = &boundary[number];
+    const struct boundary *b = &boundary[boundary_number];
     const bool follows = b->follow && p->dim > 1; /* in 1D there is nothing to follow */
     real *area[DIM_MAX] = {NULL};
     struct surface_faces faces = {0};
@@ -115,7 +116,7 @@ status load_find_pressure_faces(struct load *l, const struct boundary *boundary,
     const bool any = load_mark_particles_in_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
-    if (any) pressure_visit_faces(boundary, boundaries, number, p, spacing, selected, face_pressed, &pressed);
+    if (any) pressure_visit_faces(boundary, boundaries, boundary_number, p, spacing, selected, face_pressed, &pressed);
     if (!any)
         s = status_set(REFUSED, "boundary %s: no particle is in its region; %s: check the region and its unit (mm?)",
                        b->name, particles_extent_text(p).text);

@@ -80,7 +80,7 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
 {
     struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    exposed_face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
+    exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.normal[i] != 0 || face.along[i] != 0;
     load_set_particles(l, chosen, p);
     for (int64_t k = 0; k < l->n; k++)
@@ -97,7 +97,7 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
 {
     struct exposed_face face;
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
-    exposed_face_make(&face, l->boundary, p, selected, spacing, true);
+    exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, true);
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.along[i] != 0;
     load_set_particles(l, chosen, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);

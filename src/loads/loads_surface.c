@@ -379,7 +379,7 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     a->x = NEW("loads.corner_x", a->corners * a->dim, real);
     a->area = NEW("loads.corner_area", a->corners * a->dim, real);
     a->face_area = NEW("loads.face_area", a->faces * FACE_CORNERS * a->dim, real);
-    surface_compute_area_vectors(a, p, l->share);
+    load_surface_compute_area_vectors(a, p, l->share);
     memory_free(chosen);
     memory_free(all);
 }
@@ -407,7 +407,7 @@ status load_surface_make(struct load *l, const struct surface_faces *faces, cons
     return made;
 }
 
-void surface_free(struct surface *s)
+void load_surface_free(struct surface *s)
 {
     if (!s) return;
     memory_free(s->corner), memory_free(s->sign), memory_free(s->first), memory_free(s->face_first);
@@ -514,7 +514,7 @@ static real particle_surface_area(const struct surface *s, int64_t k, int d)
 }
 
 /* Computes the inward areas of all particles of the load, area[dim][s->particles] [m^2], in any number of threads. */
-void surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area)
+void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;
     TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_place(s, p, c););

@@ -21,15 +21,15 @@ struct surface_faces {
  * faces the particles of load l, and stores their areas in the reference state as shares. all_boundaries: the boundary
  * conditions of the scene, `boundaries` in number, including mirrors; spacing: lattice spacing [m]. Returns REFUSED,
  * with a message, if a body is not a lattice, or a mirror plane is not midway between two lattice sites. Release with
- * surface_free. */
+ * load_surface_free. */
 status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all_boundaries,
                          int boundaries, struct particles *p, real spacing);
 
 /* Computes the area vectors, pointing into the body, that belong to the particles of the load, from the present
  * particle positions. area: [dim][number of particles of the load] [m^2]. */
-void surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
+void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
 /* Releases all arrays of the surface s and s itself. */
-void surface_free(struct surface *s);
+void load_surface_free(struct surface *s);
 
 #endif

@@ -30,7 +30,7 @@ static bool node_constrained(const struct load *load, const struct grid *g, cons
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing)
+bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing)
 {
     const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
@@ -47,7 +47,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     const real away = b->at - grid_node_position(g, b->axis, k[b->axis]);
     if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
-    if (!mirror_fits_grid(b, g, spacing) || whole < -4 || whole > 4) return false;
+    if (!mirror_plane_fits_grid_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
     for (int d = 0; d < DIM_MAX; d++)
         if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
@@ -90,7 +90,7 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
  * the position of their regular node. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
-    const int64_t at = mesh ? mesh_regular_node_of(mesh, I) : I;
+    const int64_t at = mesh ? mesh_regular_node_of_doubled_node(mesh, I) : I;
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
@@ -118,7 +118,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         const bool behind = mesh && I >= mesh->slits.first;
-        if (behind && mesh_regular_node_of(mesh, I) == I) continue; /* unused index */
+        if (behind && mesh_regular_node_of_doubled_node(mesh, I) == I) continue; /* unused index */
         if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
@@ -226,7 +226,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
                 (region && node_constrained(load, g, x, LOADS_TOLERANCE * l->spacing, d)))
                 continue;
             const struct wall wall = wall_at(by, I, x, d, which, false);
-            grid_add_wall(g, &wall);
+            grid_add_prescribed_velocity(g, &wall);
         }
     }
 }
@@ -262,7 +262,7 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
             node_at(g, mesh, h->node, x);
             wall = wall_at(motion, h->node, x, h->component, h->load, reference);
         }
-        grid_add_wall(g, &wall);
+        grid_add_prescribed_velocity(g, &wall);
     }
 }
 

@@ -76,7 +76,7 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
         for (int64_t I = nodes_first(mesh, block); I < nodes_end(mesh, block); I++)
-            if (!bits_equal(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
+            if (!reals_are_bitwise_equal(mesh->grid.velocity[d][I], 0) || mesh->grid.force[d][I] != 0) return false;
     return !nodes_moved(mesh, block);
 }
 

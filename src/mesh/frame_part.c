@@ -98,8 +98,8 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
     return cell;
 }
 
-void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                               struct loads *loads)
+void reference_frame_find_exposed_points(struct reference_frame *r, const struct particles *p,
+                                         const struct bonds *bonds, struct loads *loads)
 {
     mesh_find_exposed_points(&r->mesh, p, bonds, loads);
     loads_find_driven_mesh_nodes(loads, &r->mesh, p);
@@ -124,8 +124,8 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
-    frame_levels_find_limits(r, e->scene, e->part.n_body);
-    frame_find_exposed_points(r, &e->part, &e->bonds, &e->loads);
+    mesh_levels_find_highest_allowed(r, e->scene, e->part.n_body);
+    reference_frame_find_exposed_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -146,13 +146,13 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* Updates the positions of the exposed points from the nodes, and the strain at points with state-based bonds to
  * peridynamic particles. Exposed points are those whose motion is needed in every step, as they have bonds or loads. */
-void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
+void reference_frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
     mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step)
+void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step)
 {
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
@@ -183,8 +183,8 @@ static void nodes_react(struct loads *loads, struct reference_frame *frame, real
         loads_add_grid_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
-                      const struct run_clock *clock, real t_middle, real dt_velocity)
+void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
+                                const struct run_clock *clock, real t_middle, real dt_velocity)
 {
     const int due = levels_highest_due_in_step(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
@@ -195,11 +195,11 @@ void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loa
                    : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
     if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
-    frame_update_exposed_points(r, p);
+    reference_frame_update_exposed_points(r, p);
     if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
 }
 
-void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
     levels_prolong_motion_near_points(&r->levels);
@@ -207,41 +207,42 @@ void frame_update_point_motion(struct reference_frame *r, struct particles *p, c
     loads_update_mirror_images(loads, p);
 }
 
-void frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void reference_frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    frame_update_point_motion(r, p, loads);
+    reference_frame_update_point_motion(r, p, loads);
     mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
 }
 
-void frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
-                                const int32_t *list, int64_t n)
+void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
+                                          const int32_t *list, int64_t n)
 {
     if (r->mesh.points == 0) return;
     mesh_listed_move(&r->mesh, p, list, n);
     loads_update_mirror_images(loads, p);
 }
 
-bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
-                                   const struct partial_stress *partial, real *energy_lost)
+bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+                                             const struct partial_stress *partial, real *energy_lost)
 {
     if (r->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
     if (converted == 0 && mesh_update_partial_stiffness(&r->mesh, p, &r->source, partial->touched, partial->touches))
         return false;
-    *energy_lost += mesh_remove_converted(&r->mesh, p, &r->source, partial->touched, partial->touches);
+    *energy_lost +=
+        mesh_remove_points_and_return_lost_energy(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
-                         real *energy_lost)
+void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
+                                   real *energy_lost)
 {
     int32_t *own = NEW("engine.own", n, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
         if (r->mesh.place && r->choice[p->body[list[k]]].reference) own[m++] = list[k];
     if (m > 0) {
-        *energy_lost += mesh_insert_points(&r->mesh, p, own, m);
+        *energy_lost += mesh_insert_points_and_return_lost_energy(&r->mesh, p, own, m);
         active_nodes_activate_all(&r->mesh);
     }
     memory_free(own);

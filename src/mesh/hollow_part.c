@@ -53,7 +53,7 @@ const char *scene_why_all_particles_needed(const struct scene *s)
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    TRY(fill_lattice_site(s, 0, site));
+    TRY(fill_compute_lattice_site_position(s, 0, site));
     region_bounding_box(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
     grid_choose_anchor(s, from, site, true, box->anchor);

@@ -33,7 +33,7 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
         like.anchor[d] = grid_node_position(fine, d, l->offset[0][d]);
         to[d] = grid_node_position(fine, d, fine->count[d]);
     }
-    TRY(mesh_box_make(mesh, &like, like.anchor, to, NULL, NULL));
+    TRY(mesh_allocate_box(mesh, &like, like.anchor, to, NULL, NULL));
     for (int d = 0; d < fine->dim; d++) l->offset[level][d] = -mesh->grid.first[d];
     mesh->volume = l->fine->volume * (real)(1 << fine->dim * level);
     mesh->material = NEW("levels.material", mesh->grid.n, uint8_t);
@@ -119,7 +119,8 @@ int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int lev
         bool absent = false;
         if (mesh->kind[I] != CELL_WHOLE) continue;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !absent; part++)
-            absent = l->fine->absent[levels_fine_cell_of_part(l, level, levels_fine_node(l, level, k), part)];
+            absent =
+                l->fine->absent[levels_fine_cell_of_part(l, level, levels_fine_node_of_coarse_node(l, level, k), part)];
         if (absent && cell) cell[n] = I;
         n += absent;
     }
@@ -203,7 +204,7 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_update_after_level_change(l->fine, p, source, l->level);
-    levels_cells_make(l, p);
+    levels_compute_coarse_cell_data(l, p);
     levels_find_interfaces(l);
     levels_add_masses_of_dependent_nodes(l, false);
     levels_make_cell_runs(l);

@@ -9,7 +9,7 @@
 /* Makes the coarse cells from l->level, the level of each cell of level 0 (the finest): kind and material of the cells,
  * their number, and the masses of their nodes. Transfers no mass between levels; levels_add_masses_of_dependent_nodes
  * does that. */
-void levels_cells_make(struct mesh_levels *l, const struct particles *p)
+void levels_compute_coarse_cell_data(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
     const int corners = 1 << fine->grid.dim;
@@ -22,9 +22,9 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
     }
     for (int64_t I = 0; I < fine->grid.n; I++, grid_indices_advance(&fine->grid, k)) {
         const int level = l->level[I];
-        if (level == 0 || !levels_is_lowest_part(l, level, k)) continue;
+        if (level == 0 || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
         struct mesh *mesh = &l->at[level].mesh;
-        const int64_t J = levels_coarse_cell(l, level, k, NULL);
+        const int64_t J = levels_coarse_cell_of_fine_cell(l, level, k, NULL);
         mesh->kind[J] = CELL_WHOLE;
         mesh->material[J] = mesh_whole_cell_material(fine, p, I);
         for (int c = 0; c < corners; c++)

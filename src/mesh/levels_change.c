@@ -36,7 +36,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     if (corner < 0) return a;
     a.level = l->level[I - fine->corner[corner]];
     for (int d = 0; d < dim; d++) own[d] = k[d] - (corner >> d & 1);
-    a.cell = levels_coarse_cell(l, a.level, own, q);
+    a.cell = levels_coarse_cell_of_fine_cell(l, a.level, own, q);
     for (int d = 0; d < dim; d++)
         a.t[d] = (real)(k[d] - l->offset[0][d] - ((q[d] - l->offset[a.level][d]) << a.level)) / (real)(1 << a.level);
     return a;
@@ -90,10 +90,10 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
-void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all)
+void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
 {
     struct mesh *fine = l->fine;
-    if (all || !fine->absent) {
+    if (all_nodes || !fine->absent) {
 #pragma omp parallel for schedule(static)
         for (int64_t row = 0; row < fine->rows; row++) row_interpolate(l, row);
         return;
@@ -122,7 +122,7 @@ static void nodes_sample(struct mesh_levels *l)
         int64_t k[DIM_MAX] = {0};
         for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, k)) {
             const real mass = mesh->grid.mass[J];
-            const int64_t I = mass > 0 ? levels_fine_node(l, level, k) : 0;
+            const int64_t I = mass > 0 ? levels_fine_node_of_coarse_node(l, level, k) : 0;
             for (int d = 0; d < fine->grid.dim; d++) {
                 mesh->displacement[d][J] = mass > 0 ? fine->displacement[d][I] : 0;
                 mesh->grid.velocity[d][J] = mass > 0 ? fine->grid.velocity[d][I] : 0;
@@ -159,9 +159,10 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
         for (int c = 0; c < corners; c++) {
             int64_t at[DIM_MAX];
             for (int b = 0; b < DIM_MAX; b++) at[b] = b < dim ? q[b] + (c >> b & 1) : 0;
-            mean += velocity[levels_fine_node(l, level, at)] / corners;
+            mean += velocity[levels_fine_node_of_coarse_node(l, level, at)] / corners;
         }
-        const real missing = mass / corners * (cell_mean(l, level, levels_fine_node(l, level, q), velocity) - mean);
+        const real missing =
+            mass / corners * (cell_mean(l, level, levels_fine_node_of_coarse_node(l, level, q), velocity) - mean);
         for (int c = 0; c < corners; c++) mesh->grid.momentum[d][J + mesh->corner[c]] += missing;
     }
 }
@@ -175,7 +176,7 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
         int64_t q[DIM_MAX] = {0};
         for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, q)) {
             if (mesh->kind[J] != CELL_WHOLE) continue;
-            if (levels_any_part_is_finer(l, level, levels_fine_node(l, level, q), before))
+            if (levels_any_part_is_finer(l, level, levels_fine_node_of_coarse_node(l, level, q), before))
                 merged_correct(l, level, J, q);
         }
     }
@@ -261,7 +262,7 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
     for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
     array_copy(l->level, level, cells, 1);
     mesh_update_after_level_change(l->fine, p, source, dirty);
-    levels_cells_make(l, p);
+    levels_compute_coarse_cell_data(l, p);
     levels_find_interfaces(l);
     nodes_sample(l);
     merged_cells_correct(l, before);

@@ -110,16 +110,16 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 
 /* Computes r->room, the highest level that the thickness of the body allows in each cell, if scene s may have coarse
  * cells; otherwise r->room remains NULL. particles: number of particles of the body, including those not created. */
-void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles)
+void mesh_levels_find_highest_allowed(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
     if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particles < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most = mesh_compute_level_limits(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
+    r->room_most = mesh_compute_highest_cell_levels(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
-struct levels_choice frame_levels_choose_count(const struct reference_frame *r, const struct particles *p,
-                                               const struct scene *s, real dt_critical)
+struct levels_choice mesh_levels_choose_count(const struct reference_frame *r, const struct particles *p,
+                                              const struct scene *s, real dt_critical)
 {
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
                               .particles = p->n_body,
@@ -227,7 +227,7 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  edge, load, c->across, ACROSS);
 }
 
-void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
+void mesh_levels_describe_choice(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char why[600];
     automatic_text(c, s, why, sizeof why);
@@ -263,8 +263,8 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     return true;
 }
 
-bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                               char *reason, size_t capacity)
+bool mesh_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
+                              char *reason, size_t capacity)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;

@@ -118,7 +118,7 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     uint8_t *good = NEW("levels.good", g->n, uint8_t);
     bool *inside = NEW("levels.inside", g->n, bool);
     for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k))
-        if (l->fine->kind[I] != CELL_EMPTY) inside[levels_coarse_cell(l, level, k, NULL)] = true;
+        if (l->fine->kind[I] != CELL_EMPTY) inside[levels_coarse_cell_of_fine_cell(l, level, k, NULL)] = true;
     for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
         if (inside[I]) gather_parts(map, l, level, I, q);
     for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
@@ -140,7 +140,7 @@ void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struc
     for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k)) {
         admissible[I] = 0;
         while (map[0].ok[I] && admissible[I] < l->n &&
-               map[admissible[I] + 1].ok[levels_coarse_cell(l, admissible[I] + 1, k, NULL)])
+               map[admissible[I] + 1].ok[levels_coarse_cell_of_fine_cell(l, admissible[I] + 1, k, NULL)])
             admissible[I]++;
     }
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
@@ -155,7 +155,7 @@ bool levels_are_consistent(const struct mesh_levels *l)
         const int level = l->level[I];
         coarse += level > 0;
         sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
-        if (level == 0 || !sound || !levels_is_lowest_part(l, level, k)) continue;
+        if (level == 0 || !sound || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
             const int64_t J = levels_fine_cell_of_part(l, level, I, part);
             sound = J < g->n && l->level[J] == level &&
@@ -201,8 +201,9 @@ void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
     for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
-        const int parts =
-            level[I] > 0 && levels_is_lowest_part(l, level[I], k) ? levels_fine_cells_per_cell(l, level[I]) : 0;
+        const int parts = level[I] > 0 && levels_fine_cell_is_at_lower_corner(l, level[I], k)
+                              ? levels_fine_cells_per_cell(l, level[I])
+                              : 0;
         bool any = false;
         for (int part = 0; part < parts && !any; part++)
             any = mark[levels_fine_cell_of_part(l, level[I], I, part)] != 0;

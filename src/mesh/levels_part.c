@@ -219,18 +219,18 @@ static void next_levels(struct reference_frame *r, const struct particles *p, re
     struct mesh_levels *l = &r->levels;
     levels_compute_coarsest_admissible(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (frame_kinetic_energy(r) + frame_strain_energy(r, p)) / mass;
+    const real most = ROUGH * (reference_frame_kinetic_energy(r) + reference_frame_strain_energy(r, p)) / mass;
     levels_prolong_motion_to_fine_nodes(l);
     while (levels_forbid_lossy_coarsening(l, level, most, limit))
         levels_compute_coarsest_admissible(l, p, demand, limit, level);
 }
 
-void frame_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                                    struct loads *loads)
+void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                                   struct loads *loads)
 {
     struct mesh_levels *l = &r->levels;
     for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
-    frame_find_exposed_points(r, p, bonds, loads);
+    reference_frame_find_exposed_points(r, p, bonds, loads);
 }
 
 /* Changes the levels of cells to level[I]. The kinetic and strain energy that the change loses is added to e->damped,
@@ -241,20 +241,20 @@ static void change(struct run *e, const uint8_t *level)
     /* before the first step velocities and displacements are at the same time */
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;
     levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, dt);
-    const real before = frame_kinetic_energy(r) + frame_strain_energy(r, &e->part);
+    const real before = reference_frame_kinetic_energy(r) + reference_frame_strain_energy(r, &e->part);
     levels_change_refinement(&r->levels, &e->part, &r->source, level);
-    frame_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
-    e->damped += before - frame_kinetic_energy(r) - frame_strain_energy(r, &e->part);
+    mesh_levels_update_node_lists(r, &e->part, &e->bonds, &e->loads);
+    e->damped += before - reference_frame_kinetic_energy(r) - reference_frame_strain_energy(r, &e->part);
     levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
-status frame_levels_make(struct run *e, bool restored)
+status mesh_levels_make_coarse_cells(struct run *e, bool restored)
 {
     struct reference_frame *r = e->frame;
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    const struct levels_choice choice = frame_levels_choose_count(r, &e->part, s, e->clock.dt_critical);
+    const struct levels_choice choice = mesh_levels_choose_count(r, &e->part, s, e->clock.dt_critical);
     TRY(levels_make(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
@@ -337,13 +337,13 @@ static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
     array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
-bool frame_levels_may_change(const struct mesh_levels *l, int64_t step)
+bool mesh_levels_may_change(const struct mesh_levels *l, int64_t step)
 {
     return l->n > 0 && step > 0 && step % levels_steps_per_cycle(l) == 0;
 }
 
-uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                                  int64_t step, real mass)
+uint8_t *mesh_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                                 int64_t step, real mass)
 {
     struct mesh_levels *l = &r->levels;
     const bool checks = step % CHECK_STEPS == 0;
@@ -362,7 +362,7 @@ uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct partic
     return level;
 }
 
-void frame_levels_apply(struct run *e, const uint8_t *level)
+void mesh_levels_apply(struct run *e, const uint8_t *level)
 {
     struct mesh_levels *l = &e->frame->levels;
     if (!arrays_equal(level, l->level, l->fine->grid.n, 1)) change(e, level);
@@ -385,10 +385,10 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
+void mesh_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
 {
     l->returned = false;
-    if (l->n == 0 || !particles_are_flagged_for_conversion(p)) return;
+    if (l->n == 0 || !particles_any_is_flagged_for_conversion(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
         if (!(eight_bytes_as_word(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(l, p, i);
@@ -398,12 +398,12 @@ void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the kinetic energy of all nodes of the reference frame, over all levels [J]. */
-real frame_kinetic_energy(const struct reference_frame *reference)
+real reference_frame_kinetic_energy(const struct reference_frame *reference)
 {
     return mesh_kinetic(&reference->mesh) + levels_kinetic_energy(&reference->levels);
 }
 
-real frame_strain_energy(struct reference_frame *r, const struct particles *p)
+real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p)
 {
     return mesh_strain(&r->mesh, p, r->elastic, r->finite) + levels_strain_energy(&r->levels, p, r->elastic, r->finite);
 }

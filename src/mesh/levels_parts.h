@@ -22,8 +22,8 @@ static inline void grid_indices_advance(const struct grid *g, int64_t *index)
 /* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). fine_index:
  * indices of the cell of level 0 along the axes; coarse_index: receives the indices of the coarse cell along the axes,
  * NULL if not needed. */
-static inline int64_t levels_coarse_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
-                                         int64_t *coarse_index)
+static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
+                                                      int64_t *coarse_index)
 {
     const struct grid *g = &level_mesh_read_only(l, level)->grid;
     int64_t I = 0;
@@ -37,7 +37,8 @@ static inline int64_t levels_coarse_cell(const struct mesh_levels *l, int level,
 
 /* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`.
  * coarse_index: indices of this node along the axes. */
-static inline int64_t levels_fine_node(const struct mesh_levels *l, int level, const int64_t *coarse_index)
+static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *l, int level,
+                                                      const int64_t *coarse_index)
 {
     const struct grid *g = &l->fine->grid;
     int64_t I = 0;
@@ -48,7 +49,8 @@ static inline int64_t levels_fine_node(const struct mesh_levels *l, int level, c
 
 /* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of refinement level `level`
  * that contains it. fine_index: indices of the cell of level 0 along the axes. */
-static inline bool levels_is_lowest_part(const struct mesh_levels *l, int level, const int64_t *fine_index)
+static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels *l, int level,
+                                                       const int64_t *fine_index)
 {
     bool lowest = true;
     for (int d = 0; d < l->fine->grid.dim; d++)
@@ -62,24 +64,25 @@ static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int le
     return 1 << l->fine->grid.dim * level;
 }
 
-/* Returns the index of cell number `part` of those cells of level 0 (the finest) that form one cell of refinement level
- * `level`. first: index of the one at the lower corner. */
-static inline int64_t levels_fine_cell_of_part(const struct mesh_levels *l, int level, int64_t first, int part)
+/* Returns the index of cell number `cell_number` of those cells of level 0 (the finest) that form one cell of
+ * refinement level `level`. first_cell: index of the one at the lower corner. */
+static inline int64_t levels_fine_cell_of_part(const struct mesh_levels *l, int level, int64_t first_cell,
+                                               int cell_number)
 {
-    for (int d = 0; d < l->fine->grid.dim; d++, part >>= level)
-        first += (part & ((1 << level) - 1)) * l->fine->grid.stride[d];
-    return first;
+    for (int d = 0; d < l->fine->grid.dim; d++, cell_number >>= level)
+        first_cell += (cell_number & ((1 << level) - 1)) * l->fine->grid.stride[d];
+    return first_cell;
 }
 
 /* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
- * `cell_level`, an array with a level for each cell of level 0. first: index of the cell of level 0 at the lower
+ * `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0 at the lower
  * corner. */
-static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first,
+static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first_cell,
                                             const uint8_t *cell_level)
 {
     bool any = false;
     for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !any; part++)
-        any = cell_level[levels_fine_cell_of_part(l, level, first, part)] < level;
+        any = cell_level[levels_fine_cell_of_part(l, level, first_cell, part)] < level;
     return any;
 }
 
@@ -108,7 +111,7 @@ void levels_update_hanging(struct mesh_levels *l, int level);
 /* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
  * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
  * between levels follows in levels_add_masses_of_dependent_nodes. */
-void levels_cells_make(struct mesh_levels *l, const struct particles *p);
+void levels_compute_coarse_cell_data(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
  * hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose inertia is
@@ -125,8 +128,8 @@ void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta);
 void levels_make_cell_runs(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
- * cell of level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
-void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all);
+ * cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
+void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
 /* Computes grid.momentum of the nodes of coarse cells, their momentum divided by their mass [m/s], from their
  * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of

@@ -13,7 +13,7 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     const struct mesh *fine = l->fine;
     const int dim = fine->grid.dim, edge = 1 << level, side = edge + 1, corners = 1 << dim;
     const int nodes = dim == 1 ? side : dim == 2 ? side * side : side * side * side;
-    const int64_t first = levels_fine_node(l, level, q);
+    const int64_t first = levels_fine_node_of_coarse_node(l, level, q);
     const real stiff = l->wave_speed / (0.5 * level_mesh_read_only(l, level)->grid.h);
     real sum = 0, squares = 0;
     for (int node = 0; node < nodes; node++) {
@@ -48,10 +48,10 @@ bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
     bool any = false;
     for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
-        if (level[I] == 0 || !levels_is_lowest_part(l, level[I], k) ||
+        if (level[I] == 0 || !levels_fine_cell_is_at_lower_corner(l, level[I], k) ||
             !levels_any_part_is_finer(l, level[I], I, l->level))
             continue;
-        levels_coarse_cell(l, level[I], k, q);
+        levels_coarse_cell_of_fine_cell(l, level[I], k, q);
         if (!(departure(l, level[I], q) > max_energy)) continue;
         any = true;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level[I]); part++)

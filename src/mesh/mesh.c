@@ -27,7 +27,7 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i)
+int64_t mesh_cell_and_number_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
@@ -53,7 +53,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = mesh_slot_of_particle(mesh, p, i);
+        const int64_t place = mesh_cell_and_number_of_particle(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
                                "is not one of two particles per grid cell and direction, which require a lattice, "
@@ -79,7 +79,8 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     for (int c = (1 << dim) - 1; c >= 0; c--)
         for (int64_t cell = mesh_cell_with_corner_at_node(mesh, I, c); cell >= 0;
              cell = mesh_cell_next_slit_part(mesh, cell))
-            for (int q = 0; q < 1 << dim && mesh_cell_corner_node(mesh, cell, c) == I && !cell_is_coarse(mesh, cell);
+            for (int q = 0; q < 1 << dim && mesh_cell_corner_node(mesh, cell, c) == I &&
+                            !mesh_cell_is_part_of_coarse_cell(mesh, cell);
                  q++) {
                 const int32_t i = mesh->point[(cell << dim) + q];
                 if (i >= 0) mass += p->mass[i] * mesh_shape_function_value(dim, c, q);
@@ -121,7 +122,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     const int dim = p->dim;
     int there = 0;
     bool alike = !mesh_cell_corner_nodes_at_slit(mesh, I);
-    if (cell_is_coarse(mesh, I)) return CELL_COARSE;
+    if (mesh_cell_is_part_of_coarse_cell(mesh, I)) return CELL_COARSE;
     const int32_t *point = &mesh->point[I << dim];
     for (int q = 0; q < 1 << dim; q++) {
         if (point[q] < 0) continue;
@@ -197,7 +198,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial old = mesh_partial_detach_all(mesh);
+    struct mesh_partial old = mesh_partial_remove_all_cells(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -207,7 +208,7 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
     mesh_node_spans_make(mesh);
     cells_list(mesh, p);
-    mesh_partial_make(mesh, p, s, dirty, &old);
+    mesh_partial_compute_stiffness(mesh, p, s, dirty, &old);
 }
 
 void mesh_activate_blocks_at_cells(struct mesh *mesh)
@@ -234,7 +235,7 @@ static void nodes_weigh(struct mesh *mesh, const struct particles *p, const uint
 {
     uint8_t *changed = NEW("mesh.changed", mesh->grid.n, uint8_t);
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        for (int c = 0; c < 1 << p->dim && (dirty[I] || cell_is_coarse(mesh, I)); c++)
+        for (int c = 0; c < 1 << p->dim && (dirty[I] || mesh_cell_is_part_of_coarse_cell(mesh, I)); c++)
             changed[mesh_cell_corner_node(mesh, I, c)] = 1;
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < mesh->grid.n; I++)
@@ -254,8 +255,8 @@ void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p
 /* Allocates all arrays of a mesh that covers the box `lower` .. `upper` [m], without points or cells. node_grid:
  * dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes, NULL if there are no slits;
  * source: slits and voids. Returns FAILED, with a message, if the mesh has too many nodes. */
-status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
-                     const struct particles *p, const struct mesh_source *source)
+status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
+                         const struct particles *p, const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
     const int dim = node_grid->dim;
@@ -267,7 +268,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real
     TRY(grid_extend_box(g, lower, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
-    if (p) TRY(mesh_slits_make(mesh, p, source, lower, high));
+    if (p) TRY(mesh_slits_double_nodes(mesh, p, source, lower, high));
     for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
@@ -318,7 +319,7 @@ static status nodes_make(struct mesh *mesh, const struct particles *p, const str
     struct grid own = *like;
     own.dim = p->dim;
     for (int d = 0; d < p->dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
-    TRY(mesh_box_make(mesh, &own, from, to, p, source));
+    TRY(mesh_allocate_box(mesh, &own, from, to, p, source));
     mesh->point = NEW("mesh.point", mesh->grid.n << p->dim, int32_t);
     for (int64_t k = 0; k < mesh->grid.n << p->dim; k++) mesh->point[k] = -1;
     mesh->place = NEW("mesh.place", p->n, int32_t);
@@ -420,8 +421,8 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
     memory_free(done);
 }
 
-real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
-                           const int32_t *changed, int64_t n)
+real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
+                                               const int32_t *changed, int64_t n)
 {
     real energy = 0;
     if (!mesh->place) return 0;
@@ -455,7 +456,7 @@ bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p,
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_partial_recompute(mesh, p, source, dirty);
+    if (same) mesh_partial_recompute_marked_cells(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

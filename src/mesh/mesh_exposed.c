@@ -69,7 +69,7 @@ static unsigned lanes_in_mesh(const struct mesh *mesh, const struct bonds *b, in
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned points = row_block_is_complete(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
+    const unsigned points = row_block_has_eight_pd_particles(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
     const unsigned intact = points ? points & row_block_lanes_with_intact_bonds(b, g) : 0;
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)

@@ -20,7 +20,7 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     uint8_t *mark = NEW("mesh_insert.mark", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++)
         for (int c = 0; c < 1 << p->dim; c++)
-            mark[mesh_cell_corner_node(mesh, mesh_slot_of_particle(mesh, p, list[k]) >> p->dim, c)] = 1;
+            mark[mesh_cell_corner_node(mesh, mesh_cell_and_number_of_particle(mesh, p, list[k]) >> p->dim, c)] = 1;
     for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
     t->at = NEW("mesh_insert.node", t->n, int32_t);
     t->n = 0;
@@ -50,7 +50,7 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
     for (int64_t k = 0; k < n; k++) {
         const int32_t i = list[k];
-        const int64_t place = mesh_slot_of_particle(mesh, p, i);
+        const int64_t place = mesh_cell_and_number_of_particle(mesh, p, i);
         mesh->place[i] = (int32_t)place;
         mesh->point[place] = i;
         mesh->points++;
@@ -85,7 +85,7 @@ static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p
     }
 }
 
-real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
+real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
 {
     struct nodes t = {0};
     real *u[DIM_MAX], energy = 0;

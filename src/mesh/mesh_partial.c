@@ -292,14 +292,14 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
 /* Appends cell I to the list of partial cells of the mesh: cells with missing points, partial stresses, several
- * materials or doubled nodes. Their stiffness is computed later (mesh_partial_make). */
+ * materials or doubled nodes. Their stiffness is computed later (mesh_partial_compute_stiffness). */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_partial mesh_partial_detach_all(struct mesh *mesh)
+struct mesh_partial mesh_partial_remove_all_cells(struct mesh *mesh)
 {
     const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
@@ -429,8 +429,8 @@ static void alike_find(struct mesh *mesh, int modes)
     }
 }
 
-void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                       struct mesh_partial *old)
+void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                    const uint8_t *dirty, struct mesh_partial *old)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
@@ -466,8 +466,8 @@ static void alike_part(struct mesh *mesh, const uint8_t *changed)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                            const uint8_t *dirty)
+void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                         const uint8_t *dirty)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;

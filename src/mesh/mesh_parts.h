@@ -10,8 +10,9 @@
  * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_detach_all before its cells are classified
- * again. mesh_partial_make copies the stiffness of unchanged cells from here and frees the arrays. */
+/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_remove_all_cells before its cells are
+ * classified again. mesh_partial_compute_stiffness copies the stiffness of unchanged cells from here and frees the
+ * arrays. */
 struct mesh_partial {
     int64_t partial_cells;
     int32_t *partial_cell;
@@ -19,25 +20,25 @@ struct mesh_partial {
 };
 
 /* Removes all partial cells (cells with missing points, partial stresses, several materials or doubled nodes) from the
- * mesh, and returns their list with their stiffness, for mesh_partial_make. */
-struct mesh_partial mesh_partial_detach_all(struct mesh *mesh);
+ * mesh, and returns their list with their stiffness, for mesh_partial_compute_stiffness. */
+struct mesh_partial mesh_partial_remove_all_cells(struct mesh *mesh);
 
 /* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
- * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
+ * materials or doubled nodes; the stiffness is computed later (mesh_partial_compute_stiffness). */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
  * materials or doubled nodes). source: material constants and partial stresses; dirty: a byte for each cell, not 0
- * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach_all, from which the
- * stiffness of all other cells is copied, and which is freed. */
-void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                       const uint8_t *dirty, struct mesh_partial *old);
+ * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_remove_all_cells, from
+ * which the stiffness of all other cells is copied, and which is freed. */
+void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                    const uint8_t *dirty, struct mesh_partial *old);
 
 /* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
  * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. source: material
  * constants and partial stresses. */
-void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                            const uint8_t *dirty);
+void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                         const uint8_t *dirty);
 
 /* Frees the list of partial cells of the mesh and their stiffness. */
 void mesh_partial_free(struct mesh *mesh);
@@ -45,8 +46,8 @@ void mesh_partial_free(struct mesh *mesh);
 /* Finds the nodes that slits or voids of `source` divide, because the points around them are separated, and gives them
  * second nodes. The box of nodes, which covers the range between the corners `lower` and `upper` [m], is extended by
  * rows for these. Returns FAILED, with a message, if there are too many nodes. Release with mesh_slits_free. */
-status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                       const real *lower, const real *upper);
+status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                               const real *lower, const real *upper);
 
 /* Connects each block of nodes (eight along x) beside slits with the blocks of the second nodes at the same positions,
  * so that motion spreads from one to the other. To be called after the blocks are made. */
@@ -73,7 +74,7 @@ void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, r
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
-int64_t mesh_slot_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i);
+int64_t mesh_cell_and_number_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i);
 
 /* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
@@ -104,12 +105,12 @@ bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 /* Allocates all arrays of a mesh that covers the box between the corners `lower` and `upper` [m], without points or
  * cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and voids that
  * double nodes, p = NULL for none. Returns FAILED, with a message, if there are too many nodes. */
-status mesh_box_make(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
-                     const struct particles *p, const struct mesh_source *source);
+status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
+                         const struct particles *p, const struct mesh_source *source);
 
 /* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
  * particles are not made. */
-static inline bool cell_is_coarse(const struct mesh *mesh, int64_t cell)
+static inline bool mesh_cell_is_part_of_coarse_cell(const struct mesh *mesh, int64_t cell)
 {
     return (mesh->level && mesh->level[cell] > 0) || (mesh->absent && mesh->absent[cell]);
 }

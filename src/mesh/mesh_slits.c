@@ -255,7 +255,7 @@ static void slits_divide(struct slit_maker *m)
     const int dim = m->p->dim;
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
-        const int64_t place = mesh_slot_of_particle(m->mesh, m->p, i);
+        const int64_t place = mesh_cell_and_number_of_particle(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
         if (particle_is_beside_void(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
@@ -386,8 +386,8 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     return grid_extend_box(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
-status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                       const real *lower, const real *upper)
+status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                               const real *lower, const real *upper)
 {
     const int64_t n = mesh->grid.n;
     status result = OK;
@@ -440,7 +440,7 @@ void mesh_slits_link_blocks(struct mesh *mesh)
     s->link = BARE("slits.link", extras, struct mesh_link);
     s->linked = NEW("slits.linked", mesh->active.blocks, uint8_t);
     for (int64_t I = s->first; I < mesh->grid.n; I++)
-        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_regular_node_of(mesh, I));
+        if (s->base[I - s->first] >= 0) link_add(mesh, I, mesh_regular_node_of_doubled_node(mesh, I));
     for (int64_t I = 0; I < s->first; I++)
         for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
 }

@@ -67,8 +67,8 @@ static bool first_of_material(const struct mesh *mesh, const struct particles *p
     return true;
 }
 
-bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
-                         real *K)
+bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
+                                 int64_t I, real *K)
 {
     const int dim = mesh->grid.dim, n = dim << dim;
     bool any = false;

@@ -115,7 +115,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
     TRY(state_write(o, newest.text, scene_text, archive_all, context));
     /* The new file is whole and on the disk before the older one is renamed; a kill between the two renames leaves the
      * older one as checkpoint.previous.h5. */
-    TRY(file_append_footer(newest.text));
+    TRY(file_append_checksum_footer(newest.text));
     if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
         int cause = errno;
         file_discard_temporary(newest.text);

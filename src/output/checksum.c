@@ -115,7 +115,7 @@ static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 
 static const char unread[] = "cannot be read";
 
-bool file_has_footer(const char *path)
+bool file_has_checksum_footer(const char *path)
 {
     struct stat s;
     struct footer end;
@@ -157,13 +157,13 @@ const char *file_describe_damage(const char *path)
     return fault;
 }
 
-const char *file_describe_certain_damage(const char *path)
+const char *file_describe_damage_if_readable(const char *path)
 {
     const char *fault = file_describe_damage(path);
     return fault == unread ? NULL : fault;
 }
 
-status file_append_footer(const char *path)
+status file_append_checksum_footer(const char *path)
 {
     struct stat s;
     struct footer end = {{0}, 0, 0};

@@ -8,7 +8,7 @@
 
 #include "output/output_files.h"
 
-bool file_name_is_ignored(const char *name)
+bool file_name_is_hidden_or_temporary(const char *name)
 {
     const size_t length = strlen(name);
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
@@ -24,7 +24,7 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
     if (!d && (errno == ENOENT || errno == ENOTDIR)) return OK;
     if (!d) return status_set(REFUSED, "%s: cannot be read (%s); choose another -o", folder, strerror(errno));
     for (struct dirent *e; !*found && (e = readdir(d));)
-        if (!file_name_is_ignored(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
+        if (!file_name_is_hidden_or_temporary(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
             snprintf(found, sizeof found, "%s", e->d_name);
     closedir(d);
     if (!*found) return OK;

@@ -24,7 +24,7 @@ static char *history_column_name(const char *from, size_t length)
     char *unit = strstr(name, " [");
     if (unit != NULL) *unit = '\0';
     name[strcspn(name, "\r")] = '\0';
-    text_replace_controls(name);
+    text_replace_control_characters(name);
     return name;
 }
 

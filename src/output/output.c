@@ -29,7 +29,7 @@ void output_configure_hdf5(void)
     H5set_free_list_limits(HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT, HDF5_KEPT);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
-    invariant_set_cleanup(files_unfinished_remove);
+    invariant_set_cleanup_callback(files_unfinished_remove);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -75,7 +75,7 @@ static status file_remove(const char *path) { return (void)unlink(path), OK; }
 
 /* Removes the picture at `path` if Cleave drew it, by its mark; other pictures remain. Returns FAILED if it cannot be
  * removed. */
-static status picture_remove(const char *path) { return picture_has_mark(path) ? file_remove(path) : OK; }
+static status picture_remove(const char *path) { return picture_file_is_from_cleave(path) ? file_remove(path) : OK; }
 
 static bool has_frames(const char *folder)
 {
@@ -172,7 +172,7 @@ static bool is_frames_folder(const char *folder, const char *name)
     bool bare = strcmp(name, "frames") == 0 && path_is_folder(frames.text);
     DIR *d = bare ? opendir(frames.text) : NULL;
     if (!d) return bare;
-    for (struct dirent *e; bare && (e = readdir(d));) bare = file_name_is_ignored(e->d_name);
+    for (struct dirent *e; bare && (e = readdir(d));) bare = file_name_is_hidden_or_temporary(e->d_name);
     closedir(d);
     return bare;
 }
@@ -311,8 +311,9 @@ static status run_each(const char *folder, file_visit_fn *each)
     TRY(files_visit(path_join(folder, "frames").text, is_frame, "", each));
     TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", each));
     TRY(regions_each(folder, "", each));
-    TRY(files_visit(pictures_folder(folder).text, is_picture_name, "", each == file_remove ? picture_remove : each));
-    return files_visit(pictures_folder(folder).text, is_picture_name, ASIDE_ENDING, each);
+    TRY(files_visit(pictures_folder(folder).text, file_name_is_of_picture, "",
+                    each == file_remove ? picture_remove : each));
+    return files_visit(pictures_folder(folder).text, file_name_is_of_picture, ASIDE_ENDING, each);
 }
 
 /* Removes the temporary files of a run from its folder. Temporary files of pictures remain: they may belong to a
@@ -350,7 +351,7 @@ static bool index_lists(const char *path)
  * Cleave did not write it: it has no footer of Cleave's files, and the index of the older run does not list it. */
 static status frame_guard(const char *path)
 {
-    if (!is_frame(strrchr(path, '/') + 1, "") || file_has_footer(path) || index_lists(path)) return OK;
+    if (!is_frame(strrchr(path, '/') + 1, "") || file_has_checksum_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
 }
 
@@ -359,7 +360,7 @@ static status frame_guard(const char *path)
 static status rigid_guard(const char *path)
 {
     static const char *const begin[] = {RIGID_FILE_BEGIN};
-    return file_check_beginning(path, begin, 1);
+    return file_check_is_from_cleave(path, begin, 1);
 }
 
 /* Checks the tables, frames and particles files in a folder that a run would write or remove. Returns REFUSED if one of
@@ -367,7 +368,7 @@ static status rigid_guard(const char *path)
 static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
-        if (made[k].begin) TRY(file_check_beginning(path_join(folder, made[k].name).text, &made[k].begin, 1));
+        if (made[k].begin) TRY(file_check_is_from_cleave(path_join(folder, made[k].name).text, &made[k].begin, 1));
     TRY(files_visit(path_join(folder, "frames").text, is_frame, "", frame_guard));
     TRY(files_visit(path_join(folder, "frames").text, is_rigid_file, "", rigid_guard));
     return regions_each(folder, "", frame_guard);

@@ -46,10 +46,10 @@ char *path_last_name(char *name, size_t capacity, const char *path)
     return name;
 }
 
-struct path run_frame_path(const char *folder, int number)
+struct path run_frame_path(const char *folder, int frame_number)
 {
     char name[32];
-    snprintf(name, sizeof name, "frames/%06d.hdf", number);
+    snprintf(name, sizeof name, "frames/%06d.hdf", frame_number);
     return path_join(folder, name);
 }
 
@@ -161,7 +161,7 @@ status file_check_replaceable(const char *path)
     return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
 }
 
-status file_check_beginning(const char *path, const char *const *beginning, size_t beginnings)
+status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings)
 {
     char first[64];
     bool ours = false;
@@ -319,14 +319,14 @@ status folder_make_above(const char *path)
     return folder_make(above.text);
 }
 
-status files_visit(const char *folder, bool (*chosen)(const char *name, const char *ending), const char *ending,
+status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending), const char *ending,
                    file_visit_fn *visit)
 {
     status s = OK;
     DIR *d = path_is_link(folder) ? NULL : opendir(folder);
     if (!d) return OK;
     for (struct dirent *e; s == OK && (e = readdir(d));)
-        if (chosen(e->d_name, ending)) s = visit(path_join(folder, e->d_name).text);
+        if (name_is_chosen(e->d_name, ending)) s = visit(path_join(folder, e->d_name).text);
     closedir(d);
     return s;
 }

@@ -234,7 +234,7 @@ static status frame_write(struct frame_job *job)
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
     TRY(hdf_close_written(&f, job->path.text, &job->broken));
-    TRY(file_append_footer(job->path.text));
+    TRY(file_append_checksum_footer(job->path.text));
     return file_replace_by_temporary(job->path.text);
 }
 
@@ -344,8 +344,9 @@ static void particles_file_look(struct particles_seen *seen, const char *folder,
     particles_file_name(s, seen->name, sizeof seen->name, number);
     const struct path path = path_join(folder, seen->name);
     seen->number = number;
-    seen->fault = file_describe_certain_damage(path.text);
-    seen->known = !seen->fault && path_is_file(path.text) && particles_file_read_content(path.text, &seen->content);
+    seen->fault = file_describe_damage_if_readable(path.text);
+    seen->known =
+        !seen->fault && path_is_file(path.text) && particles_file_read_content_hash(path.text, &seen->content);
     if (seen->known && number == s->particles.number && seen->content != s->particles.content)
         seen->fault = "is of another run";
 }
@@ -371,13 +372,13 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
 {
     real time = NAN;
     int64_t content = 0;
-    const char *fault = file_describe_certain_damage(path);
+    const char *fault = file_describe_damage_if_readable(path);
     if (fault) return snprintf(text, capacity, "%s", fault) > 0;
     if (!path_is_file(path)) return false;
     if (particles->fault)
         return snprintf(text, capacity, "links to %s, which %s", particles->name, particles->fault) > 0;
     if (!frame_read_marks(path, &time, &content)) return false;
-    if (!bits_equal(time, e->time)) return snprintf(text, capacity, "is another one") > 0;
+    if (!reals_are_bitwise_equal(time, e->time)) return snprintf(text, capacity, "is another one") > 0;
     if (!particles->known || content == particles->content) return false;
     return snprintf(text, capacity, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
@@ -411,17 +412,17 @@ static status series_index(const struct output *o, struct frame_series *series)
     return s;
 }
 
-status output_index_drop_lost_frames(struct output *o, int *lost, char *message, size_t capacity)
+status output_index_drop_lost_frames(struct output *o, int *lost_frames, char *message, size_t capacity)
 {
-    *lost = 0;
+    *lost_frames = 0;
     for (int k = 0; k <= o->n_series; k++) {
         if (o->series[k].frames == 0) continue;
-        series_check(o, &o->series[k], lost, message, capacity);
+        series_check(o, &o->series[k], lost_frames, message, capacity);
         TRY(series_index(o, &o->series[k]));
     }
-    if (*lost == 0) return OK;
+    if (*lost_frames == 0) return OK;
     const size_t used = strlen(message);
-    if (*lost > 1) snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost - 1);
+    if (*lost_frames > 1) snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost_frames - 1);
     strncat(message, ": the indices leave out what is lost; a run of its own would make it again",
             capacity - strlen(message) - 1);
     return OK;

@@ -10,14 +10,14 @@
 #include "output/output_files.h"
 #include "particles_file.h"
 
-void frame_name(const struct frame_series *s, char *name, size_t capacity, int number)
+void frame_name(const struct frame_series *s, char *name, size_t capacity, int frame_number)
 {
-    snprintf(name, capacity, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
+    snprintf(name, capacity, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, frame_number);
 }
 
-void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *end)
+void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *ending)
 {
-    snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", end);
+    snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", ending);
 }
 
 /* Writes the index frames.hdf.series of a series, in JSON: name and time [s] of each frame that is not lost. */

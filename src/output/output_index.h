@@ -23,11 +23,12 @@ status frame_indices_write(const struct frame_indices *index, const char *folder
 /* Releases the texts of *index. */
 void frame_indices_free(struct frame_indices *index);
 
-/* Writes the file name of frame number `number` of a series, relative to the folder of the run, to name[capacity]. */
-void frame_name(const struct frame_series *s, char *name, size_t capacity, int number);
+/* Writes the file name of frame number `frame_number` of a series, relative to the folder of the run, to
+ * name[capacity]. */
+void frame_name(const struct frame_series *s, char *name, size_t capacity, int frame_number);
 
 /* Writes the name of an index file of a series, relative to the folder of the run, to name[capacity]: the name of the
- * series followed by the ending `end`. */
-void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *end);
+ * series followed by the ending `ending`. */
+void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *ending);
 
 #endif

@@ -193,7 +193,7 @@ static bool next_frame(const char **at, struct listed_frame *f)
     return end > time + sizeof key - 1;
 }
 
-status frames_list(const char *folder, int *n, struct listed_frame **list)
+status run_list_frames(const char *folder, int *n, struct listed_frame **list)
 {
     struct path path = path_join(folder, "frames.hdf.series");
     char *text = NULL;

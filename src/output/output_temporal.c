@@ -175,7 +175,7 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     return s;
 }
 
-void output_remove_temporal_file(const struct output *o)
+void output_remove_vtkhdf_of_all_frames(const struct output *o)
 {
     for (int k = 0; k <= o->n_series; k++) {
         char name[PATH_NAME_ROOM];
@@ -184,7 +184,7 @@ void output_remove_temporal_file(const struct output *o)
     }
 }
 
-status output_write_temporal_file(struct output *o, const char *scene_text)
+status output_write_vtkhdf_of_all_frames(struct output *o, const char *scene_text)
 {
     TRY(output_wait_for_frame(o));
     if (o->broken) return FAILED;

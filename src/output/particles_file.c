@@ -14,9 +14,9 @@ static const char *const linked[] = {
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
     "/VTKHDF/FieldData/units", "/VTKHDF/FieldData/scene", "/Cleave/scene"};
 
-void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int number)
+void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int file_number)
 {
-    snprintf(name, capacity, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, number);
+    snprintf(name, capacity, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, file_number);
 }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
@@ -107,7 +107,7 @@ status particles_file_write(const struct particles_file *f, bool *broken)
     hdf_create(&h, file_begin_temporary(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
     TRY(hdf_close_written(&h, f->path.text, broken));
-    TRY(file_append_footer(f->path.text));
+    TRY(file_append_checksum_footer(f->path.text));
     return file_replace_by_temporary(f->path.text);
 }
 
@@ -122,7 +122,7 @@ void particles_file_create_links(struct hdf *frame, const struct particles_file 
 
 /* ---- checking ---------------------------------------------------------------------------------------------------- */
 
-bool particles_file_read_content(const char *path, int64_t *content)
+bool particles_file_read_content_hash(const char *path, int64_t *content)
 {
     struct hdf h;
     char target[PATH_NAME_ROOM];
@@ -138,7 +138,7 @@ const char *particles_file_describe_damage(const char *path, int64_t *content)
 {
     const char *fault = file_describe_damage(path);
     if (fault) return fault;
-    return particles_file_read_content(path, content) ? NULL : "is no particles file";
+    return particles_file_read_content_hash(path, content) ? NULL : "is no particles file";
 }
 
 status particles_file_check(struct hdf *h, const char *path)

@@ -23,9 +23,9 @@ struct particles_file {
     const char *scene_text; /* borrowed */
 };
 
-/* Writes the name of particles file number `number` of a series, relative to the folder of the run, to
+/* Writes the name of particles file number `file_number` of a series, relative to the folder of the run, to
  * name[capacity]. */
-void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int number);
+void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from frame to frame: copies the
  * fields in the set `fields` (one bit per entry of frame_fields) from *source for the rows that the series s shows, and
@@ -47,7 +47,7 @@ void particles_file_create_links(struct hdf *frame, const struct particles_file 
 
 /* Reads the hash of the contents of the particles file `path` into *content. If the file is a frame or another file of
  * a run, *content is 0, which is the hash of no particles file. Returns false if the file cannot be read. */
-bool particles_file_read_content(const char *path, int64_t *content);
+bool particles_file_read_content_hash(const char *path, int64_t *content);
 
 /* Checks the particles file `path` and stores the hash of its contents in *content. Returns NULL if the file is
  * complete and unchanged, else a static text that completes "PATH ..." in a message. */

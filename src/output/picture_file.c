@@ -107,7 +107,7 @@ status picture_replace_by_temporary(const char *path, enum picture_format format
                       path);
 }
 
-bool picture_has_mark(const char *path)
+bool picture_file_is_from_cleave(const char *path)
 {
     char last[END_LENGTH];
     struct stat s;
@@ -123,6 +123,6 @@ bool picture_has_mark(const char *path)
 status picture_check_replaceable(const char *path)
 {
     TRY(file_check_replaceable(path));
-    if (!path_exists(path) || picture_has_mark(path)) return OK;
+    if (!path_exists(path) || picture_file_is_from_cleave(path)) return OK;
     return status_set(REFUSED, "%s exists and was not drawn by cleave; move or remove it", path);
 }

@@ -29,10 +29,10 @@ struct path picture_path(const char *folder, enum picture which, const char *end
     return picture_place(folder, picture_name[which], "", ending);
 }
 
-struct path picture_path_of_frame(const char *folder, enum picture which, int number)
+struct path picture_path_of_frame(const char *folder, enum picture which, int frame_number)
 {
     char text[16];
-    snprintf(text, sizeof text, "_%06d", number);
+    snprintf(text, sizeof text, "_%06d", frame_number);
     return picture_place(folder, picture_name[which], text, "png");
 }
 
@@ -51,16 +51,16 @@ static bool ends_as_picture(const char *rest, const char *end)
     return false;
 }
 
-bool is_picture_name(const char *name, const char *end)
+bool file_name_is_of_picture(const char *name, const char *ending)
 {
     if (strncmp(name, field_prefix, sizeof field_prefix - 1) == 0)
-        return ends_as_picture(name + strspn(name, "abcdefghijklmnopqrstuvwxyz_0123456789"), end);
+        return ends_as_picture(name + strspn(name, "abcdefghijklmnopqrstuvwxyz_0123456789"), ending);
     for (int k = 0; k < DRAWN_KINDS; k++) {
         const size_t length = strlen(picture_name[k]);
         if (strncmp(name, picture_name[k], length) != 0) continue;
         const char *rest = name + length;
         if (*rest == '_') rest += 1 + strspn(rest + 1, "0123456789");
-        if (ends_as_picture(rest, end)) return true;
+        if (ends_as_picture(rest, ending)) return true;
     }
     return false;
 }

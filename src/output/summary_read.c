@@ -279,7 +279,7 @@ status summary_read_string(const char *folder, const char *dotted_key, char *out
         out[length++] = *c;
     }
     out[length] = '\0';
-    text_replace_controls(out);
+    text_replace_control_characters(out);
     free(text);
     return is_string ? OK : status_set(FAILED, "%s/summary.json: %s is not a text", folder, dotted_key);
 }

@@ -88,8 +88,14 @@ static struct colour along_stops(const struct stop *stop, int stops, double at)
                            (uint8_t)lround(a->blue + share * (b->blue - a->blue)), 255};
 }
 
-struct colour colour_sequential(double position) { return along_stops(sequential, COUNT_OF(sequential), position); }
-struct colour colour_diverging(double position) { return along_stops(diverging, COUNT_OF(diverging), position); }
+struct colour colour_on_sequential_scale(double position)
+{
+    return along_stops(sequential, COUNT_OF(sequential), position);
+}
+struct colour colour_on_diverging_scale(double position)
+{
+    return along_stops(diverging, COUNT_OF(diverging), position);
+}
 
 struct colour colour_from_table(enum colour_table table, double position)
 {
@@ -103,13 +109,16 @@ struct colour colour_from_table(enum colour_table table, double position)
     case COLOURS_GREY:
         return along_stops(grey, COUNT_OF(grey), position);
     case COLOURS_DIVERGING:
-        return colour_diverging(position);
+        return colour_on_diverging_scale(position);
     default:
-        return colour_sequential(position);
+        return colour_on_sequential_scale(position);
     }
 }
 
-struct colour colour_damage(double position) { return along_stops(damage_stops, COUNT_OF(damage_stops), position); }
+struct colour colour_on_damage_scale(double position)
+{
+    return along_stops(damage_stops, COUNT_OF(damage_stops), position);
+}
 struct colour colour_of_peridynamic_particle(double position)
 {
     return along_stops(bond_stops, COUNT_OF(bond_stops), position);
@@ -129,7 +138,7 @@ struct colour fragment_colour(int32_t fragment)
 }
 
 /* Returns the k-th colour of a list of nine light colours that repeats (light qualitative scheme of Tol 2021). */
-struct colour part_colour(int k)
+struct colour colour_of_material_or_body(int k)
 {
     static const struct colour turn[] = {{187, 204, 220, 255}, {238, 221, 136, 255}, {187, 204, 51, 255},
                                          {238, 136, 102, 255}, {153, 221, 255, 255}, {255, 170, 187, 255},
@@ -137,15 +146,15 @@ struct colour part_colour(int k)
     return turn[(size_t)k % COUNT_OF(turn)];
 }
 
-struct colour colour_faded(struct colour c, double weight)
+struct colour colour_mixed_with_white(struct colour c, double colour_weight)
 {
-    return (struct colour){(uint8_t)lround(255 - weight * (255 - c.red)),
-                           (uint8_t)lround(255 - weight * (255 - c.green)),
-                           (uint8_t)lround(255 - weight * (255 - c.blue)), c.alpha};
+    return (struct colour){(uint8_t)lround(255 - colour_weight * (255 - c.red)),
+                           (uint8_t)lround(255 - colour_weight * (255 - c.green)),
+                           (uint8_t)lround(255 - colour_weight * (255 - c.blue)), c.alpha};
 }
 
-struct colour colour_shaded(struct colour c, double share)
+struct colour colour_mixed_with_black(struct colour c, double colour_weight)
 {
-    return (struct colour){(uint8_t)lround(share * c.red), (uint8_t)lround(share * c.green),
-                           (uint8_t)lround(share * c.blue), c.alpha};
+    return (struct colour){(uint8_t)lround(colour_weight * c.red), (uint8_t)lround(colour_weight * c.green),
+                           (uint8_t)lround(colour_weight * c.blue), c.alpha};
 }

@@ -15,11 +15,11 @@ static const struct sizes {
     double sample, letter, row, tics, lower;
 } WIDE = {58, 9, 24, 30, 96}, NARROW = {48, 7.4, 20, 24, 68};
 
-static const struct sizes *sizes_now(void) { return gnuplot_is_narrow() ? &NARROW : &WIDE; }
+static const struct sizes *sizes_now(void) { return picture_is_too_narrow_for_key() ? &NARROW : &WIDE; }
 
 struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, size_t longest, bool second_axis)
 {
-    const bool narrow = gnuplot_is_narrow();
+    const bool narrow = picture_is_too_narrow_for_key();
     struct curves_layout l = {.width = g->width,
                               .height = g->height,
                               .left = narrow ? LEFT_NARROW : LEFT,
@@ -52,8 +52,8 @@ void curves_write_key(FILE *to, const struct curves_layout *l)
 {
     if (l->key_below)
         fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols %d maxrows %d\n",
-                (gnuplot_is_narrow() ? 10 : l->left) / l->width, (sizes_now()->row * l->key_lines + 4.0) / l->height,
-                l->key_columns, l->key_lines);
+                (picture_is_too_narrow_for_key() ? 10 : l->left) / l->width,
+                (sizes_now()->row * l->key_lines + 4.0) / l->height, l->key_columns, l->key_lines);
     else
         fprintf(to, "set key at screen %.5f,%.5f left top\n", 1 - (l->right - 12) / l->width,
                 1 - (l->above + 2) / l->height);
@@ -72,17 +72,17 @@ struct two_panels curves_two_panels(const struct curves_layout *l)
     return (struct two_panels){inner - low - PANEL_GAP, inner - low, inner};
 }
 
-void curves_write_title(struct gnuplot *g, const char *title, const char *what)
+void curves_write_title(struct gnuplot *g, const char *title, const char *quantity)
 {
     char text[512];
     const size_t length = strlen(title);
-    snprintf(text, sizeof text, "%s%s", title, length > 0 && title[length - 1] == ' ' ? what : "");
-    gnuplot_write_title(g, text, gnuplot_is_narrow() ? LEFT_NARROW : LEFT);
+    snprintf(text, sizeof text, "%s%s", title, length > 0 && title[length - 1] == ' ' ? quantity : "");
+    gnuplot_write_title(g, text, picture_is_too_narrow_for_key() ? LEFT_NARROW : LEFT);
 }
 
-double tic_distance(double range, double pixels, double apart)
+double tic_distance(double range, double pixels, double least_distance)
 {
-    const double least = range * fmax(apart, pixels / 10) / pixels, decade = pow(10, floor(log10(least)));
+    const double least = range * fmax(least_distance, pixels / 10) / pixels, decade = pow(10, floor(log10(least)));
     const double lead = least / decade;
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }

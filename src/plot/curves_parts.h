@@ -25,7 +25,7 @@ struct value_range {
 
 /* Returns the smallest and the largest finite value in the columns of the history h whose indices are
  * column[columns]. */
-struct value_range history_extent(const struct history *h, const int *column, int columns);
+struct value_range history_value_range(const struct history *h, const int *column, int columns);
 
 /* Writes the time and the columns with the indices column[columns] of the history s->h to gnuplot (the stream `to`) as
  * the data block $data. Values of column[k] are divided by factor[k]. Long histories are reduced to a few thousand
@@ -43,8 +43,8 @@ struct curves_layout {
 
 /* Returns the layout of the picture that g draws. entries: number of texts of the key (legend), 0 for a picture without
  * key; longest: number of letters of the longest text; second_axis: true if there is a second vertical axis on the
- * right. The key is beside the panels. In narrow pictures (gnuplot_is_narrow), or with a second axis, it is below
- * them. */
+ * right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key), or with a second axis, it is
+ * below them. */
 struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, size_t longest, bool second_axis);
 
 /* Returns the height between the upper edge of the first panel and the lower edge of the last one [pixel]. */
@@ -68,8 +68,8 @@ struct two_panels {
 struct two_panels curves_two_panels(const struct curves_layout *layout);
 
 /* Returns the distance of tics, 1, 2 or 5 times a power of ten, for an axis whose values extend over `range` and that
- * is `pixels` pixels long. Tics are at least `apart` pixels apart, and there are at most about ten. */
-double tic_distance(double range, double pixels, double apart);
+ * is `pixels` pixels long. Tics are at least `least_distance` pixels apart, and there are at most about ten. */
+double tic_distance(double range, double pixels, double least_distance);
 
 /* Writes the gnuplot command for the tics of the vertical axis "y" or "y2" of a panel of the given height [pixel],
  * whose values extend from `low` to `high`. */
@@ -79,8 +79,9 @@ void curves_write_tics(FILE *to, const char *axis, double low, double high, doub
  * `123.4 µs`. */
 enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
-/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `what` if it ends in a space. */
-void curves_write_title(struct gnuplot *g, const char *title, const char *what);
+/* Writes the gnuplot commands for a heading above the picture: `title`, followed by `quantity` if it ends in a space.
+ */
+void curves_write_title(struct gnuplot *g, const char *title, const char *quantity);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
  * range and label. s: history that is drawn. */

@@ -107,7 +107,7 @@ static const double PDF_LETTERS = 0.5, NARROW_LETTERS = 0.8;
  * height: size of the picture [pixel]; scale: factor on the size of letters, and in PNG of lines and points [1]. */
 static void set_terminal(struct gnuplot *g, enum picture_format format, int width, int height, double scale)
 {
-    const double letters = gnuplot_is_narrow() ? NARROW_LETTERS * scale : scale, lines = scale;
+    const double letters = picture_is_too_narrow_for_key() ? NARROW_LETTERS * scale : scale, lines = scale;
     if (format == PICTURE_SVG)
         fprintf(g->to,
                 "set terminal svg size %d,%d font 'Liberation Sans,Helvetica,Arial,sans-serif,14' fontscale %.4g "
@@ -151,7 +151,8 @@ static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;
     if (usual.height) return usual.height;
-    return (int)lround(scale * height * (gnuplot_is_narrow() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
+    return (int)lround(scale * height *
+                       (picture_is_too_narrow_for_key() && letters == 1 && scale < 1 ? CURVES_HIGHER : 1));
 }
 
 /* Opens gnuplot for the picture `path` of the given format. width, height: size of the picture [pixel]; letters: factor
@@ -210,7 +211,7 @@ int gnuplot_image_pixels(enum picture_format format, int pixels)
     return (int)fmax(lround((vector ? fmax(usual.dpi, IMAGE_DPI) : usual.dpi) / PICTURE_DPI * pixels), 1);
 }
 
-bool gnuplot_is_narrow(void) { return usual.width > 0 && usual.width < NARROW; }
+bool picture_is_too_narrow_for_key(void) { return usual.width > 0 && usual.width < NARROW; }
 
 /* Sizes of letters of titles: in large pictures, in narrow pictures, the smallest one for which a title is not broken
  * into two lines, and the smallest one of all. */
@@ -235,21 +236,22 @@ static size_t break_of(const char *text)
     return best;
 }
 
-void gnuplot_write_title(struct gnuplot *g, const char *text, double left)
+void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin)
 {
     g->untitled = !*text;
     const size_t length = strlen(text);
-    const double room = g->width - left - 12, most = gnuplot_is_narrow() ? TITLE_NARROW : TITLE_LARGE;
+    const double room = g->width - left_margin - 12,
+                 most = picture_is_too_narrow_for_key() ? TITLE_NARROW : TITLE_LARGE;
     const size_t cut = LETTER_WIDE * TITLE_ONE_LINE * letters_of(text, length) > room ? break_of(text) : length;
     const int longer = (int)fmax(letters_of(text, cut), letters_of(text + cut, length - cut));
     const double size = fmax(fmin(most, room / (LETTER_WIDE * fmax(longer, 1))), TITLE_SMALL);
-    const double upper = gnuplot_is_narrow() ? 20 : 28;
+    const double upper = picture_is_too_narrow_for_key() ? 20 : 28;
     for (int line = 0; line < 1 + (cut < length); line++) {
         char part[TITLE_ROOM];
         snprintf(part, sizeof part, "%.*s", (int)(line ? length - cut - 1 : cut), line ? text + cut + 1 : text);
         fprintf(g->to, "set label %d ", 1 + line);
         gnuplot_quote(g->to, part);
-        fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left / g->width,
+        fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left_margin / g->width,
                 1 - (upper + (cut < length ? 1.25 * size * (line - 0.5) : 0)) / g->height, size);
     }
 }

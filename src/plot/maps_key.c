@@ -14,8 +14,8 @@ enum { BAR_STEPS = 256, BAR_ACROSS = 2, BAR_HIGHEST = 360 };
  * edge; BAR_LOW: height of such a bar. */
 enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12 };
 
-static double letter_wide(void) { return gnuplot_is_narrow() ? 7.4 : 9; }
-static int bar_from(void) { return gnuplot_is_narrow() ? BAR_FROM_NARROW : BAR_FROM; }
+static double letter_wide(void) { return picture_is_too_narrow_for_key() ? 7.4 : 9; }
+static int bar_from(void) { return picture_is_too_narrow_for_key() ? BAR_FROM_NARROW : BAR_FROM; }
 
 /* ---- colour bar -------------------------------------------------------------------------------------------------- */
 
@@ -45,7 +45,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
 /* Returns the distance of the tics of a vertical bar of the given length [pixel]. */
 static double bar_tics(const struct bar_scale *s, int length)
 {
-    return fmax(s->tics, tic_distance(s->high - s->low, length, gnuplot_is_narrow() ? 22 : 28));
+    return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
 }
 
 /* Returns the length of a vertical bar [pixel]: the height of the panels, but at most BAR_HIGHEST, and at least the
@@ -113,12 +113,12 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     fprintf(to, "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n",
             s->low, s->high, s->low, s->high, tics, s->format);
     draw_bar_label(to, l, s,
-                   x + BAR_WIDE + (gnuplot_is_narrow() ? NUMBERS_NARROW : NUMBERS) +
+                   x + BAR_WIDE + (picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS) +
                        numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
-        draw_beyond(to, l, m->view, particles, end, gnuplot_is_narrow() ? l->width - 4 : x - 6,
-                    end ? l->above - 12 : l->above + length + 14, gnuplot_is_narrow() ? "right" : "left");
+        draw_beyond(to, l, m->view, particles, end, picture_is_too_narrow_for_key() ? l->width - 4 : x - 6,
+                    end ? l->above - 12 : l->above + length + 14, picture_is_too_narrow_for_key() ? "right" : "left");
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
 }
 
@@ -200,7 +200,9 @@ void map_key_draw(FILE *to, const struct layout *l, const struct map_key *key)
 {
     const double below = l->above + l->rows * l->panel_height + (l->rows - 1) * GAP_Y + l->axes;
     const double y = l->key_beside ? l->above + 8 : below + (l->bar_under ? BAR_STRIP : 0) + KEY_UNDER + 2;
-    const double x = l->key_beside ? l->width - l->right + bar_from() : gnuplot_is_narrow() ? KEY_LEFT : l->left;
+    const double x = l->key_beside                     ? l->width - l->right + bar_from()
+                     : picture_is_too_narrow_for_key() ? KEY_LEFT
+                                                       : l->left;
     const int columns = l->key_beside ? 1 : l->key_columns;
     for (int k = 0; k < key->n; k++)
         key_entry(to, l, x + k % columns * l->entry, y + k / columns * KEY_ROW, &key->of[k]);

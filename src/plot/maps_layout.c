@@ -25,7 +25,7 @@ bool map_has_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGO
  * bar or named values are below the panels; panels: height of all rows of panels [pixel]. */
 static struct layout margins_of(const struct maps_shown *m, bool under, int panels)
 {
-    const bool narrow = gnuplot_is_narrow(), bar = map_has_bar(m->map), titled = m->title[0];
+    const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_bar(m->map), titled = m->title[0];
     const double letter = narrow ? KEY_LETTER_NARROW : KEY_LETTER;
     size_t longest = 0;
     for (int k = 0; k < m->key.n; k++)
@@ -93,8 +93,9 @@ static struct layout layout_settled(const struct maps_shown *m, bool under, int 
 
 struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect)
 {
-    const bool choice = gnuplot_is_narrow() && (map_has_bar(m->map) || m->map == MAP_CATEGORY);
-    const bool fixed = picture_size_get().height || gnuplot_is_narrow(); /* columns of journals may be tall */
+    const bool choice = picture_is_too_narrow_for_key() && (map_has_bar(m->map) || m->map == MAP_CATEGORY);
+    const bool fixed =
+        picture_size_get().height || picture_is_too_narrow_for_key(); /* columns of journals may be tall */
     struct layout best = {0};
     double best_cost = INFINITY;
     for (int under = 0; under < 1 + choice; under++)

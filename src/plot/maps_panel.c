@@ -15,18 +15,18 @@ void box_write_margins(FILE *to, const struct layout *l, double left, double abo
             1 - (above + height) / l->height);
 }
 
-void panel_write_margins(FILE *to, const struct layout *l, double left, double above)
+void panel_write_margins(FILE *to, const struct layout *l, double left_edge, double above)
 {
-    box_write_margins(to, l, left, above, l->panel_width, l->panel_height);
+    box_write_margins(to, l, left_edge, above, l->panel_width, l->panel_height);
 }
 
 void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
-                       const double *step, const char *more)
+                       const double *step, const char *further_elements)
 {
     fprintf(to,
             "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
             "with rgbalpha notitle%s\n",
-            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1], more);
+            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1], further_elements);
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
@@ -38,7 +38,7 @@ double numbers_width(double low, double high, double tics, const char *format)
         const int length = snprintf(number, sizeof number, format, fabs(k) < 0.5 ? 0 : k * tics);
         if (length > longest) longest = length;
     }
-    return (gnuplot_is_narrow() ? 7.4 : 9) * longest;
+    return (picture_is_too_narrow_for_key() ? 7.4 : 9) * longest;
 }
 
 /* Returns the number of multiples of `tics` between `low` and `high`. */
@@ -61,8 +61,9 @@ void panel_write_axes(FILE *to, const struct layout *l, const struct view *view,
     for (int k = 0; k < 2; k++) {
         const double low = view->from[k] / metre->factor, high = view->to[k] / metre->factor;
         const bool labelled = k == 0 ? lowest : column == 0;
-        const double tics = k == 0 ? tics_across(low, high, size[0])
-                                   : tic_distance(high - low, size[1], gnuplot_is_narrow() ? TICS_Y_NARROW : TICS_Y);
+        const double tics =
+            k == 0 ? tics_across(low, high, size[0])
+                   : tic_distance(high - low, size[1], picture_is_too_narrow_for_key() ? TICS_Y_NARROW : TICS_Y);
         fprintf(to, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, tics, labelled ? "%g" : "", 'x' + k);
         if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre->name);
         fputs("'\n", to);
@@ -70,12 +71,13 @@ void panel_write_axes(FILE *to, const struct layout *l, const struct view *view,
 }
 
 void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view *view,
-                             const struct plotted_particles *c, const struct unit *metre, double left, double above)
+                             const struct plotted_particles *c, const struct unit *metre, double left_edge,
+                             double above)
 {
-    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left + 34;
+    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left_edge + 34;
     const double y = l->height - (above + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
     const double length = tic_distance(300 * pixel, 300, 60) / pixel;
-    const double end = fmax(left + l->panel_width - 8, x + 60 + length); /* beside the arrows */
+    const double end = fmax(left_edge + l->panel_width - 8, x + 60 + length); /* beside the arrows */
     for (int d = 0; d < 3; d++) {
         const double arrow[2] = {26 * c->camera.right[d], 26 * c->camera.up[d]};
         if (hypot(arrow[0], arrow[1]) < 2) continue;

@@ -43,8 +43,8 @@ enum { KEY_SQUARE = 40, KEY_ROW = 22, KEY_LEFT = 14, KEY_UNDER = 6 };
 static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 
 /* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
- * and few empty positions. In narrow pictures (gnuplot_is_narrow) the colour bar, or the key of named values, is below
- * the panels if they are larger then. panels: their number; aspect: height over width of a panel. */
+ * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key of named
+ * values, is below the panels if they are larger then. panels: their number; aspect: height over width of a panel. */
 struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect);
 
 /* Returns true if a map of the kind `map` has a colour bar. */
@@ -78,7 +78,7 @@ void box_write_margins(FILE *to, const struct layout *l, double left, double abo
 
 /* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, above: position
  * of its upper left corner, from the left and upper edge of the picture [pixel]. */
-void panel_write_margins(FILE *to, const struct layout *layout, double left, double above);
+void panel_write_margins(FILE *to, const struct layout *layout, double left_edge, double above);
 
 /* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. c: particles of the
  * panel; metre: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in column 0 only);
@@ -90,12 +90,13 @@ void panel_write_axes(FILE *to, const struct layout *layout, const struct view *
  * coordinate axes as arrows and a bar of known length. metre: unit of the axes of the panel; left, above: distances of
  * its upper left corner from the left and upper edge of the picture [pixel]. */
 void panel_write_axis_arrows(FILE *to, const struct layout *layout, const struct view *view,
-                             const struct plotted_particles *c, const struct unit *metre, double left, double above);
+                             const struct plotted_particles *c, const struct unit *metre, double left_edge,
+                             double above);
 
 /* Writes the gnuplot commands and data that plot the image pixel[height * width], rows from bottom to top. from[2]:
- * lower left corner of the image; step[2]: width and height of a pixel, both in units of the axes. more: further
- * elements of the plot command, each preceded by a comma, or "". */
+ * lower left corner of the image; step[2]: width and height of a pixel, both in units of the axes. further_elements:
+ * further elements of the plot command, each preceded by a comma, or "". */
 void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
-                       const double *step, const char *more);
+                       const double *step, const char *further_elements);
 
 #endif

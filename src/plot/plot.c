@@ -178,7 +178,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct output_frame *last)
 {
     r->projection.outside = false;
-    TRY(plot_field_choose(&r->projection.field, r->folder, frames));
+    TRY(plot_field_choose_default(&r->projection.field, r->folder, frames));
     TRY(projection_complete_slice(&r->projection, last));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;

@@ -119,7 +119,7 @@ static void paint_cube(struct scene_canvas *v, const struct plotted_particles *c
             if (c->position[2]) depth += c->position[2][i];
             if (face < 0 || depth <= v->depth[q]) continue;
             v->depth[q] = (float)depth;
-            v->pixel[q] = colour_shaded(colour, bright[face]);
+            v->pixel[q] = colour_mixed_with_black(colour, bright[face]);
         }
 }
 
@@ -137,10 +137,11 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
     for (int a = 0; a < 2; a++) v.per_metre[a] = v.size[a] / (view->to[a] - view->from[a]);
     for (int64_t q = 0; q < pixels; q++) pixel[q] = (struct colour){255, 255, 255, 0};
     canvas_clear_depth(&v);
-    const struct colour ghost = colour_faded(colour_damage(0), GHOST);
+    const struct colour ghost = colour_mixed_with_white(colour_on_damage_scale(0), GHOST);
     for (int64_t i = 0; i < c->n; i++)
         paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : particle_colour(view, c, i, map));
-    if (c->position[2]) rigids_paint_outside(pixel, v.depth, width, height, view, c, map == MAP_CRACKS ? GHOST : 1);
+    if (c->position[2])
+        rigids_paint_from_outside(pixel, v.depth, width, height, view, c, map == MAP_CRACKS ? GHOST : 1);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < c->n; i++)

@@ -12,7 +12,8 @@ struct colour category_colour(const struct plot_field *field, float value)
 {
     if (strcmp(field->name, "kind") == 0)
         return value == KIND_MPM ? colour_of_material_points() : colour_of_peridynamic_particle(0.25);
-    return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value) : part_colour((int)value);
+    return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value)
+                                                : colour_of_material_or_body((int)value);
 }
 
 /* Writes the name of a value of a field into name[capacity]. The names of bodies and materials are those of the scene
@@ -53,8 +54,8 @@ static bool *values_seen(int *last, const struct plotted_particles *cloud, int c
     return seen;
 }
 
-void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
-                     const struct plotted_particles *cloud, int clouds)
+void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
+                                  const struct plotted_particles *cloud, int clouds)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;

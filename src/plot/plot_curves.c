@@ -21,7 +21,7 @@ double history_largest_magnitude(const struct history *h, int column)
     return largest;
 }
 
-struct value_range history_extent(const struct history *h, const int *column, int columns)
+struct value_range history_value_range(const struct history *h, const int *column, int columns)
 {
     struct value_range e = {INFINITY, -INFINITY};
     for (int k = 0; k < columns; k++)
@@ -187,8 +187,8 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
             "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nunset ylabel\n"
             "set label '%serror [%%]' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n"
             "plot $data using 1:2 with lines lw 1.8 lc rgb '%s'\n",
-            -top, top, coarse_tic_distance(top), gnuplot_is_narrow() ? "" : "balance ",
-            (gnuplot_is_narrow() ? LABEL_AT_NARROW : LABEL_AT) / l->width,
+            -top, top, coarse_tic_distance(top), picture_is_too_narrow_for_key() ? "" : "balance ",
+            (picture_is_too_narrow_for_key() ? LABEL_AT_NARROW : LABEL_AT) / l->width,
             1 - (l->above + 0.5 * (two.lower_from + two.lower_end)) / l->height, curve_colour[6]);
 }
 
@@ -213,7 +213,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     fprintf(g.to, "set ylabel 'energy [%s]'\n", e.joule.name);
     const double end = balance >= 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
     curves_write_panel(g.to, &l, 0, end);
-    const struct value_range of = history_extent(s->h, e.column, e.n);
+    const struct value_range of = history_value_range(s->h, e.column, e.n);
     curves_write_tics(g.to, "y", fmin(of.low, 0) / e.joule.factor, of.high / e.joule.factor, end);
     if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_energies(g.to, &e);
@@ -270,7 +270,7 @@ status history_curves_draw(const struct plot_request *r, const char *title)
  * suffice, else a shade of a scale from dark to light. */
 static void frame_colour(char *text, size_t capacity, int k, int frames)
 {
-    const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
+    const struct colour c = colour_on_sequential_scale(0.88 * k / fmax(frames - 1, 1));
     if (frames <= CURVE_COLOURS)
         snprintf(text, capacity, "%s", curve_colour[k]);
     else

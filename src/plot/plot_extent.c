@@ -52,7 +52,7 @@ static double elongation(const struct output_frame *f, int64_t i, int64_t j)
 static bool same_side(const struct pairs *p, int64_t i, int64_t j)
 {
     return p->f->body[i] == p->f->body[j] && fmaxf(p->f->damage[i], p->f->damage[j]) <= LOOSE &&
-           !(p->scene && cracks_separate_particles(p->scene->crack, p->scene->cracks, &p->part, i, j));
+           !(p->scene && precracks_cut_bond_between(p->scene->crack, p->scene->cracks, &p->part, i, j));
 }
 
 /* Returns true if the neighbours i and j are certainly connected: no pre-crack separates them, they belong to one body,

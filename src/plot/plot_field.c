@@ -92,7 +92,7 @@ static status field_unknown(const char *name, const char *const *names)
         return status_set(REFUSED, "plot: --field %s: it has several components, draw one of %s",
                           printable_name(name).text, components);
     return status_set(REFUSED, "plot: --field %s: there is no such field; do you mean %s? There are %s",
-                      printable_name(name).text, word_nearest(name, names, COUNT_OF(fields)), all);
+                      printable_name(name).text, word_find_most_similar(name, names, COUNT_OF(fields)), all);
 }
 
 status plot_field_find(const struct plot_field **field, const char *name, int dim)
@@ -156,7 +156,7 @@ static bool field_occurs(const struct plot_field *field, const struct output_fra
     return occurs;
 }
 
-status plot_field_choose(const struct plot_field **field, const char *folder, const struct run_frames *frames)
+status plot_field_choose_default(const struct plot_field **field, const char *folder, const struct run_frames *frames)
 {
     static const char *const next[] = {"plastic_strain", "von_mises", "speed"};
     const int end = frames->show[frames->shown - 1].number;

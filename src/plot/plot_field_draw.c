@@ -88,7 +88,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     const enum map map = map_of_field(r->projection.field);
     struct categories categories;
     if (map == MAP_CATEGORY) {
-        categories_find(&categories, r->projection.field, r->folder, cloud, clouds);
+        categories_list_named_values(&categories, r->projection.field, r->folder, cloud, clouds);
         view.categories = &categories;
     }
     const struct sheet sheet = {path, r->format};
@@ -151,7 +151,7 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     const int dim = last.dim;
     status s = projection_check(r, dim);
     if (s == OK && r->field) s = plot_field_find(&r->projection.field, r->field, dim);
-    if (s == OK && !r->field) s = plot_field_choose(&r->projection.field, r->folder, frames);
+    if (s == OK && !r->field) s = plot_field_choose_default(&r->projection.field, r->folder, frames);
     if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
         fprintf(
             stderr,

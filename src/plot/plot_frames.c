@@ -65,9 +65,9 @@ bool folder_holds_study(const char *folder)
     return run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv");
 }
 
-status run_read_frame(struct output_frame *f, const char *folder, int number)
+status run_read_frame(struct output_frame *f, const char *folder, int frame_number)
 {
-    const struct path path = run_frame_path(folder, number);
+    const struct path path = run_frame_path(folder, frame_number);
     return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
 }
 
@@ -113,7 +113,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
 status run_frames_select(struct run_frames *f, const struct plot_request *r)
 {
     *f = (struct run_frames){0};
-    TRY(frames_list(r->folder, &f->listed, &f->list));
+    TRY(run_list_frames(r->folder, &f->listed, &f->list));
     const status within = times_within(f, r->time, r->times);
     if (within != OK) run_frames_free(f);
     TRY(within);
@@ -155,7 +155,7 @@ status pictures_folder_make(const char *path, bool overwrite)
         return status_set(REFUSED, "%s is a symbolic link: pictures would be written to another folder; remove it",
                           path);
     TRY(folder_make(path));
-    return overwrite ? OK : files_visit(path, is_picture_name, "", picture_check_replaceable);
+    return overwrite ? OK : files_visit(path, file_name_is_of_picture, "", picture_check_replaceable);
 }
 
 status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite)
@@ -175,7 +175,7 @@ status picture_choose_path(struct path *path, const char *option_argument, const
         snprintf(path->text, sizeof path->text, "%s", option_argument);
     if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", printable_name(option_argument).text);
     TRY(file_check_replaceable(path->text));
-    if (overwrite || !path_exists(path->text) || picture_has_mark(path->text)) return OK;
+    if (overwrite || !path_exists(path->text) || picture_file_is_from_cleave(path->text)) return OK;
     return status_set(REFUSED,
                       "plot: %s exists and was not drawn by cleave; choose another -o, or replace it with --overwrite",
                       path->text);
@@ -188,13 +188,13 @@ status picture_choose_path(struct path *path, const char *option_argument, const
 status report_nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');
-    if (picture_has_mark(path)) remove(path);
+    if (picture_file_is_from_cleave(path)) remove(path);
     return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, why) < 0
                ? status_set(FAILED, "cannot write to standard output")
                : OK;
 }
 
-void picture_compose_title(char *title, const struct plot_request *r, const char *what,
+void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c)
 {
     const char *folder = r->folder;
@@ -208,7 +208,7 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
     if (r->title)
         snprintf(title, TITLE_LENGTH, "%s", r->title);
     else
-        snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", what, layer);
+        snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", quantity, layer);
     const size_t length = strlen(title);
     if (c != NULL && c->magnify != 1)
         snprintf(title + length, TITLE_LENGTH - length, "%sdisplacements x %.4g", length > 0 ? ", " : "", c->magnify);

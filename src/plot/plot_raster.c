@@ -112,6 +112,6 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
     }
     for (int64_t i = 0; i < c->n; i++) paint_particle(&v, view, c, i, map);
     notches_paint(pixel, width, height, view, c, map);
-    rigids_paint_flat(pixel, width, height, view, c);
+    rigids_paint_in_plane(pixel, width, height, view, c);
     memory_free(v.rank);
 }

@@ -27,12 +27,12 @@ void plotted_particles_place_rigids(struct plotted_particles *c, const struct sc
             r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
             r->low[d] = low[d], r->high[d] = high[d];
         }
-        r->bounded = rigid_box_shown(r->shape, s->dim, r->low, r->high);
+        r->bounded = rigid_compute_shown_box(r->shape, s->dim, r->low, r->high);
     }
 }
 
 void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                                  const char *folder, int number)
+                                  const char *folder, int frame_number)
 {
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
@@ -41,7 +41,7 @@ void plotted_particles_add_rigids(struct plotted_particles *c, const struct outp
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
     }
-    if (rigids_read_frame(at, s->rigids, folder, number)) plotted_particles_place_rigids(c, s, at, low, high);
+    if (rigids_read_frame(at, s->rigids, folder, frame_number)) plotted_particles_place_rigids(c, s, at, low, high);
     memory_free(at);
 }
 
@@ -72,7 +72,7 @@ static double corner_along(const struct rigid_shown *r, int dim, int k, const do
     return sum;
 }
 
-void view_show_rigids(struct view *v, const struct plotted_particles *c)
+void view_extend_to_rigids(struct view *v, const struct plotted_particles *c)
 {
     const double *axis[2] = {c->camera.right, c->camera.up};
     const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);
@@ -111,8 +111,8 @@ bool rigids_are_visible(const struct view *v, const struct plotted_particles *c)
     return visible;
 }
 
-void rigids_paint_flat(struct colour *pixel, int width, int height, const struct view *v,
-                       const struct plotted_particles *c)
+void rigids_paint_in_plane(struct colour *pixel, int width, int height, const struct view *v,
+                           const struct plotted_particles *c)
 {
     const int size[2] = {width, height};
     const double depth = c->normal < 0 ? 0 : c->layer * c->camera.towards[c->normal];
@@ -141,8 +141,8 @@ static double brightness_at(const struct rigid_shown *r, const double *x, const 
     return length > 0 ? (shade / length) * (0.6 + 0.4 * fmax(facing, 0) / sqrt(length)) : 1;
 }
 
-void rigids_paint_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                          const struct plotted_particles *c, double share)
+void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
+                               const struct plotted_particles *c, double colour_weight)
 {
     const int size[2] = {width, height};
     for (int b = 0; b < c->rigids; b++) {
@@ -164,7 +164,8 @@ void rigids_paint_outside(struct colour *pixel, float *depth, int width, int hei
             }
             if (!(level <= small) || z <= depth[q]) continue;
             depth[q] = (float)z;
-            pixel[q] = colour_faded(colour_shaded(RIGID, brightness_at(r, x, c->camera.towards, small)), share);
+            pixel[q] = colour_mixed_with_white(
+                colour_mixed_with_black(RIGID, brightness_at(r, x, c->camera.towards, small)), colour_weight);
         }
     }
 }

@@ -83,7 +83,7 @@ static void plot_spread(FILE *to, const struct series *s, const struct curves_la
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\nset logscale y\nset yrange [0.1:100]\n"
             "set ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%%g'\nset ylabel '%sspread [%%]'\nplot ",
-            gnuplot_is_narrow() ? "" : "contour ");
+            picture_is_too_narrow_for_key() ? "" : "contour ");
     for (int k = 0; k < f->n; k++)
         fprintf(to, "%s$data using 1:%d with lines lw 1.6 lc rgb '%s'", k > 0 ? ", " : "", k + 2,
                 curve_colour[f->n > 1 ? k : CURVE_COLOURS - 1]);
@@ -111,7 +111,7 @@ status sif_curves_draw(const char *title, const struct series *s)
     curves_write_margins(g.to, &l);
     fprintf(g.to, "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n", f.unit.name);
     const double end = spread > 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
-    const struct value_range of = history_extent(s->h, f.column, 2 * f.n);
+    const struct value_range of = history_value_range(s->h, f.column, 2 * f.n);
     curves_write_panel(g.to, &l, 0, end);
     curves_write_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
     if (spread > 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);

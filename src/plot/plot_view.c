@@ -79,7 +79,7 @@ static int64_t count_outside(const struct view *v, const struct plotted_particle
     return outside;
 }
 
-struct view view_around(const struct plotted_particles *cloud, int clouds)
+struct view view_make_around_particles(const struct plotted_particles *cloud, int clouds)
 {
     struct view v = {.top = 0.5};
     double longest = 0, reach = 0;
@@ -100,7 +100,7 @@ struct view view_around(const struct plotted_particles *cloud, int clouds)
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
     }
-    for (int c = 0; c < clouds; c++) view_show_rigids(&v, &cloud[c]);
+    for (int c = 0; c < clouds; c++) view_extend_to_rigids(&v, &cloud[c]);
     for (int c = 0; c < clouds; c++) v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
     return v;
 }
@@ -217,7 +217,7 @@ static status view_check_crop(const struct view *v, const struct view *around, c
 
 status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
 {
-    *v = view_around(cloud, clouds);
+    *v = view_make_around_particles(cloud, clouds);
     view_set_field(v, r->projection.field, cloud, clouds);
     const struct scene *scene = r->projection.scene;
     if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
@@ -255,7 +255,7 @@ struct colour map_colour(const struct view *v, enum map map, double a)
                                  : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING
                                                                  : COLOURS_VIRIDIS,
                                  a);
-    return colour_damage(a);
+    return colour_on_damage_scale(a);
 }
 
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map)

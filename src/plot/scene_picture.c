@@ -67,10 +67,10 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
 {
     const bool both = part->n_of[KIND_PD] > 0 && part->n_of[KIND_MPM] > 0;
     for (int64_t i = 0; i < p->n; i++) {
-        struct colour colour = part_colour(part_number(s, p, i));
+        struct colour colour = colour_of_material_or_body(part_number(s, p, i));
         real x[DIM_MAX];
         for (int d = 0; d < p->dim; d++) x[d] = spacing ? p->X[d][i] : p->x[d][i];
-        if (both && !spacing && p->kind[i] == KIND_PD) colour = colour_shaded(colour, PERIDYNAMIC);
+        if (both && !spacing && p->kind[i] == KIND_PD) colour = colour_mixed_with_black(colour, PERIDYNAMIC);
         cloud_add(c, x, p->dim, spacing ? spacing[i] : s->spacing, colour);
     }
 }
@@ -158,14 +158,14 @@ static void key_of_parts(struct marks *m)
         else
             snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
                      e->part.n < e->part.n_body ? " are made" : "");
-        marks_add_colour_key(m, part_colour(k), text);
+        marks_add_colour_key(m, colour_of_material_or_body(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
         if (m->plain)
             snprintf(text, sizeof text, "darker: peridynamic");
         else
             snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
-        marks_add_colour_key(m, colour_shaded(part_colour(0), PERIDYNAMIC), text);
+        marks_add_colour_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
@@ -179,7 +179,7 @@ static void key_of_parts(struct marks *m)
  * arrow, around the body. */
 static struct view scene_view(const struct plotted_particles *c, double arrow)
 {
-    struct view v = view_around(c, 1);
+    struct view v = view_make_around_particles(c, 1);
     for (int a = 0; a < 2; a++) v.from[a] -= arrow, v.to[a] += arrow;
     v.outside = 0;
     return v;
@@ -202,7 +202,7 @@ static int key_columns(const struct marks *m, double wide)
  * (picture_size_set), returns the layout of a larger picture of the same shape. */
 static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
 {
-    const bool narrow = gnuplot_is_narrow();
+    const bool narrow = picture_is_too_narrow_for_key();
     const struct picture_size given = picture_size_get();
     struct layout l = {.columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
     l.below = PICTURE_BELOW;
@@ -233,7 +233,7 @@ static struct layout scene_layout(const struct view *v, const struct marks *m, b
  * are made smaller if the longest line of the key in m requires it. l: layout of the picture. */
 static void set_scene_key(FILE *to, const struct layout *l, const struct marks *m)
 {
-    const bool narrow = gnuplot_is_narrow();
+    const bool narrow = picture_is_too_narrow_for_key();
     const double x = narrow ? KEY_BESIDE : l->left + l->panel_width + 14,
                  room = (l->width - x) / l->key_columns - SAMPLE;
     const double size =
@@ -254,7 +254,7 @@ static void draw_scene_title(struct gnuplot *g, const struct scene *s, const str
     char text[TEXT_ROOM];
     snprintf(text, sizeof text, "%.60s before it runs: %lld particles, spacing %.4g %s", s->name,
              (long long)part->n_body, s->spacing / metre.factor, metre.name);
-    gnuplot_write_title(g, title ? title : text, gnuplot_is_narrow() ? LEFT_NARROW : PICTURE_LEFT);
+    gnuplot_write_title(g, title ? title : text, picture_is_too_narrow_for_key() ? LEFT_NARROW : PICTURE_LEFT);
 }
 
 static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct plotted_particles *c,
@@ -282,7 +282,7 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
     cubes_paint_particles(pixel, size[0], size[1], v, c, MAP_DAMAGE);
-    if (!c->position[2] && c->dim > 1) rigids_paint_flat(pixel, size[0], size[1], v, c);
+    if (!c->position[2] && c->dim > 1) rigids_paint_in_plane(pixel, size[0], size[1], v, c);
     panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
@@ -333,7 +333,7 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
                       .metre = metre.factor,
                       .arrow = arrow,
                       .title = title,
-                      .plain = gnuplot_is_narrow()};
+                      .plain = picture_is_too_narrow_for_key()};
     if (m.to && m.plot) draw_marks(&m);
     bool whole = m.to && fclose(m.to) == 0;
     whole = m.plot && fclose(m.plot) == 0 && whole;

@@ -67,7 +67,8 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
  * distances up to `horizon` [m]. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
  * group in centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
-int64_t diagnostics_locate_cuts(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *centre)
+int64_t diagnostics_locate_new_breaks(const struct particles *p, const int32_t *list, int64_t n, real horizon,
+                                      real *centre)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
@@ -100,7 +101,7 @@ bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p,
     w->bonds_broken += broken_bonds;
     if (broken_bonds == 0) return false;
     if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_locate_cuts(p, NULL, p->n, horizon, w->break_position);
+        w->break_ends = diagnostics_locate_new_breaks(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
     }
     const bool tears = isnan(w->driven_time) && driven_breaks(p);

@@ -166,7 +166,8 @@ int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_fron
     return 2;
 }
 
-bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *from, real *to)
+bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
+                                 real *upper_end)
 {
     struct exact_front front[EXACT_FRONTS];
     int fronts = exact_compute_stress_fronts(e, t, front);
@@ -181,7 +182,7 @@ bool exact_constant_stress_range(const struct exact *e, real t, enum exact_windo
         near = 0.1 * L, far = depth(e, front[0].position) - 0.1 * L;
     else
         near = depth(e, front[0].position) + 0.1 * L, far = 0.9 * L;
-    *from = real_min(exact_position(e, near), exact_position(e, far));
-    *to = real_max(exact_position(e, near), exact_position(e, far));
+    *lower_end = real_min(exact_position(e, near), exact_position(e, far));
+    *upper_end = real_max(exact_position(e, near), exact_position(e, far));
     return near < far;
 }

@@ -14,7 +14,7 @@
  * particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
-    q->memory.ends = diagnostics_locate_cuts(o->part, q->list, q->n, o->horizon, q->memory.position);
+    q->memory.ends = diagnostics_locate_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
@@ -56,7 +56,7 @@ void probes_update_broken_bonds(struct probes *s, const struct observed_run *o)
         struct probe *q = &s->probe[k];
         if (!isnan(q->memory.first_time)) continue;
         if (q->request.kind == PROBE_BREAK) step_break(q, o);
-        if (q->request.kind == PROBE_SPALL) spall_probe_sample(q, o);
+        if (q->request.kind == PROBE_SPALL) spall_probe_detect_separation(q, o);
     }
 }
 

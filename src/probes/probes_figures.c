@@ -74,7 +74,7 @@ void particle_compute_readings(const struct observed_run *o, int64_t i, real *va
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
     if (p->plane_strain) *value++ = particle_out_of_plane_stress(p, i);
-    *value++ = damage_reading(o, i);
+    *value++ = probe_damage_of_particle(o, i);
     if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
     if (p->temperature) *value++ = p->temperature[i];
 }
@@ -247,7 +247,7 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "start_time", tip->start_time);
     if (moves) probes_figures_put(e, "arrest_time", tip->arrest_time);
     probes_figures_put(e, "length_end", tip->growth);
-    probes_figures_put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
+    probes_figures_put(e, "angle_deg", tip_deflection_angle(tip, e->o->part->dim));
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
@@ -302,7 +302,7 @@ static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
     if (isnan(e->q->memory.first_time)) return;
-    spall_probe_speeds(e->q, e->o->part, &speed, &rest);
+    spall_probe_compute_part_speeds(e->q, e->o->part, &speed, &rest);
     probes_figures_put(e, "position", e->q->memory.position[0]);
     probes_figures_put(e, "time", e->q->memory.first_time);
     probes_figures_put(e, "speed", speed);
@@ -383,7 +383,7 @@ static void figures_growth(const struct emitter *e)
     const struct growing_crack *g = &e->o->growth[e->q->growth];
     probes_figures_put(e, "start_time", g->start_time);
     probes_figures_put(e, "length_end", g->grown);
-    probes_figures_put(e, "angle_deg", growing_crack_angle(g));
+    probes_figures_put(e, "angle_deg", growing_crack_deflection_angle(g));
     probes_figures_put(e, "direction_deg",
                        atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
     probes_figures_put(e, "experiment_deg", e->q->request.experiment);

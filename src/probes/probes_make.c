@@ -88,7 +88,7 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 static status bind_point(struct probe *q, const struct observed_run *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
-    q->list[q->n++] = particle_nearest(o, q->request.at);
+    q->list[q->n++] = probe_find_nearest_particle(o, q->request.at);
     if (q->list[0] >= 0) return OK;
     return status_set(
         REFUSED, "probe \"%s\": the point (%s) m is outside the bodies; %s: check its coordinates and their unit (mm?)",
@@ -108,7 +108,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
         line_probe_station_position(q, dim, (int)q->n, X);
-        q->list[q->n] = particle_nearest(o, X);
+        q->list[q->n] = probe_find_nearest_particle(o, X);
         inside += q->list[q->n] >= 0;
     }
     if (inside > 0) return OK;

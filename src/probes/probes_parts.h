@@ -72,7 +72,7 @@ struct column particle_reading_column(const struct particles *p, int number);
 
 /* Returns the damage of particle i of the run: the share of its bonds that are broken or have softened, by volume
  * [1]. */
-static inline real damage_reading(const struct observed_run *o, int64_t i)
+static inline real probe_damage_of_particle(const struct observed_run *o, int64_t i)
 {
     const struct bonds *b = o->bonds;
     return o->part->damage[i] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[i]) : 0);
@@ -104,16 +104,16 @@ void probe_motion_free(struct probe *q);
 
 /* Returns component d of the position of the k-th particle of a probe [m]: at the time of the sample between
  * probe_motion_interpolate and probe_motion_discard, else the present position. */
-static inline real probe_position(const struct probe *q, const struct particles *p, int d, int64_t k)
+static inline real probe_position(const struct probe *q, const struct particles *p, int axis, int64_t entry)
 {
-    return q->motion.complete ? q->motion.x[d][k] : p->x[d][q->list[k]];
+    return q->motion.complete ? q->motion.x[axis][entry] : p->x[axis][q->list[entry]];
 }
 
 /* Returns component d of the velocity of the k-th particle of a probe [m/s]: at the time of the sample between
  * probe_motion_interpolate and probe_motion_discard, else the present velocity. */
-static inline real probe_velocity(const struct probe *q, const struct particles *p, int d, int64_t k)
+static inline real probe_velocity(const struct probe *q, const struct particles *p, int axis, int64_t entry)
 {
-    return q->motion.complete ? q->motion.v[d][k] : p->v[d][q->list[k]];
+    return q->motion.complete ? q->motion.v[axis][entry] : p->v[axis][q->list[entry]];
 }
 
 /* ---- other kinds ------------------------------------------------------------------------------------------------- */
@@ -122,7 +122,7 @@ extern const char *const axis_name[DIM_MAX];
 
 /* Returns the number of the particle nearest to the reference position X, dim components [m]. Returns -1 if X is
  * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
-int32_t particle_nearest(const struct observed_run *o, const real *X);
+int32_t probe_find_nearest_particle(const struct observed_run *o, const real *X);
 
 /* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
  * equidistant from one end of the line to the other. */
@@ -164,11 +164,11 @@ struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct
 
 /* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
  * separation and the time in q->memory; else changes nothing. */
-void spall_probe_sample(struct probe *q, const struct observed_run *o);
+void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocity along x of the lighter part of a separated bar, *speed, and of the remaining part,
  * *speed_rest [m/s]. */
-void spall_probe_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
 /* Number of quantities that a GROWTH probe reports of a growing crack: tip position, length, speed, equivalent
  * stress-intensity factor K_eq. */

@@ -10,7 +10,7 @@ const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
  * diagonal of a lattice cell times 1.5, to allow for particles that are not on a lattice. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
-int32_t particle_nearest(const struct observed_run *o, const real *X)
+int32_t probe_find_nearest_particle(const struct observed_run *o, const real *X)
 {
     const struct particles *p = o->part;
     real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;

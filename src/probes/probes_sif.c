@@ -160,7 +160,7 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
         const real angle = OPEN_ANGLE * pi * (2.0 * k / stations - 1), c = radius * cos(angle), s = radius * sin(angle);
         position[0] = t->place[0] + c * t->along[0] - s * t->along[1];
         position[1] = t->place[1] + c * t->along[1] + s * t->along[0];
-        if (particle_nearest(o, (real[DIM_MAX]){position[0], position[1]}) < 0) return true;
+        if (probe_find_nearest_particle(o, (real[DIM_MAX]){position[0], position[1]}) < 0) return true;
     }
     return false;
 }
@@ -213,7 +213,8 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
 {
     const struct particles *p = o->part;
     const real *e = w->tip.along, *at = w->tip.place;
-    const int32_t ahead = particle_nearest(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
+    const int32_t ahead =
+        probe_find_nearest_particle(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
     if (ahead < 0)
         return status_set(REFUSED, "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m", r->name, at[0],
                           at[1]);
@@ -406,12 +407,12 @@ bool probes_get_sif_contour(const struct probes *s, int k, const struct observed
     return true;
 }
 
-bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *found)
+bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *control)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
         if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
-        *found =
+        *control =
             (struct growth_control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
                                     .along = {q->memory.along[0], q->memory.along[1]},
                                     .time = q->memory.time,

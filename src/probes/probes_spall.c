@@ -118,7 +118,7 @@ static bool columns_apart(const struct columns *c, real *position)
     return false;
 }
 
-void spall_probe_sample(struct probe *q, const struct observed_run *o)
+void spall_probe_detect_separation(struct probe *q, const struct observed_run *o)
 {
     int bodies = 0;
     if (!o->bonds || o->bonds->rows == 0) return;
@@ -140,7 +140,7 @@ void spall_probe_sample(struct probe *q, const struct observed_run *o)
     }
 }
 
-void spall_probe_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
+void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
 {
     real mass[2] = {0}, momentum[2] = {0};
     for (int64_t i = 0; i < p->n; i++) {

@@ -14,7 +14,7 @@ static const char *const profile_begin[] = {"s [m],", "x [m],"};
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
-    TRY(file_check_beginning(path.text, profile_begin, COUNT_OF(profile_begin)));
+    TRY(file_check_is_from_cleave(path.text, profile_begin, COUNT_OF(profile_begin)));
     return file_write_whole_unsynced(path.text, text, length);
 }
 
@@ -25,7 +25,7 @@ status profiles_write(const struct probes *s, const struct output *out, const st
     return file_sync_folder(path_join(out->folder, "history.csv").text);
 }
 
-void profiles_check(const struct probes *s, const struct output *out, struct warnings *to)
+void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *to)
 {
     char text[PATH_NAME_ROOM + 120], name[PROFILE_NAME], first[PROFILE_NAME] = "";
     int64_t lost = 0;
@@ -47,7 +47,7 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;
-    return file_check_beginning(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
+    return file_check_is_from_cleave(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
 void profiles_remove(const struct probes *s, const struct output *out)

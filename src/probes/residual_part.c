@@ -27,7 +27,7 @@ static void node_keep(const struct scene *s, const struct grid *g, int64_t I, in
 void patch_residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
 {
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        node_keep(s, &mesh->grid, I, mesh_regular_node_of(mesh, I), &q->residual_step0);
+        node_keep(s, &mesh->grid, I, mesh_regular_node_of_doubled_node(mesh, I), &q->residual_step0);
 }
 
 void patch_residual_store(struct probing *q, const struct scene *s, const struct particles *p,

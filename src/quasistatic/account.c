@@ -13,7 +13,7 @@ void applied_forces_copy(real **applied, const struct statics *s, const struct p
     }
 }
 
-void account_start(struct account *a, const struct statics *s, const struct particles *part)
+void work_account_start(struct account *a, const struct statics *s, const struct particles *part)
 {
     *a = (struct account){0};
     applied_forces_copy(a->applied, s, part);
@@ -27,7 +27,7 @@ void account_start(struct account *a, const struct statics *s, const struct part
     }
 }
 
-void account_free(struct account *a)
+void work_account_free(struct account *a)
 {
     for (int d = 0; d < DIM_MAX; d++) {
         memory_free(a->u.of[d]);
@@ -38,10 +38,11 @@ void account_free(struct account *a)
     *a = (struct account){0};
 }
 
-real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads, real bent)
+real work_account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
+                      real curved_path_work)
 {
     real range[2] = {0};
-    loads->work += bent;
+    loads->work += curved_path_work;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
             const real shift = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k],
@@ -56,6 +57,6 @@ real account_end(struct account *a, const struct statics *s, const struct partic
             range[1] += 0.5 * (now - initial) * shift;
         }
     }
-    account_free(a);
+    work_account_free(a);
     return fabs(range[0]) + fabs(range[1]);
 }

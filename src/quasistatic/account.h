@@ -16,17 +16,18 @@ struct account {
  * before the first solution. The caller frees the arrays. */
 void applied_forces_copy(real **applied, const struct statics *s, const struct particles *part);
 
-/* Copies the present positions, displacements and forces into *a, for account_end. The storage is freed by account_end
- * or account_free. */
-void account_start(struct account *a, const struct statics *s, const struct particles *part);
+/* Copies the present positions, displacements and forces into *a, for work_account_end. The storage is freed by
+ * work_account_end or work_account_free. */
+void work_account_start(struct account *a, const struct statics *s, const struct particles *part);
 
-/* Adds the work of supports and of applied forces since account_start to that of the loads: the mean of the initial and
- * final force times the displacement (trapezoidal rule), and `bent`, the work of loads beyond that mean along the
- * curved path of the solver [J]. Frees the storage of *a. Returns an estimate of the error of the work [J], its
- * difference from the work with the initial or the final force alone. */
-real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads, real bent);
+/* Adds the work of supports and of applied forces since work_account_start to that of the loads: the mean of the
+ * initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads beyond
+ * that mean along the curved path of the solver [J]. Frees the storage of *a. Returns an estimate of the error of the
+ * work [J], its difference from the work with the initial or the final force alone. */
+real work_account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
+                      real curved_path_work);
 
 /* Frees the storage of *a. */
-void account_free(struct account *a);
+void work_account_free(struct account *a);
 
 #endif

@@ -143,22 +143,22 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     TRY(loads_check_finite(&e->loads, &e->part, t));
-    statics_contact_begin(e, t);
-    account_start(&account, s, &e->part);
+    statics_contact_begin_solution(e, t);
+    work_account_start(&account, s, &e->part);
     const status found = equilibrium_solve(e, t, account.applied);
     plastic_state_update(e);
-    frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part);
-    const bool touched = statics_in_contact(s, e->contact);
+    const bool touched = statics_is_or_was_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
-               range = account_end(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
-    const real rigids = statics_contact_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
+               range = work_account_end(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
+    const real rigids = statics_contact_end_solution(e, e->loads.work + e->loads.constraint_work - worked, lost);
     *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, touched || s->in_contact,
                             e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
-    statics_preconditioner_check_cost(s, s->balance.directions - asked);
+    statics_preconditioner_free_if_costly(s, s->balance.directions - asked);
     return found;
 }
 
@@ -212,7 +212,7 @@ status equilibrium_find_at_time(struct run *e, real t)
 
 status equilibrium_convert_points(struct run *e, int64_t broken_bonds)
 {
-    while (step_convert(e, broken_bonds)) {
+    while (step_convert_points_at_broken_bonds(e, broken_bonds)) {
         broken_bonds = 0;
         statics_preconditioner_free(e->statics);
         statics_unknowns_free(e->statics);

@@ -45,7 +45,8 @@ static void unconstrained_update(struct run *e)
  * become active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
-    return contact_search_and_select_active(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, close);
+    return contact_search_and_select_for_equilibrium(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
+                                                     close);
 }
 
 void statics_contact_first_search(struct run *e)
@@ -75,12 +76,15 @@ static real energy_present(struct run *e)
     return sample_strain_energy(e) + contact_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
 }
 
-bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
+bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *c)
+{
+    return s->in_contact || c->touching > 0;
+}
 
 /* Prepares contact for the solution at pseudo-time t [s]: stores the energy before it, moves rigid bodies, and searches
  * for contacts. The stored energy includes contact energy only if anything was in contact. If anything is in contact
  * now, also finds the unconstrained fragments again, which contact may constrain. */
-void statics_contact_begin(struct run *e, real t)
+void statics_contact_begin_solution(struct run *e, real t)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
@@ -96,14 +100,14 @@ void statics_contact_begin(struct run *e, real t)
     if (!s->in_contact) return;
     unconstrained_update(e);
     q->force(e, &q->u, &q->f);
-    q->reach = contact_list_largest_safe_motion(e->contact);
+    q->reach = contact_pair_list_safe_displacement(e->contact);
 }
 
 /* Updates contact at the end of a solution: searches for pairs if particles have moved far, else selects the active
  * contacts by their overlap. Recomputes the norm of the loads with the final contact forces, not with those of
  * intermediate states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run
  * (struct run). */
-bool statics_contact_update_set(void *engine)
+bool statics_contact_update_active_set(void *engine)
 {
     struct run *e = engine;
     struct statics *s = e->statics;
@@ -111,21 +115,21 @@ bool statics_contact_update_set(void *engine)
     if (!e->statics->has_contact) return true;
     unknowns_apply_displacements(s, &e->part, &e->frame->mesh, &s->balance.u);
     loads_update_mirror_images(&e->loads, &e->part);
-    const int64_t changed =
-        contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select_active(c, &e->part, 0);
+    const int64_t changed = contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0)
+                                                               : contact_select_for_equilibrium(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
     return changed == 0;
 }
 
-void statics_contact_choose_laws(void *engine, bool settled)
+void statics_contact_select_acting(void *engine, bool set_is_fixed)
 {
     struct run *e = engine;
-    if (e->statics->has_contact) contact_use_selection(e->contact, settled);
+    if (e->statics->has_contact) contact_use_equilibrium_selection(e->contact, set_is_fixed);
 }
 
-real statics_contact_end(struct run *e, real work, real lost)
+real statics_contact_end_solution(struct run *e, real work, real solver_loss)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
@@ -140,17 +144,17 @@ real statics_contact_end(struct run *e, real work, real lost)
         rigid_add_drive_work(&e->rigid->body[k]);
         work += e->rigid->body[k].work - before;
     }
-    if (statics_in_contact(s, e->contact)) q->lost = lost + work - (energy_present(e) - s->energy);
+    if (statics_is_or_was_in_contact(s, e->contact)) q->lost = solver_loss + work - (energy_present(e) - s->energy);
     s->in_contact = e->contact->touching > 0;
     return range;
 }
 
-void rigid_forces_note(struct rigid_set *rigid, int n)
+void rigid_forces_update_largest(struct rigid_set *rigid, int n)
 {
     for (int k = 0; k < n; k++) rigid_update_largest_force(&rigid->body[k]);
 }
 
-void rigid_bodies_warn_missed(struct warnings *to, const struct rigid_set *rigid, int n, real least)
+void rigid_bodies_warn_of_no_contact(struct warnings *to, const struct rigid_set *rigid, int n, real least)
 {
     for (int k = 0; k < n; k++) {
         const struct rigid_body *r = &rigid->body[k];

@@ -13,7 +13,7 @@ struct rigid_set;
 bool crack_faces_are_in_contact(const struct contact *c);
 
 /* Returns true if anything was in contact before the present solution or is in contact now. */
-bool statics_in_contact(const struct statics *s, const struct contact *contact);
+bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
  * if the search has been made. */
@@ -26,28 +26,28 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
 
 /* Prepares the solution at pseudo-time t [s]: computes the energy stored before the solution, moves rigid bodies to
  * their positions at t, and searches for contacts there. */
-void statics_contact_begin(struct run *e, real t);
+void statics_contact_begin_solution(struct run *e, real t);
 
 /* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
  * `settle` of solver/equilibrium.h). engine: a struct run. Returns true if the set has not changed. */
-bool statics_contact_update_set(void *engine);
+bool statics_contact_update_active_set(void *engine);
 
 /* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts
- * if `settled` is true, else all pairs that overlap. engine: a struct run. */
-void statics_contact_choose_laws(void *engine, bool settled);
+ * if `set_is_fixed` is true, else all pairs that overlap. engine: a struct run. */
+void statics_contact_select_acting(void *engine, bool set_is_fixed);
 
 /* Completes a solution: adds the work done on rigid bodies in this solution to their total work and, if anything is or
  * was in contact, computes the energy that the solution has lost. work: work of loads and supports in this solution
- * [J]; lost: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid bodies [J]: the
- * difference between the work with the mean of the initial and final contact force and the work with one of these
+ * [J]; solver_loss: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid bodies [J]:
+ * the difference between the work with the mean of the initial and final contact force and the work with one of these
  * forces. */
-real statics_contact_end(struct run *e, real work, real lost);
+real statics_contact_end_solution(struct run *e, real work, real solver_loss);
 
 /* Updates the largest contact force so far of each of the n rigid bodies by that of the present equilibrium. */
-void rigid_forces_note(struct rigid_set *rigid, int n);
+void rigid_forces_update_largest(struct rigid_set *rigid, int n);
 
 /* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least` [N]: they
  * miss the body, or push a body that nothing constrains. */
-void rigid_bodies_warn_missed(struct warnings *to, const struct rigid_set *rigid, int n, real least);
+void rigid_bodies_warn_of_no_contact(struct warnings *to, const struct rigid_set *rigid, int n, real least);
 
 #endif

@@ -36,13 +36,13 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
-real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d)
+real crack_energy_share_by_symmetry(const struct crack_tips *t, const struct bond_source *source, int plane_axis)
 {
     bool on = t->n > 0;
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
         for (int m = 0; m < source->mirrors; m++)
-            any |= (d < 0 || source->mirror[m].axis == d) &&
+            any |= (plane_axis < 0 || source->mirror[m].axis == plane_axis) &&
                    tip_grows_on_mirror_plane(t, &t->tip[k], &source->mirror[m], 1);
         on = any;
     }
@@ -59,7 +59,7 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
     if (p->dim < 3) return 1;
     for (int d = 0; d < 3; d++) {
         particles_coordinate_range(p, p->n, d, &low, &high);
-        length = real_min(length, (high - low + h) / crack_symmetry_share(t, source, d));
+        length = real_min(length, (high - low + h) / crack_energy_share_by_symmetry(t, source, d));
     }
     for (int k = 0; k < t->n; k++)
         if (t->tip[k].from_crack) edges += 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3));
@@ -72,10 +72,10 @@ static real increment_area(const struct scene *s, const struct crack_tips *t, co
                            real front)
 {
     const real ahead = INCREMENT_SPACINGS * (s->dim > 1 ? s->spacing : 1);
-    return crack_symmetry_share(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
+    return crack_energy_share_by_symmetry(t, source, -1) * ahead * scene_section_or_thickness(s) * front;
 }
 
-real crack_area_of_spacing(const struct run *e)
+real crack_area_of_growth_by_one_spacing(const struct run *e)
 {
     const struct crack_tips *t = &e->fracture->tips;
     return increment_area(e->scene, t, &e->source, front_length(t, &e->source, &e->part)) / INCREMENT_SPACINGS;
@@ -197,7 +197,7 @@ status crack_increment_find(struct run *e)
     return e->statics->in_contact ? increment_find_at_due(e) : OK;
 }
 
-status crack_increment_apply_balanced(struct run *e)
+status crack_increment_apply_at_energy_balance(struct run *e)
 {
     const real size = increment_energy_balance_load(&e->statics->ahead);
     if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_load_size(e, size)));

@@ -6,13 +6,13 @@
 #include "run/run.h"
 
 /* Returns the share of a crack area whose energy belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry,
- * else 1. t: tips of the cracks; source: planes of symmetry; d: only planes perpendicular to axis d are considered, -1
- * for all planes. */
-real crack_symmetry_share(const struct crack_tips *t, const struct bond_source *source, int d);
+ * else 1. t: tips of the cracks; source: planes of symmetry; plane_axis: only planes perpendicular to axis d are
+ * considered, -1 for all planes. */
+real crack_energy_share_by_symmetry(const struct crack_tips *t, const struct bond_source *source, int plane_axis);
 
 /* Returns the crack area that is created if all cracks grow by one spacing along their whole fronts [m^2], halved on
  * planes of symmetry. Without a pre-crack the front in space is the shortest side of the body. */
-real crack_area_of_spacing(const struct run *e);
+real crack_area_of_growth_by_one_spacing(const struct run *e);
 
 /* Determines the next crack increment from trial equilibria, unless it is already known. Stores its bonds in
  * statics.next, its energies in statics.ahead, and the load size at which it is due in statics.due. Returns FAILED if
@@ -35,7 +35,7 @@ status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
  * equilibrium there, and makes the increment. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to
  * stop. */
-status crack_increment_apply_balanced(struct run *e);
+status crack_increment_apply_at_energy_balance(struct run *e);
 
 /* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body
  * in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion

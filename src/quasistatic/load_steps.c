@@ -49,7 +49,7 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
 static void state_sample(struct run *e)
 {
     sample_update_probes(e);
-    rigid_forces_note(e->rigid, e->scene->rigids);
+    rigid_forces_update_largest(e->rigid, e->scene->rigids);
 }
 
 /* Finds the equilibrium at the load size `size` (norm of prescribed displacements [m] or of applied forces [N]). The
@@ -106,7 +106,7 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
         TRY(crack_increment_apply_dynamic(e));
     else
-        TRY(pays ? crack_increment_apply(e) : crack_increment_apply_balanced(e));
+        TRY(pays ? crack_increment_apply(e) : crack_increment_apply_at_energy_balance(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
     return crack_increment_find(e);
 }
@@ -137,7 +137,7 @@ static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
-    if (s->increment_due) TRY(crack_increment_apply_balanced(e));
+    if (s->increment_due) TRY(crack_increment_apply_at_energy_balance(e));
     TRY(crack_increment_find(e));
     if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
@@ -210,7 +210,7 @@ static status step_by_opening(struct run *e)
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
             state_sample(e);
-            TRY(crack_increment_apply_balanced(e));
+            TRY(crack_increment_apply_at_energy_balance(e));
         }
         TRY(crack_increment_find(e));
     }
@@ -340,7 +340,7 @@ static void warn_at_end(struct run *e)
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
     flow_turn_warn(&e->statics->turn, e->part.dim, &e->warnings);
-    rigid_bodies_warn_missed(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
+    rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
 /* Checks that the loads on fragments that nothing constrains are balanced. Returns FAILED, with a message, if those on

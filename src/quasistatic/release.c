@@ -80,7 +80,7 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
 /* Returns the kinetic energy of particles and mesh [J]. */
 static real kinetic_present(const struct particles *part, const struct reference_frame *frame)
 {
-    return particles_kinetic_energy(part) + frame_kinetic_energy(frame);
+    return particles_kinetic_energy(part) + reference_frame_kinetic_energy(frame);
 }
 
 /* Makes time steps, first undamped, then damped, until the body is at rest. *broken: receives the number of directed
@@ -125,7 +125,7 @@ status crack_increment_apply_dynamic(struct run *e)
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_freeze(e->scene, e->boundary, s->t);
     rigids_freeze(e->scene, e->rigid, true);
-    contact_end_selection(e->contact);
+    contact_end_equilibrium_selection(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
     e->clock.step = 1, e->clock.steps = RELEASE_STEPS_MOST, e->clock.stride = 1;

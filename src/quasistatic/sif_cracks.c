@@ -30,7 +30,7 @@ enum { INCREMENT_SPACINGS = 2 };
 bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
 {
     real ahead[2];
-    sif_point_ahead(tip->position, plane->spacing, tip->last, ahead);
+    sif_plane_compute_point_ahead(tip->position, plane->spacing, tip->last, ahead);
     return sif_plane_segment_is_on_mirror(plane, tip->position, ahead);
 }
 
@@ -86,8 +86,8 @@ static struct crack_medium medium_at(const struct sif_cracks *l, const struct pa
     enum space space = l->scene->space;
     if (p->dim == 3) {
         real ahead[2];
-        sif_point_ahead(tip->position, l->plane.spacing, tip->last, ahead);
-        const bool thin = sif_plane_width(&l->plane, p, tip->position, ahead) < 2 * radius;
+        sif_plane_compute_point_ahead(tip->position, l->plane.spacing, tip->last, ahead);
+        const bool thin = sif_plane_body_width_along_front(&l->plane, p, tip->position, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
     return crack_medium_of(material_at(l, p, tip), space);
@@ -182,13 +182,13 @@ void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p
     const real h = l->plane.spacing, energy = l->scene->steps.energy;
     real from[2], to[2], growth = INCREMENT_SPACINGS * h, share = 1;
     int cracks;
-    sif_point_ahead(tip->position, AHEAD * h, tip->heading, from);
-    sif_point_ahead(tip->position, h, tip->heading, to);
+    sif_plane_compute_point_ahead(tip->position, AHEAD * h, tip->heading, from);
+    sif_plane_compute_point_ahead(tip->position, h, tip->heading, to);
     if (energy > 0)
-        growth =
-            energy / (sif_tip_toughness(l, p, tip) * real_max(h, sif_plane_width(&l->plane, p, tip->position, to)));
+        growth = energy / (sif_tip_toughness(l, p, tip) *
+                           real_max(h, sif_plane_body_width_along_front(&l->plane, p, tip->position, to)));
     struct crack *crack = crack_segments(l, &cracks);
-    sif_point_ahead(tip->position, growth, tip->heading, to);
+    sif_plane_compute_point_ahead(tip->position, growth, tip->heading, to);
     for (int k = 0; k < cracks; k++)
         if (!crack_ends_at_tip(&crack[k], tip, AHEAD * h))
             share = real_min(share, intersection_share(&crack[k], from, to));
@@ -207,8 +207,8 @@ static bool body_continues(const struct sif_cracks *l, const struct particles *p
 {
     const real h = l->plane.spacing;
     real ahead[2];
-    sif_point_ahead(tip->position, h, tip->heading, ahead);
-    const real wide = p->dim == 2 ? 1 : sif_plane_width(&l->plane, p, tip->position, ahead) / h;
+    sif_plane_compute_point_ahead(tip->position, h, tip->heading, ahead);
+    const real wide = p->dim == 2 ? 1 : sif_plane_body_width_along_front(&l->plane, p, tip->position, ahead) / h;
     int free_ones = 0;
     for (int64_t i = 0; i < p->n_all; i++) {
         real X[2];

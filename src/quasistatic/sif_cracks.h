@@ -19,34 +19,37 @@ const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, 
                            const struct particles *p);
 
 /* Projects the point X, dim components [m], onto the plane, and stores the two coordinates of the projection in the
- * plane in to[2] [m]. */
-void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2]);
+ * plane in projection[2] [m]. */
+void sif_plane_project(const struct sif_plane *plane, const real *X, real projection[2]);
 
-/* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in to[]
- * [m]. */
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2]);
+/* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in
+ * projection[] [m]. */
+void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i,
+                                real projection[2]);
 
-/* Computes the straight segment in which the pre-crack c intersects the plane, and stores its ends in at[0] and at[1],
- * as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to the crack fronts, i.e. not
- * perpendicular to the plane. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX]);
+/* Computes the straight segment in which the pre-crack c intersects the plane, and stores its ends in segment_end[0]
+ * and segment_end[1], as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to the crack
+ * fronts, i.e. not perpendicular to the plane. */
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real segment_end[2][DIM_MAX]);
 
-/* Returns the width of the body along the crack front [m], averaged over the segment between the points `from` and
- * `to` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
-real sif_plane_width(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to);
+/* Returns the width of the body along the crack front [m], averaged over the segment between the points `segment_start`
+ * and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
+real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
+                                      const real *segment_start, const real *segment_end);
 
-/* Returns the area of the crack face that intersects the plane in the segment between the points `from` and `to`, two
- * coordinates each [m]: length times width of the body along the front [m^2]. The area is halved if the segment lies
- * on a plane of symmetry. */
-real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to);
+/* Returns the area of the crack face that intersects the plane in the segment between the points `segment_start` and
+ * `segment_end`, two coordinates each [m]: length times width of the body along the front [m^2]. The area is halved if
+ * the segment lies on a plane of symmetry. */
+real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
+                          const real *segment_end);
 
-/* Returns true if the segment between the points `from` and `to` of the plane, two coordinates each [m], lies on a
- * plane of symmetry. */
-bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *from, const real *to);
+/* Returns true if the segment between the points `segment_start` and `segment_end` of the plane, two coordinates each
+ * [m], lies on a plane of symmetry. */
+bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
 
 /* Computes the point ahead = from + distance * along. from: point of the plane of the tips [m]; along: unit vector in
  * the plane; distance and result in [m]. */
-static inline void sif_point_ahead(const real *from, real distance, const real *along, real ahead[2])
+static inline void sif_plane_compute_point_ahead(const real *from, real distance, const real *along, real ahead[2])
 {
     for (int d = 0; d < 2; d++) ahead[d] = from[d] + distance * along[d];
 }

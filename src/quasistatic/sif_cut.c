@@ -38,7 +38,7 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
         sif_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
         for (int w = 0; w < segments->n; w++) cut |= crack_cuts_bond(&segments->crack[w], X, Y, 2);
         if (!cut) continue;
-        const struct broken_bond record = bond_make_record(b, p, &l->source->limit, &it.bond, r);
+        const struct broken_bond record = broken_bond_make_record(b, p, &l->source->limit, &it.bond, r);
         break_list_add(list, &record);
     }
 }

@@ -47,16 +47,16 @@ static void axes_make(struct sif_plane *plane)
     vector_product(f, plane->axis[0], plane->axis[1]);
 }
 
-void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2])
+void sif_plane_project(const struct sif_plane *plane, const real *X, real projection[2])
 {
-    for (int a = 0; a < 2; a++) to[a] = dot(plane->axis[a], X, plane->dim);
+    for (int a = 0; a < 2; a++) projection[a] = dot(plane->axis[a], X, plane->dim);
 }
 
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2])
+void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real projection[2])
 {
     real X[DIM_MAX] = {0};
     particle_reference_position(p, i, X);
-    sif_plane_project(plane, X, to);
+    sif_plane_project(plane, X, projection);
 }
 
 /* ---- requirements in space --------------------------------------------------------------------------------------- */
@@ -103,13 +103,13 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Computes the segment in which the plane of the tips cuts pre-crack c, and stores its ends in at[0] and at[1] [m].
- * Their order is such that the normal of the segment is on the side of the normal of the polygon. Returns false if the
- * pre-crack is not parallel to the crack fronts. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
+/* Computes the segment in which the plane of the tips cuts pre-crack c, and stores its ends in segment_end[0] and
+ * segment_end[1] [m]. Their order is such that the normal of the segment is on the side of the normal of the polygon.
+ * Returns false if the pre-crack is not parallel to the crack fronts. */
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real segment_end[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
-    if (plane->dim == 2) return memcpy(at, c->corner, 2 * sizeof *at), true;
+    if (plane->dim == 2) return memcpy(segment_end, c->corner, 2 * sizeof *segment_end), true;
     crack_area_vector(c, area);
     sif_plane_project(plane, area, across);
     const real size = hypot(across[0], across[1]), along[2] = {across[1] / size, -across[0] / size};
@@ -117,11 +117,11 @@ bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack
         real P[2];
         sif_plane_project(plane, c->corner[k], P);
         const real s = dot(along, P, 2);
-        for (int d = 0; d < 2 && s < least; d++) at[0][d] = P[d];
-        for (int d = 0; d < 2 && s > most; d++) at[1][d] = P[d];
+        for (int d = 0; d < 2 && s < least; d++) segment_end[0][d] = P[d];
+        for (int d = 0; d < 2 && s > most; d++) segment_end[1][d] = P[d];
         least = real_min(least, s), most = real_max(most, s);
     }
-    at[0][2] = at[1][2] = 0;
+    segment_end[0][2] = segment_end[1][2] = 0;
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
@@ -154,8 +154,8 @@ static const char *fronts_check(const struct crack_tips *t, const struct particl
         if (!t->tip[k].from_crack) continue;
         sif_plane_project(plane, t->tip[k].origin, at[0]);
         sif_plane_project(plane, t->tip[k].along, along);
-        sif_point_ahead(at[0], h, along, at[1]);
-        const real width = sif_plane_width(plane, p, at[0], at[1]);
+        sif_plane_compute_point_ahead(at[0], h, along, at[1]);
+        const real width = sif_plane_body_width_along_front(plane, p, at[0], at[1]);
         if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a crack front ends inside the body";
     }
     return NULL;
@@ -209,9 +209,10 @@ static real chord(const struct sif_plane *plane, const struct particles *p, int6
     return real_max(0, high - low);
 }
 
-real sif_plane_width(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to)
+real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
+                                      const real *segment_start, const real *segment_end)
 {
-    const real a[DIM_MAX] = {from[0], from[1]}, b[DIM_MAX] = {to[0], to[1]};
+    const real a[DIM_MAX] = {segment_start[0], segment_start[1]}, b[DIM_MAX] = {segment_end[0], segment_end[1]};
     real sum = 0;
     if (plane->dim == 2) return plane->section;
     for (int64_t i = 0; i < p->n; i++) {
@@ -228,19 +229,21 @@ real sif_plane_width(const struct sif_plane *plane, const struct particles *p, c
     return sum / SAMPLES;
 }
 
-bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *from, const real *to)
+bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end)
 {
     bool on = false;
     for (int k = 0; k < plane->mirrors; k++) {
         const struct mirror_plane *m = &plane->mirror[k];
         const real tolerance = ON_MIRROR * plane->spacing;
-        on |= fabs(from[m->axis] - m->at) <= tolerance && fabs(to[m->axis] - m->at) <= tolerance;
+        on |= fabs(segment_start[m->axis] - m->at) <= tolerance && fabs(segment_end[m->axis] - m->at) <= tolerance;
     }
     return on;
 }
 
-real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to)
+real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *segment_start,
+                          const real *segment_end)
 {
-    const real length = hypot(to[0] - from[0], to[1] - from[1]);
-    return length * sif_plane_width(plane, p, from, to) * (sif_plane_segment_is_on_mirror(plane, from, to) ? 0.5 : 1);
+    const real length = hypot(segment_end[0] - segment_start[0], segment_end[1] - segment_start[1]);
+    return length * sif_plane_body_width_along_front(plane, p, segment_start, segment_end) *
+           (sif_plane_segment_is_on_mirror(plane, segment_start, segment_end) ? 0.5 : 1);
 }

@@ -40,10 +40,10 @@ void softening_list_make(struct softening_list *l, const struct bonds *b, const 
 /* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
 static real spent_at(const struct softening_list *l, const struct softening_bond *bond, real k)
 {
-    return bond->energy * softening_dissipated_energy(l->curve, bond->onset, bond->end, k);
+    return bond->energy * softening_normalised_dissipated_energy(l->curve, bond->onset, bond->end, k);
 }
 
-real softening_list_spent(const struct softening_list *l, real factor)
+real softening_list_dissipated_energy(const struct softening_list *l, real factor)
 {
     real sum = 0;
     for (int64_t k = 0; k < l->n; k++) {
@@ -54,29 +54,30 @@ real softening_list_spent(const struct softening_list *l, real factor)
     return sum;
 }
 
-/* Returns the smallest factor between 0 and `high` at which the listed bonds have dissipated the energy `wanted` [J],
- * by the false position method with the Illinois rule (Dowell & Jarratt 1971). */
-real softening_list_factor(const struct softening_list *l, real wanted, real high)
+/* Returns the smallest factor between 0 and `max_factor` at which the listed bonds have dissipated the energy `energy`
+ * [J], by the false position method with the Illinois rule (Dowell & Jarratt 1971). */
+real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor)
 {
-    real low = 0, at_low = -wanted, at_high = softening_list_spent(l, high) - wanted;
+    real low = 0, at_low = -energy, at_high = softening_list_dissipated_energy(l, max_factor) - energy;
     int side = 0;
-    for (int k = 0; k < BISECTIONS_MOST && high - low > FACTOR_ERROR * high && at_high > 0; k++) {
-        const real middle = k % 4 == 3 ? 0.5 * (low + high) : (low * at_high - high * at_low) / (at_high - at_low);
-        const real at = softening_list_spent(l, middle) - wanted;
+    for (int k = 0; k < BISECTIONS_MOST && max_factor - low > FACTOR_ERROR * max_factor && at_high > 0; k++) {
+        const real middle =
+            k % 4 == 3 ? 0.5 * (low + max_factor) : (low * at_high - max_factor * at_low) / (at_high - at_low);
+        const real at = softening_list_dissipated_energy(l, middle) - energy;
         if (at > 0) {
-            high = middle, at_high = at;
+            max_factor = middle, at_high = at;
             if (side > 0) at_low *= 0.5;
         } else {
             low = middle, at_low = at;
             if (side < 0) at_high *= 0.5;
         }
         side = at > 0 ? 1 : -1;
-        if (fabs(at) <= FACTOR_ERROR * wanted) return middle;
+        if (fabs(at) <= FACTOR_ERROR * energy) return middle;
     }
-    return high;
+    return max_factor;
 }
 
-void softening_list_store(const struct softening_list *l, struct bonds *b, real factor)
+void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real factor)
 {
     for (int64_t k = 0; k < l->n; k++) {
         const struct softening_bond *bond = &l->bond[k];
@@ -97,16 +98,16 @@ static void settle_bond(struct bonds *b, const struct particles *p, const struct
         return;
     }
     b->soft.settled[q] = 0;
-    bond_softness_store(b, q, bond_softness_initial(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
+    bond_softness_store(b, q, bond_softness_before_onset(bond_softening_range(p, limit, b->particle[row], bond->nbr)));
 }
 
-void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
+void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     if (!b->soft.settled) b->soft.settled = memory_new_lazy_zeroed("bonds.settled", b->room * LANES, sizeof(float));
     FOR_SOFTENING_BONDS(b, row, it) settle_bond(b, p, limit, row, &it.bond);
 }
 
-void softening_undo(struct bonds *b)
+void softening_restore_equilibrium_stretches(struct bonds *b)
 {
     FOR_SOFTENING_BONDS(b, row, it)
     {

@@ -26,24 +26,25 @@ void softening_list_make(struct softening_list *l, const struct bonds *b, const 
 
 /* Returns the energy that the bonds of the list would have dissipated since the last equilibrium if their stretches
  * were `factor` times those stored in the list [J]. */
-real softening_list_spent(const struct softening_list *l, real factor);
+real softening_list_dissipated_energy(const struct softening_list *l, real factor);
 
-/* Returns the smallest factor on the stretches of the list, between 0 and `high`, at which the bonds have dissipated
- * the energy `wanted` since the last equilibrium [J] (softening_list_spent). At the factor `high` they must have
- * dissipated at least `wanted`. */
-real softening_list_factor(const struct softening_list *l, real wanted, real high);
+/* Returns the smallest factor on the stretches of the list, between 0 and `max_factor`, at which the bonds have
+ * dissipated the energy `energy` since the last equilibrium [J] (softening_list_dissipated_energy). At the factor
+ * `max_factor` they must have dissipated at least `energy`. */
+real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor);
 
 /* Sets the largest stretch of each bond of the list to that of the last equilibrium or, if larger, to `factor` times
  * the stretch stored in the list. */
-void softening_list_store(const struct softening_list *l, struct bonds *b, real factor);
+void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real factor);
 
 /* Stores the present largest stretches of bonds as those of the last equilibrium, from which later solutions start.
  * Bonds that have not exceeded their onset of softening are marked as not begun again, so that the stress across them
  * is examined again. limit: critical stretches and softening of bonds. The first call allocates storage in b->soft;
  * from then on forces are computed from the stored largest stretches. */
-void softening_settle(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Resets the largest stretches of all softening bonds to those of the last equilibrium (softening_settle). */
-void softening_undo(struct bonds *b);
+/* Resets the largest stretches of all softening bonds to those of the last equilibrium
+ * (softening_store_equilibrium_stretches). */
+void softening_restore_equilibrium_stretches(struct bonds *b);
 
 #endif

@@ -68,13 +68,14 @@ static real secants_choose(struct search *f, real most)
         body_scale(f, high);
         bonds_open_beyond_onset(f->bonds, f->part, f->limit);
         softening_list_make(&f->list, f->bonds, f->part, high);
-        if (given || high >= most || k == GROWTHS_MOST || softening_list_spent(&f->list, high) >= f->spent) break;
+        if (given || high >= most || k == GROWTHS_MOST || softening_list_dissipated_energy(&f->list, high) >= f->spent)
+            break;
         high = real_min(most, growth * high);
         growth = real_min(2, square(growth));
     }
-    f->at_end = given || softening_list_spent(&f->list, high) < f->spent;
-    const real factor = f->at_end ? high : softening_list_factor(&f->list, f->spent, high);
-    softening_list_store(&f->list, f->bonds, factor);
+    f->at_end = given || softening_list_dissipated_energy(&f->list, high) < f->spent;
+    const real factor = f->at_end ? high : softening_list_factor_for_energy(&f->list, f->spent, high);
+    softening_list_store_largest_stretches(&f->list, f->bonds, factor);
     return factor;
 }
 
@@ -134,23 +135,23 @@ static status step_try(struct run *e, real t, real spent)
     struct account account;
     struct search f = {&s->balance, &e->bonds, &e->part, &e->source.limit, .spent = spent, .end = t};
     trial_equilibrium_begin(e, &saved);
-    account_start(&account, s, &e->part);
+    work_account_start(&account, s, &e->part);
     const real worked = e->loads.work + e->loads.constraint_work,
                stored = e->kernels.bond_energy(&e->bonds, &e->part) + bonds_fracture_energy(&e->bonds);
     const status found = search_run(e, &f);
     memory_free(f.list.bond);
     if (found != OK) {
-        account_free(&account);
-        softening_undo(&e->bonds);
+        work_account_free(&account);
+        softening_restore_equilibrium_stretches(&e->bonds);
         trial_equilibrium_undo(e, &saved, NULL);
         return found;
     }
     memory_archive_free(&saved);
-    account_end(&account, s, &e->part, &e->loads, 0);
+    work_account_end(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
                       e->kernels.bond_energy(&e->bonds, &e->part) - bonds_fracture_energy(&e->bonds);
     if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
-    softening_settle(&e->bonds, &e->part, &e->source.limit);
+    softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 
@@ -158,7 +159,7 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++)
-        if (material_softens(&s->material[m]))
+        if (material_has_softening_bonds(&s->material[m]))
             least = real_min(least, toughness_of_material(&source->family, s->model, &s->material[m]));
     return least;
 }
@@ -174,9 +175,11 @@ status softening_step(struct run *e, real t)
     const real before = bonds_fracture_energy(&e->bonds);
     const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
     if (by_energy) t = e->scene->duration;
-    real spent = !by_energy ? INFINITY : given > 0 ? given : STEP_SPACINGS * toughness * crack_area_of_spacing(e);
+    real spent = !by_energy  ? INFINITY
+                 : given > 0 ? given
+                             : STEP_SPACINGS * toughness * crack_area_of_growth_by_one_spacing(e);
     if (before == 0) spent *= FIRST_SHARE;
-    softening_settle(&e->bonds, &e->part, &e->source.limit);
+    softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
     status tried = step_try(e, t, spent);
     for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
         tried = step_try(e, t, 0.5 * spent);

@@ -136,7 +136,7 @@ static void cell_add(struct springs *s, int64_t I)
     const struct mesh *mesh = &s->e->frame->mesh;
     const int dim = s->a->dim, corners = 1 << dim, n = corners * dim;
     real K[CELL_UNKNOWNS_MAX * CELL_UNKNOWNS_MAX];
-    if (!mesh_cell_stiffness(mesh, s->e->frame->elastic, &s->e->part, I, K)) return;
+    if (!mesh_compute_cell_stiffness(mesh, s->e->frame->elastic, &s->e->part, I, K)) return;
     for (int c = 0; c < corners; c++)
         for (int b = 0; b < corners; b++) {
             const int64_t row = mesh_cell_corner_node(mesh, I, c), column = mesh_cell_corner_node(mesh, I, b);
@@ -304,17 +304,17 @@ void statics_preconditioner_make(struct run *e)
     s->directions = 0, s->precondition_stale = false;
 }
 
-void statics_preconditioner_apply(void *engine, const struct field *r, struct field *z)
+void statics_preconditioner_apply(void *engine, const struct field *residual, struct field *result)
 {
     struct run *e = engine;
     if (!e->statics->precondition) statics_preconditioner_make(e);
-    multigrid_apply(e->statics->precondition, r->of, z->of);
-    field_remove_free_rigid_motion(e->statics, z);
+    multigrid_apply(e->statics->precondition, residual->of, result->of);
+    field_remove_free_rigid_motion(e->statics, result);
 }
 
 /* Frees the preconditioner if the last solution needed far more search directions than the first one with it: more than
  * 1.5 times as many plus 8. directions: number of directions of the last solution. */
-void statics_preconditioner_check_cost(struct statics *s, int64_t directions)
+void statics_preconditioner_free_if_costly(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;
     if (s->directions == 0)

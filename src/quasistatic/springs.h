@@ -7,8 +7,8 @@
 
 /* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
  * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. engine: a struct
- * run; r: residual forces [N]; z: result. */
-void statics_preconditioner_apply(void *engine, const struct field *r, struct field *z);
+ * run; residual: residual forces [N]; result: result. */
+void statics_preconditioner_apply(void *engine, const struct field *residual, struct field *result);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
  * e->statics. */
@@ -17,7 +17,7 @@ void statics_preconditioner_make(struct run *e);
 /* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. directions: number of
  * search directions of the last solution. The limit is 1.5 times that of the first solution with the preconditioner,
  * plus 8 (empirical). */
-void statics_preconditioner_check_cost(struct statics *s, int64_t directions);
+void statics_preconditioner_free_if_costly(struct statics *s, int64_t directions);
 
 /* Frees the preconditioner. Does nothing if there is none. */
 void statics_preconditioner_free(struct statics *s);

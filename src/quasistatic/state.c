@@ -100,7 +100,8 @@ status statics_save_or_load(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
     if (whole) TRY(search_archive(s, &e->clock, a));
     if (!a->saving) applied_forces_compute(s, &e->part, &e->loads, s->t);
-    if (!a->saving && whole && e->bonds.soft.curve) softening_settle(&e->bonds, &e->part, &e->source.limit);
+    if (!a->saving && whole && e->bonds.soft.curve)
+        softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
     if (!a->saving && whole) plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     return OK;
 }

@@ -62,7 +62,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     const struct scene *s = e->scene;
     if (scene_has_load_steps(s)) warn_of_yielding_bonds(s, &e->source.family, to);
     if (scene_has_load_steps(s) && e->bonds.soft.curve)
-        warn_of_large_steps(s, softening_least_toughness(s, &e->source) * crack_area_of_spacing(e), to);
+        warn_of_large_steps(s, softening_least_toughness(s, &e->source) * crack_area_of_growth_by_one_spacing(e), to);
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
@@ -104,7 +104,10 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-const struct part part_statics = {PART(statics, statics),          .free = statics_free_all,
-                                  .columns = statics_list_columns, .record = statics_write_record,
-                                  .summary = put_load_steps,       .state = statics_save_or_load,
+const struct part part_statics = {PART(statics, statics),
+                                  .free = statics_free_all,
+                                  .columns = statics_list_history_columns,
+                                  .record = statics_write_history_values,
+                                  .summary = put_load_steps,
+                                  .state = statics_save_or_load,
                                   .warn = warn_of_solver};

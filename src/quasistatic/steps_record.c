@@ -17,7 +17,7 @@
 
 enum { STATICS_COLUMNS = 13 }; /* one less for a plane body */
 
-int statics_list_columns(const struct run *e, struct column *column)
+int statics_list_history_columns(const struct run *e, struct column *column)
 {
     static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
                                                        {"stretch_ratio", ""},
@@ -93,7 +93,8 @@ static void measure(struct run *e)
     const struct crack_area path = sif_paths_area(&s->sif, &e->part);
     const real spacing = growth_by_spacing(&e->fracture->tips, scene_section_or_thickness(e->scene));
     const bool solid = e->part.dim == 3 && path.own == 0;
-    const struct crack_area bonds = {r->broken / crack_symmetry_share(&e->fracture->tips, &e->source, -1), r->broken},
+    const struct crack_area bonds = {r->broken / crack_energy_share_by_symmetry(&e->fracture->tips, &e->source, -1),
+                                     r->broken},
                             damaged = solid ? bonds : tips_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
     const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
@@ -106,7 +107,7 @@ static void measure(struct run *e)
     r->mark[1] = (struct release_mark){area, r->released};
 }
 
-void statics_write_record(struct run *e, real *record)
+void statics_write_history_values(struct run *e, real *record)
 {
     const struct statics *s = e->statics;
     real place[DIM_MAX];

@@ -8,14 +8,14 @@
 
 /* Stores names and units of the columns that load steps add to history.csv in column[], unless `column` is NULL.
  * Returns the number of these columns, 0 for a run without load steps. */
-int statics_list_columns(const struct run *e, struct column *column);
+int statics_list_history_columns(const struct run *e, struct column *column);
 
 /* Computes the values of the columns that load steps add to history.csv and stores them in record[], in the order of
- * statics_list_columns. Call it after a load step. */
-void statics_write_record(struct run *e, real *record);
+ * statics_list_history_columns. Call it after a load step. */
+void statics_write_history_values(struct run *e, real *record);
 
-/* Stores the present numbers of search directions and equilibria of the solver. The next call of statics_write_record
- * reports the numbers since then. */
+/* Stores the present numbers of search directions and equilibria of the solver. The next call of
+ * statics_write_history_values reports the numbers since then. */
 void statics_record_reset(struct statics *s);
 
 #endif

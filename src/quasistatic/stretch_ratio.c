@@ -73,12 +73,12 @@ static real half_energy_to_limit(const struct bonds *b, const struct particles *
         hardening = b->yield.hardening[b->pair[bond->entry]];
         yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
-    const real work = bond_work_to_stretch(real_max(0, elastic), yield, hardening);
+    const real work = bond_normalised_work_to_stretch(real_max(0, elastic), yield, hardening);
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
-struct broken_bond bond_make_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                    const struct bond *bond, int64_t row)
+struct broken_bond broken_bond_make_record(const struct bonds *b, const struct particles *p,
+                                           const struct bond_limit *limit, const struct bond *bond, int64_t row)
 {
     const int32_t i = b->particle[row];
     return (struct broken_bond){.i = i,
@@ -119,7 +119,7 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
             const real over = it.bond.w == 0 ? 0 : stretch_ratio_of(p, limit, &it.bond, b->particle[r]);
             if (!(over > least)) continue;
-            const struct broken_bond record = bond_make_record(b, p, limit, &it.bond, r);
+            const struct broken_bond record = broken_bond_make_record(b, p, limit, &it.bond, r);
             overstretched_add(o, over, &record);
         }
 }

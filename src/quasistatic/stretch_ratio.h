@@ -30,7 +30,7 @@ void break_list_add(struct break_list *l, const struct broken_bond *record);
 /* Returns a record of the intact bond `bond`, from which bonds_restore_broken can restore it after it has been broken.
  * row: index of its row (all bonds of one particle). limit: critical stretches; the member `held` of the record is half
  * of the energy of the bond at its critical stretch [J]. */
-struct broken_bond bond_make_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                    const struct bond *bond, int64_t row);
+struct broken_bond broken_bond_make_record(const struct bonds *b, const struct particles *p,
+                                           const struct bond_limit *limit, const struct bond *bond, int64_t row);
 
 #endif

@@ -22,19 +22,19 @@ status plastic_state_save_or_load(struct bonds *b, struct particles *p, int opti
     return particles_save_or_load(p, optional_arrays, a);
 }
 
-void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional)
+void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays)
 {
     memory_archive_free(m);
     memory_archive_make(m, ARCHIVE_TRIAL);
-    const status kept = plastic_state_save_or_load(b, p, optional, &m->archive);
+    const status kept = plastic_state_save_or_load(b, p, optional_arrays, &m->archive);
     INVARIANT(kept == OK);
 }
 
-void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional)
+void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays)
 {
     if (m->n == 0) return;
     memory_archive_rewind(m);
-    const status restored = plastic_state_save_or_load(b, p, optional, &m->archive);
+    const status restored = plastic_state_save_or_load(b, p, optional_arrays, &m->archive);
     INVARIANT(restored == OK);
 }
 
@@ -62,7 +62,7 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) frame_update_exposed_points(e->frame, &e->part);
+    if (has_mesh) reference_frame_update_exposed_points(e->frame, &e->part);
     loads_update_mirror_images(&e->loads, &e->part);
     loads_clear_forces(&e->loads, &e->part);
     plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
@@ -70,7 +70,7 @@ static void forces_present(struct run *e)
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
-    if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
+    if (has_mesh) reference_frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
 /* Computes the forces f on all unknowns at the displacements u [m], without the components along free rigid motions of
@@ -112,8 +112,8 @@ void statics_unknowns_make(struct run *e)
     const struct newton_solver kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct newton_solver){.force = statics_forces,
                                         .precondition = statics_preconditioner_apply,
-                                        .settle = statics_contact_update_set,
-                                        .laws = statics_contact_choose_laws,
+                                        .settle = statics_contact_update_active_set,
+                                        .laws = statics_contact_select_acting,
                                         .context = e,
                                         .tolerance = e->scene->solver_tolerance,
                                         .length = e->scene->spacing,
@@ -124,7 +124,7 @@ void statics_unknowns_make(struct run *e)
                                         .lost = kept.lost,
                                         .largest = kept.largest};
     s->has_contact = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
-    unknowns_list(s, &e->part, &e->frame->mesh, &e->loads);
+    unknowns_list_particles_and_nodes(s, &e->part, &e->frame->mesh, &e->loads);
     unconstrained_fragments_find(e);
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
 }

@@ -23,11 +23,12 @@ void plastic_state_update(struct run *e);
 status plastic_state_save_or_load(struct bonds *b, struct particles *p, int optional_arrays, struct archive *a);
 
 /* Copies the plastic state of bonds and points to *m, and frees the former contents of *m. Later solutions start from
- * this state (plastic_state_restore). optional: which optional arrays the particles have, a set of bits WITH_... */
-void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
+ * this state (plastic_state_restore). optional_arrays: which optional arrays the particles have, a set of bits WITH_...
+ */
+void plastic_state_save(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays);
 
 /* Restores the plastic state of bonds and points that plastic_state_save has copied to *m. Does nothing if there is no
- * copy. optional: which optional arrays the particles have, a set of bits WITH_... */
-void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional);
+ * copy. optional_arrays: which optional arrays the particles have, a set of bits WITH_... */
+void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays);
 
 #endif

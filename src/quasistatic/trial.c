@@ -41,7 +41,7 @@ void trial_equilibrium_undo(struct run *e, struct memory_archive *m, const struc
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part,
                        e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_points(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
     reactions_store(e->statics, &e->part, &e->loads);
 }

@@ -95,7 +95,8 @@ static void displacements_read(struct statics *s, const struct particles *p, con
                 k < s->particles ? p->x[d][s->node[k]] - p->X[d][s->node[k]] : mesh->displacement[d][s->node[k]];
 }
 
-void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads)
+void unknowns_list_particles_and_nodes(struct statics *s, const struct particles *p, const struct mesh *mesh,
+                                       const struct loads *loads)
 {
     const int64_t n = nodes_list(p, mesh, NULL, &s->particles), places = mesh->points > 0 ? mesh->grid.n : 0;
     int32_t *particle_at = BARE("statics.particle_at", p->n, int32_t);
@@ -141,7 +142,7 @@ void unknown_position(const struct statics *s, const struct particles *p, const 
         particle_reference_position(p, i, X);
         return;
     }
-    const int64_t at = mesh_regular_node_of(mesh, i);
+    const int64_t at = mesh_regular_node_of_doubled_node(mesh, i);
     for (int d = 0; d < p->dim; d++)
         X[d] = grid_node_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }

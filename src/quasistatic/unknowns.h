@@ -12,9 +12,10 @@ struct contact;
 /* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that
  * prescribe their components and their present displacements, and allocates the fields of s->balance. The caller has
  * set the member `length` of s->balance. Release with unknowns_free. */
-void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads);
+void unknowns_list_particles_and_nodes(struct statics *s, const struct particles *p, const struct mesh *mesh,
+                                       const struct loads *loads);
 
-/* Frees the lists and fields that unknowns_list has allocated. */
+/* Frees the lists and fields that unknowns_list_particles_and_nodes has allocated. */
 void unknowns_free(struct statics *s);
 
 /* Stores the reference position of the unknown, a particle or a mesh node, in X[] [m]. */

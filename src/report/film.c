@@ -105,7 +105,7 @@ status film_read(struct film *f, const char *folder, const struct scene *scene)
 {
     struct listed_frame *list = NULL;
     *f = (struct film){.folder = folder, .scene = scene, .every = 1};
-    TRY(frames_list(folder, &f->listed, &list));
+    TRY(run_list_frames(folder, &f->listed, &list));
     f->frames = f->listed < FILM_FRAMES_MOST ? f->listed : FILM_FRAMES_MOST;
     f->frame = NEW("report.frames", f->frames, struct film_frame);
     status s = OK;

@@ -116,9 +116,9 @@ void film_field_write(struct page *p, const struct film_field *field, const stru
  * quadrilaterals in 3D. */
 void film_rigids_write(struct page *p, const struct film *f);
 
-/* Writes the positions and rotations of the rigid bodies in frame `number` as the entry `rigid` of that frame. For each
- * body these are its position, `dim` coordinates [m], and the rows of its rotation matrix [dim][dim]. Writes nothing if
- * the run has no file of rigid bodies for this frame. */
-void film_rigids_write_frame(struct page *p, const struct film *f, int number);
+/* Writes the positions and rotations of the rigid bodies in frame `frame_number` as the entry `rigid` of that frame.
+ * For each body these are its position, `dim` coordinates [m], and the rows of its rotation matrix [dim][dim]. Writes
+ * nothing if the run has no file of rigid bodies for this frame. */
+void film_rigids_write_frame(struct page *p, const struct film *f, int frame_number);
 
 #endif

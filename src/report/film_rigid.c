@@ -53,7 +53,7 @@ void film_rigids_write(struct page *p, const struct film *f)
             real low[DIM_MAX], high[DIM_MAX];
             struct rigid_surface surface;
             particles_box(f, low, high);
-            (void)rigid_box_shown(&body->shape, f->dim, low, high);
+            (void)rigid_compute_shown_box(&body->shape, f->dim, low, high);
             rigid_surface_make(&surface, &body->shape, f->dim, low, high);
             json_open(&p->json, NULL, '{');
             json_write_text(&p->json, "name", body->name);
@@ -67,11 +67,11 @@ void film_rigids_write(struct page *p, const struct film *f)
     memory_free(at);
 }
 
-void film_rigids_write_frame(struct page *p, const struct film *f, int number)
+void film_rigids_write_frame(struct page *p, const struct film *f, int frame_number)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
-    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, number)) {
+    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, frame_number)) {
         json_open(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             json_open(&p->json, NULL, '{');

@@ -55,7 +55,8 @@ static void write_pictures(struct page *p, const char *folder)
     for (int k = 0; k < n && added < PICTURES_MOST; k++) {
         const struct path path = path_join(pictures.text, name[k]);
         const char *ending = strrchr(name[k], '.');
-        if (!ending || strcmp(ending, ".png") != 0 || !path_is_file(path.text) || !picture_has_mark(path.text))
+        if (!ending || strcmp(ending, ".png") != 0 || !path_is_file(path.text) ||
+            !picture_file_is_from_cleave(path.text))
             continue;
         json_open(&p->json, NULL, '{');
         json_write_text(&p->json, "name", name[k]);

@@ -286,11 +286,11 @@ real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt)
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
 /* Saves the state of rigid body r to the archive, or restores it; the archive determines which. The state consists of
- * the members of the structure from `x` to the end, which change in each time step. number: index of the body, which
- * names its entry in the archive. Returns the status of the archive. */
-status rigid_save_or_load(struct rigid_body *r, int number, struct archive *a)
+ * the members of the structure from `x` to the end, which change in each time step. body_number: index of the body,
+ * which names its entry in the archive. Returns the status of the archive. */
+status rigid_save_or_load(struct rigid_body *r, int body_number, struct archive *a)
 {
     char name[64];
-    snprintf(name, sizeof name, "rigid/%d", number);
+    snprintf(name, sizeof name, "rigid/%d", body_number);
     return a->exchange(a, name, r->x, sizeof *r - offsetof(struct rigid_body, x));
 }

@@ -44,7 +44,7 @@ static status check_mirrors(const struct rigid_body *r, const struct scene *s)
     return OK;
 }
 
-status rigids_check(const struct rigid_set *rigid, const struct scene *s, const struct particles *p)
+status rigids_check_start_positions(const struct rigid_set *rigid, const struct scene *s, const struct particles *p)
 {
     for (int k = 0; k < rigid->n; k++) {
         const char *place = s->body[s->bodies + k].place;

@@ -64,7 +64,7 @@ static int add_column(struct column *column, int at, const char *body, const cha
     return at + 1;
 }
 
-int rigids_list_columns(const struct run *e, struct column *column)
+int rigids_list_history_columns(const struct run *e, struct column *column)
 {
     static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};
     static const char *const moment[] = {"moment_x", "moment_y", "moment_z"};
@@ -117,7 +117,7 @@ void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt)
         rigids_velocity_of_body(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }
 
-void rigids_write_record(struct run *e, real *record)
+void rigids_write_history_values(struct run *e, real *record)
 {
     const int dim = e->rigid->dim;
     for (int k = 0; k < e->rigid->n; k++) {

@@ -17,5 +17,5 @@ static status rigid_state(struct run *e, struct archive *a)
     return OK;
 }
 
-const struct part part_rigid = {PART(rigid, rigid_set), .free = rigid_free_all, .columns = rigids_list_columns,
-                                .record = rigids_write_record, .state = rigid_state};
+const struct part part_rigid = {PART(rigid, rigid_set), .free = rigid_free_all, .columns = rigids_list_history_columns,
+                                .record = rigids_write_history_values, .state = rigid_state};

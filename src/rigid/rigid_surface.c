@@ -191,7 +191,7 @@ static void box_extend_to_region(const struct region *shape, int dim, real *low,
     }
 }
 
-bool rigid_box_shown(const struct region *shape, int dim, real *low, real *high)
+bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high)
 {
     real from[DIM_MAX], to[DIM_MAX], longest = 0;
     const bool bounded = region_bounding_box(shape, dim, from, to);
@@ -212,7 +212,7 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
     for (int b = 0; b < rigid->n; b++) {
         real low[DIM_MAX], high[DIM_MAX];
         for (int d = 0; d < rigid->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
-        (void)rigid_box_shown(rigid->body[b].shape, rigid->dim, low, high);
+        (void)rigid_compute_shown_box(rigid->body[b].shape, rigid->dim, low, high);
         rigid_surface_make(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
     }
 }
@@ -352,9 +352,9 @@ static bool numbers_read(const char *text, real *value, int n)
     return true;
 }
 
-bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int number)
+bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int frame_number)
 {
-    const struct path path = rigid_path(folder, number);
+    const struct path path = rigid_path(folder, frame_number);
     char *text, words[64];
     size_t length;
     if (rigids == 0 || !path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK) return false;

@@ -114,7 +114,7 @@ real lattice_critical_time_step(const struct bond_source *source, bond_force_fn 
     s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
     s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
     bonds_make(&b, NULL, &p, &s);
-    if (lower_bound) *lower_bound = bonds_critical_time_step_of_rows(&b, &p);
+    if (lower_bound) *lower_bound = bonds_critical_time_step_of_existing_bonds(&b, &p);
     real step = bonds_critical_time_step_by_iteration(&b, &p, force, NULL, f->spacing);
     bonds_free(&b);
     cells_free(&cells);

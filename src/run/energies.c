@@ -292,11 +292,12 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
 }
 
 void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
-                               real *size)
+                               real *momentum_scale)
 {
-    void (*const block)(const void *, int64_t, int64_t, real *) = size ? momentum_and_size_block : momentum_block;
+    void (*const block)(const void *, int64_t, int64_t, real *) =
+        momentum_scale ? momentum_and_size_block : momentum_block;
     const struct movers m = movers_of(p);
-    const int sums = p->dim + (size != NULL);
+    const int sums = p->dim + (momentum_scale != NULL);
     real sum[DIM_MAX + 1], more[DIM_MAX + 1];
     reproducible_sums(p->n, sums, block, &m, sum);
     for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
@@ -305,7 +306,7 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
         for (int k = 0; k < sums; k++) sum[k] += more[k];
     }
     for (int d = 0; d < p->dim; d++) momentum[d] = sum[d];
-    if (size) *size = sum[p->dim];
+    if (momentum_scale) *momentum_scale = sum[p->dim];
 }
 
 /* Computes the stresses p->stress of peridynamic particles from their bonds. In state-based models the weighted volumes

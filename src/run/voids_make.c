@@ -18,7 +18,7 @@ static bool may_have_voids(const struct scene *s)
 {
     bool any = false;
     for (int b = 0; b < s->bodies; b++)
-        any |= !s->body[b].file && (s->body[b].joined != b || region_has_voids(&s->body[b].shape));
+        any |= !s->body[b].file && (s->body[b].joined != b || region_may_have_voids(&s->body[b].shape));
     return any;
 }
 
@@ -36,7 +36,7 @@ static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined != b || region_has_voids(&s->body[b].shape))
+        if (s->body[b].joined != b || region_may_have_voids(&s->body[b].shape))
             wanted[s->body[b].joined] = joined_bodies_have_exact_surface(s, s->body[b].joined);
     v->shape = NEW("voids.shape", s->bodies, const struct region *);
     v->body = NEW("voids.body", s->bodies, int);

@@ -18,9 +18,9 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
-status csv_read_line(struct csv_file *c, bool *more, bool *comment)
+status csv_read_line(struct csv_file *c, bool *line_was_read, bool *comment)
 {
-    while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
+    while ((*line_was_read = fgets(c->text, sizeof c->text, c->file) != NULL)) {
         c->line++;
         const size_t length = strlen(c->text), first = strcspn(c->text, "\r");
         if (c->text[first] && c->text[first + 1 + strspn(c->text + first + 1, "\r\n")])
@@ -37,11 +37,11 @@ status csv_read_line(struct csv_file *c, bool *more, bool *comment)
     return ferror(c->file) ? status_set(REFUSED, "%s: cannot be read", c->path) : OK;
 }
 
-status csv_read_data_line(struct csv_file *c, bool *more)
+status csv_read_data_line(struct csv_file *c, bool *line_was_read)
 {
     bool comment = true;
-    *more = true;
-    while (comment) TRY(csv_read_line(c, more, &comment));
+    *line_was_read = true;
+    while (comment) TRY(csv_read_line(c, line_was_read, &comment));
     return OK;
 }
 
@@ -86,13 +86,13 @@ static char *csv_word(char *field, char **rest)
     return csv_trim(field);
 }
 
-char *csv_cut_field(const struct csv_file *c, char **rest)
+char *csv_cut_field(const struct csv_file *c, char **rest_of_line)
 {
-    char *field = *rest;
+    char *field = *rest_of_line;
     if (field == NULL) return NULL;
-    if (c->separator == ' ') return csv_word(field, rest);
+    if (c->separator == ' ') return csv_word(field, rest_of_line);
     char *end = strchr(csv_behind_quotes(field), c->separator);
-    *rest = end != NULL ? end + 1 : NULL;
+    *rest_of_line = end != NULL ? end + 1 : NULL;
     if (end != NULL) *end = '\0';
     return csv_trim(field);
 }

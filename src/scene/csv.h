@@ -24,22 +24,22 @@ status csv_open(struct csv_file *c, const char *path, const char *contents);
 /* Closes the CSV file c. */
 void csv_close(struct csv_file *c);
 
-/* Reads the next line that is not blank into c->text. Sets *more to false at the end of the file, and *comment to true
- * if the line begins with #. Returns REFUSED, with a message, if the line is too long or cannot be read. */
-status csv_read_line(struct csv_file *c, bool *more, bool *comment);
+/* Reads the next line that is not blank into c->text. Sets *line_was_read to false at the end of the file, and *comment
+ * to true if the line begins with #. Returns REFUSED, with a message, if the line is too long or cannot be read. */
+status csv_read_line(struct csv_file *c, bool *line_was_read, bool *comment);
 
-/* Reads the next line that is neither blank nor a comment into c->text. Sets *more to false at the end of the file.
- * Returns REFUSED, with a message, if the line is too long or cannot be read. */
-status csv_read_data_line(struct csv_file *c, bool *more);
+/* Reads the next line that is neither blank nor a comment into c->text. Sets *line_was_read to false at the end of the
+ * file. Returns REFUSED, with a message, if the line is too long or cannot be read. */
+status csv_read_data_line(struct csv_file *c, bool *line_was_read);
 
 /* Sets the separator of the file from the current line: a semicolon if the line contains one, else a tab if it has more
  * tabs than commas, else a comma. */
 void csv_detect_separator(struct csv_file *c);
 
-/* Cuts the next field off the line *rest and returns it, ended in place, without surrounding blanks and double quotes.
- * Quoted text may contain separators. *rest receives the rest of the line, or NULL after the last field. Returns NULL
- * if *rest is NULL. */
-char *csv_cut_field(const struct csv_file *c, char **rest);
+/* Cuts the next field off the line *rest_of_line and returns it, ended in place, without surrounding blanks and double
+ * quotes. Quoted text may contain separators. *rest_of_line receives the rest of the line, or NULL after the last
+ * field. Returns NULL if *rest_of_line is NULL. */
+char *csv_cut_field(const struct csv_file *c, char **rest_of_line);
 
 /* Cuts the unit off the name of a column, such as `time [us]` or `time (us)`, in place, and returns a pointer to the
  * unit; "" if there is none. */

@@ -191,7 +191,7 @@ static status fill_lattice(struct particle_draft *d, int body)
     return OK;
 }
 
-status fill_lattice_site(const struct scene *s, int body, real *X)
+status fill_compute_lattice_site_position(const struct scene *s, int body, real *X)
 {
     const struct particle_draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
@@ -501,7 +501,7 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
         if (!scene_is_dynamic(s)) start_at_rest(p, i);
     }
     TRY(check_start(p, d, spacing));
-    particles_sort(p, spacing, optional);
+    particles_sort_by_lattice_rows(p, spacing, optional);
     TRY(check_distances(p, d, spacing));
     for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined; /* joined bodies become one */
     return OK;

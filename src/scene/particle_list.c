@@ -186,10 +186,10 @@ static int list_format(const char *path)
     static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};
     for (size_t k = 0; k < COUNT_OF(endings); k++)
         if (ends_with(path, endings[k])) return k < 4 ? LIST_CSV : LIST_HDF5;
-    return is_exodus_name(path) ? LIST_EXODUS : NO_LIST;
+    return path_has_exodus_extension(path) ? LIST_EXODUS : NO_LIST;
 }
 
-bool is_particle_list_name(const char *path) { return list_format(path) != NO_LIST; }
+bool path_has_particle_list_extension(const char *path) { return list_format(path) != NO_LIST; }
 
 /* Reads a particle list of any format from the file `path` into l. form: unit and columns that the scene gives, or
  * NULL if it gives none; dim: coordinates per position; head: true to read only the column names (CSV files).

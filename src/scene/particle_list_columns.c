@@ -40,10 +40,10 @@ bool particle_list_column_is_unused(int column, int dim)
     return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
 
-void particle_list_note_append(struct particle_list_head *head, const char *between, const char *what)
+void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition)
 {
     const size_t used = strlen(head->note);
-    snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
+    snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? separator : "", addition);
 }
 
 void particle_list_note_columns(struct particle_list_head *head, const bool *has)

@@ -401,11 +401,11 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
     }
 }
 
-status particle_list_read_csv(struct particle_list *l, const char *path, bool head)
+status particle_list_read_csv(struct particle_list *l, const char *path, bool only_header)
 {
     struct csv c = {0};
     TRY(csv_open(&c.in, path, "a particle list has one particle a line"));
-    status s = csv_entries(&c, l, head);
+    status s = csv_entries(&c, l, only_header);
     csv_close(&c.in);
     return s;
 }

@@ -21,7 +21,7 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
     char name[NAME_MAX_LENGTH];
     bool named = false;
     for (int64_t k = 0; k < n; k++) {
-        exodus_read_name(f, "attrib_name", number, k, n, name);
+        exodus_read_text_row(f, "attrib_name", number, k, n, name);
         if (strcasecmp(name, "volume") == 0) return k;
         named = named || name[0];
     }
@@ -54,7 +54,7 @@ static status block_read(struct exodus_list *x, int64_t number)
                                    "block %lld has elements of type %s with %lld nodes; a list of particles has "
                                    "SPHERE with one (shape: {mesh: {file: ..}} reads meshes)",
                                    (long long)number, type, (long long)nodes);
-    const int64_t attributes = exodus_read_dimension(&x->file, "num_att_in_blk", number);
+    const int64_t attributes = exodus_read_dimension_length(&x->file, "num_att_in_blk", number);
     const int64_t volume = volume_column(&x->file, number, attributes), first = l->n;
     if (first > 0 && (volume >= 0) != x->volumes)
         return exodus_report_fault(&x->file, "block %lld has %svolumes, unlike the blocks before", (long long)number,
@@ -100,7 +100,7 @@ static status blocks_read(struct exodus_list *x)
 status particle_list_read_exodus(struct particle_list *l, const char *path)
 {
     struct exodus_list x = {.l = l};
-    TRY(exodus_open_path(&x.file, path));
+    TRY(exodus_open_from_path(&x.file, path));
     const status s = blocks_read(&x);
     for (int d = 0; d < DIM_MAX; d++) memory_free(x.axis[d]);
     exodus_close(&x.file);

@@ -51,9 +51,9 @@ bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char 
  * the unit that the scene gives for the list l, else it is 1. */
 real particle_list_default_factor(const struct particle_list *l, int column);
 
-/* Appends the text `what` to the note in *head, which is printed about the list, preceded by `between` if the note is
- * not empty. */
-void particle_list_note_append(struct particle_list_head *head, const char *between, const char *what);
+/* Appends the text `addition` to the note in *head, which is printed about the list, preceded by `separator` if the
+ * note is not empty. */
+void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition);
 
 /* Stores in *head whether the file has columns of materials, masses and volumes, and adds to its note which defaults
  * replace missing columns. has[COLUMNS]: true for each column that the file has. */
@@ -67,8 +67,8 @@ status particle_list_check_memory(const char *path, int64_t n);
  * read or is invalid. */
 status particle_list_read_exodus(struct particle_list *l, const char *path);
 
-/* Reads a particle list from the CSV file `path` into *l. head: true to read only the column names. Returns REFUSED,
- * with a message, if the file cannot be read or is invalid. */
-status particle_list_read_csv(struct particle_list *l, const char *path, bool head);
+/* Reads a particle list from the CSV file `path` into *l. only_header: true to read only the column names. Returns
+ * REFUSED, with a message, if the file cannot be read or is invalid. */
+status particle_list_read_csv(struct particle_list *l, const char *path, bool only_header);
 
 #endif

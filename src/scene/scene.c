@@ -16,7 +16,7 @@ static status read_space(struct reader *r, const struct yaml_node *root)
     const struct key *k = key_find("", "space");
     const struct yaml_node *space = yaml_node_find(root, "space");
     if (!space) return fault_missing_key(r, root, k);
-    TRY(read_key(r, k, space, r->scene));
+    TRY(read_value_of_key(r, k, space, r->scene));
     r->dim = r->scene->dim = space_dim(r->scene->space);
     return OK;
 }
@@ -30,8 +30,8 @@ status scene_from_tree(struct reader *r, const struct yaml_node *root)
     TRY(read_space(r, root));
     TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
-    TRY(read_group(r, root, root, "", s));
-    TRY(check_scene(r, root));
+    TRY(read_keys_of_group(r, root, root, "", s));
+    TRY(check_keys_of_scene(r, root));
     TRY(read_materials(r, root));
     TRY(read_bodies(r, root));
     TRY(read_interfaces(r, root));
@@ -42,15 +42,15 @@ status scene_from_tree(struct reader *r, const struct yaml_node *root)
     TRY(read_cracks(r, root));
     TRY(read_initial_states(r, root));
     TRY(read_boundaries(r, root));
-    TRY(check_friction(r, root));
-    TRY(check_absorbing(r, root));
+    TRY(check_friction_is_supported(r, root));
+    TRY(check_absorbing_needs_dynamics(r, root));
     TRY(check_supported_loads(r, root));
     TRY(check_joined_bodies(r, root));
     TRY(read_probes(r, root));
     TRY(read_frame_regions(r, root));
     TRY(read_crack_growths(r, root));
     TRY(resolve_contact(r, root));
-    return check_solver(r, root);
+    return check_keys_for_static_solver(r, root);
 }
 
 status scene_parse_tree(struct reader *r, const char *text, size_t length, struct yaml_node **root)

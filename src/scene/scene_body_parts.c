@@ -11,7 +11,7 @@ status read_body_parts(struct reader *r, const struct yaml_node *list, const str
     GROW("parts", b->part, b->parts + list->n);
     b->parts += list->n;
     for (const struct yaml_node *n = list->first; n; part++, n = n->next)
-        TRY(read_group(r, n, n, "bodies.parts", &b->part[part]));
+        TRY(read_keys_of_group(r, n, n, "bodies.parts", &b->part[part]));
     return OK;
 }
 

@@ -68,7 +68,7 @@ status check_particle_count(struct reader *r, const struct yaml_node *root)
 
 /* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of particles,
  * or together with planes of symmetry. root: tree of the scene, for the location in the message. */
-status check_friction(struct reader *r, const struct yaml_node *root)
+status check_friction_is_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
@@ -84,7 +84,7 @@ status check_friction(struct reader *r, const struct yaml_node *root)
 }
 
 /* Returns REFUSED if a static problem has absorbing faces. root: tree of the scene, for the location in the message. */
-status check_absorbing(struct reader *r, const struct yaml_node *root)
+status check_absorbing_needs_dynamics(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
@@ -203,14 +203,14 @@ status resolve_contact(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *between = scene_check_below(root, "contact", "between");
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
     const bool faces = s->bodies + s->rigids > 1 || (scene_can_crack(s) && s->method != METHOD_MPM);
-    const bool meet = !scene_is_single_equilibrium(s) && !steps_soften(s) && faces;
+    const bool meet = !scene_is_single_equilibrium(s) && !scene_load_steps_soften_bonds(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
         return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
-    if (s->contact_between != CONTACT_NONE && steps_soften(s))
+    if (s->contact_between != CONTACT_NONE && scene_load_steps_soften_bonds(s))
         return fault(r, between,
                      "load steps of bonds that soften have no contact; none, or solver: explicit, is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
@@ -246,7 +246,7 @@ static void resolve_surface(struct scene *s, const struct yaml_node *root)
 /* Returns true if two lists of particles are read alike: with the same unit and the same column names. */
 static bool list_forms_agree(const struct particle_list_form *a, const struct particle_list_form *b)
 {
-    if (!bits_equal(a->scale, b->scale) || !a->columns != !b->columns) return false;
+    if (!reals_are_bitwise_equal(a->scale, b->scale) || !a->columns != !b->columns) return false;
     return !a->columns || strcmp(a->columns, b->columns) == 0;
 }
 
@@ -351,7 +351,7 @@ static const char *current_frame_key(const struct scene *s)
     return NULL;
 }
 
-bool scene_yields_on_mesh(const struct scene *s)
+bool scene_has_yielding_body_on_mesh(const struct scene *s)
 {
     bool any = false;
     for (int b = 0; b < s->bodies; b++) any |= s->body[b].frame == FRAME_REFERENCE && body_yields(s, b);
@@ -375,7 +375,7 @@ void resolve_reference_frames(struct scene *s)
         }
         open |= body->frame == FRAME_AUTO;
     }
-    if (s->levels == LEVELS_AUTO && scene_yields_on_mesh(s)) s->levels = 0; /* cells have one time step */
+    if (s->levels == LEVELS_AUTO && scene_has_yielding_body_on_mesh(s)) s->levels = 0; /* cells have one time step */
     if (open) return;
     s->has_shape = s->has_transfer = s->has_interface_damping = true;
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
@@ -443,12 +443,12 @@ static status check_soft_states(struct reader *r, const struct yaml_node *root)
     const struct scene *s = r->scene;
     const struct yaml_node *model = yaml_node_find(root, "model"), *growth = yaml_node_find(root, "growth");
     bool softens = false;
-    for (int m = 0; m < s->materials; m++) softens |= material_softens(&s->material[m]);
+    for (int m = 0; m < s->materials; m++) softens |= material_has_softening_bonds(&s->material[m]);
     if (!softens || s->model == MODEL_BOND) return OK;
     if (growth)
         return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
     for (int m = 0; m < s->materials; m++)
-        if (isfinite(s->material[m].critical_stretch) && !material_softens(&s->material[m]))
+        if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, model,
                          "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
                          "materials that break, or of none, is expected",
@@ -458,14 +458,14 @@ static status check_soft_states(struct reader *r, const struct yaml_node *root)
 
 /* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are
  * read. root: tree of the scene, for the location in the message. */
-status check_solver(struct reader *r, const struct yaml_node *root)
+status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     TRY(check_load_step_keys_unused(r, root));
     TRY(check_soft_states(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
-    if (scene_has_load_steps(s)) return check_load_steps(r, root);
+    if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
             return fault(r, solver, "%s is for elastic materials, and material %s yields; solver: explicit is expected",
@@ -484,7 +484,7 @@ status check_solver(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status check_scene(struct reader *r, const struct yaml_node *root)
+status check_keys_of_scene(struct reader *r, const struct yaml_node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));

@@ -16,17 +16,17 @@ void writer_begin_key(struct writer *w, const char *key)
     w->dash = false;
 }
 
-void write_real(struct writer *w, real value)
+void yaml_write_real(struct writer *w, real value)
 {
     char text[32];
     fputs(number_write_shortest(text, value), w->out);
 }
 
-void write_list(struct writer *w, const real *value, int n)
+void yaml_write_number_list(struct writer *w, const real *value, int n)
 {
     for (int k = 0; k < n; k++) {
         fputs(k ? ", " : "[", w->out);
-        write_real(w, value[k]);
+        yaml_write_real(w, value[k]);
     }
     fputc(']', w->out);
 }
@@ -36,7 +36,7 @@ static void write_matrix(struct writer *w, const real *value)
     int dim = w->scene->dim;
     for (int k = 0; k < dim; k++) {
         fputs(k ? ", " : "[", w->out);
-        write_list(w, value + k * dim, dim);
+        yaml_write_number_list(w, value + k * dim, dim);
     }
     fputc(']', w->out);
 }
@@ -59,7 +59,7 @@ static int letter_of(const unsigned char *c, unsigned *code)
 
 /* Writes a text in double quotes, as a YAML scalar. Quotes and backslashes are escaped; characters other than printable
  * ASCII become \U escapes. */
-void write_quoted(struct writer *w, const char *text)
+void yaml_write_quoted_text(struct writer *w, const char *text)
 {
     fputc('"', w->out);
     for (const unsigned char *c = (const unsigned char *)text; *c;) {
@@ -103,56 +103,56 @@ static void write_set(struct writer *w, const struct key *k, unsigned bits)
     if (bits) fputc(']', w->out);
 }
 
-void write_value(struct writer *w, const struct key *k, const void *place)
+void yaml_write_value(struct writer *w, const struct key *k, const void *value_address)
 {
     const struct scene *s = w->scene;
     switch (k->type) {
     case KEY_REAL: {
-        real value = *(const real *)place;
+        real value = *(const real *)value_address;
         bool word = k->words && (value == k->word_value || isnan(value));
         if (word)
             fputs(k->words, w->out);
         else
-            write_real(w, value);
+            yaml_write_real(w, value);
         break;
     }
     case KEY_INT:
-        fprintf(w->out, "%d", *(const int *)place);
+        fprintf(w->out, "%d", *(const int *)value_address);
         break;
     case KEY_SEED:
-        fprintf(w->out, "%" PRIu64, *(const uint64_t *)place);
+        fprintf(w->out, "%" PRIu64, *(const uint64_t *)value_address);
         break;
     case KEY_FLAG:
-        fputs(*(const bool *)place ? "true" : "false", w->out);
+        fputs(*(const bool *)value_address ? "true" : "false", w->out);
         break;
     case KEY_CHOICE:
-        write_choice(w, k, place);
+        write_choice(w, k, value_address);
         break;
     case KEY_SET:
-        write_set(w, k, *(const unsigned *)place);
+        write_set(w, k, *(const unsigned *)value_address);
         break;
     case KEY_SERIES: {
-        const struct number_list *list = place;
-        write_list(w, list->value, list->n);
+        const struct number_list *list = value_address;
+        yaml_write_number_list(w, list->value, list->n);
         break;
     }
     case KEY_NAME:
-        write_quoted(w, place);
+        yaml_write_quoted_text(w, value_address);
         break;
     case KEY_POINT:
-        write_list(w, place, w->dim);
+        yaml_write_number_list(w, value_address, w->dim);
         break;
     case KEY_MATRIX:
-        write_matrix(w, place);
+        write_matrix(w, value_address);
         break;
     case KEY_REGION:
-        write_region(w, place);
+        yaml_write_region(w, value_address);
         break;
     case KEY_BODY:
-        write_quoted(w, s->body[*(const int *)place].name);
+        yaml_write_quoted_text(w, s->body[*(const int *)value_address].name);
         break;
     case KEY_MATERIAL:
-        write_quoted(w, s->material[*(const int *)place].name);
+        yaml_write_quoted_text(w, s->material[*(const int *)value_address].name);
         break;
     default:
         break;
@@ -202,14 +202,14 @@ static void write_series(struct writer *w)
     w->indent += 4;
     for (int k = 0; k < s->n_series; k++) {
         w->dash = true;
-        write_group(w, "output.regions", &s->series[k]);
+        yaml_write_keys_of_group(w, "output.regions", &s->series[k]);
     }
     w->indent -= 4;
 }
 
 /* Writes all keys that are directly below the path `group` and have a value in the structure `base`, with their units
  * as comments. */
-void write_group(struct writer *w, const char *group, const void *base)
+void yaml_write_keys_of_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
@@ -218,14 +218,14 @@ void write_group(struct writer *w, const char *group, const void *base)
             writer_begin_key(w, key_leaf(k));
             fputc('\n', w->out);
             w->indent += 2;
-            write_group(w, k->path, base);
+            yaml_write_keys_of_group(w, k->path, base);
             if (strcmp(k->path, "output") == 0) write_series(w);
             w->indent -= 2;
         }
         if (!has_value(k, base, key_value_address(k, base))) continue;
         writer_begin_key(w, key_leaf(k));
         fputc(' ', w->out);
-        write_value(w, k, key_value_address(k, base));
+        yaml_write_value(w, k, key_value_address(k, base));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
 }
@@ -242,12 +242,12 @@ void writer_begin_item(struct writer *w)
 
 /* Writes the line `key:` and below it, indented, the keys that are directly below the path `group` and have a value in
  * the structure `base`. */
-void write_mapping(struct writer *w, const char *key, const char *group, const void *base)
+void yaml_write_mapping(struct writer *w, const char *key, const char *group, const void *base)
 {
     writer_begin_key(w, key);
     fputc('\n', w->out);
     w->indent += 2;
-    write_group(w, group, base);
+    yaml_write_keys_of_group(w, group, base);
     w->indent -= 2;
 }
 
@@ -258,7 +258,7 @@ static void write_pairs(struct writer *w, const real *x, const real *y, int poin
     writer_begin_key(w, "table");
     for (int k = 0; k < points; k++) {
         fputs(k ? ", " : " [", w->out);
-        write_list(w, (const real[]){x[k], y[k]}, 2);
+        yaml_write_number_list(w, (const real[]){x[k], y[k]}, 2);
     }
     fprintf(w->out, "]  # %s\n", units);
 }
@@ -273,7 +273,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (!law->given) return;
     snprintf(group, sizeof group, "material.hardening.%s", word ? word : "");
     if (!word)
-        write_mapping(w, "johnson_cook", "material.johnson_cook", law);
+        yaml_write_mapping(w, "johnson_cook", "material.johnson_cook", law);
     else if (law->flow != FLOW_LINEAR || law->hardening != m->yield_hardening) {
         writer_begin_key(w, "hardening");
         fputc('\n', w->out);
@@ -281,10 +281,10 @@ static void write_material_law(struct writer *w, const struct material *m)
         if (law->flow == FLOW_TABLE)
             write_pairs(w, law->table.strain, law->table.stress, law->table.points, "1, Pa");
         else
-            write_mapping(w, word, group, law);
+            yaml_write_mapping(w, word, group, law);
         w->indent -= 2;
     }
-    if (law->kinematic.modulus > 0) write_mapping(w, "kinematic", "material.kinematic", law);
+    if (law->kinematic.modulus > 0) yaml_write_mapping(w, "kinematic", "material.kinematic", law);
 }
 
 /* Writes how the tensile strength of a material grows with the strain rate, if it does. */
@@ -309,23 +309,23 @@ static void write_materials(struct writer *w)
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
         writer_begin_item(w);
         if (one) w->indent = 2, w->dash = false;
-        write_group(w, "material", &m);
+        yaml_write_keys_of_group(w, "material", &m);
         write_material_law(w, &m);
         write_rate(w, &m.rate);
-        if (material_has_viscosity(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
-        if (m.scatter.given) write_mapping(w, "scatter", "material.scatter", &m.scatter);
+        if (material_has_viscosity(&m)) yaml_write_mapping(w, "viscosity", "material.viscosity", &m);
+        if (m.scatter.given) yaml_write_mapping(w, "scatter", "material.scatter", &m.scatter);
     }
 }
 
 /* Writes the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
  * contents: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
  * has not been read, and its name is written as it is. */
-void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
+void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
     writer_begin_key(w, key);
     fputc(' ', w->out);
-    write_quoted(w, whole ? whole : file);
+    yaml_write_quoted_text(w, whole ? whole : file);
     if (contents) fprintf(w->out, "  # contents %016" PRIx64, contents);
     fputc('\n', w->out);
     free(whole);
@@ -337,17 +337,17 @@ static void write_particle_list(struct writer *w, const struct scene_body *b)
 {
     const bool formed = b->form.scale > 0 || b->form.columns;
     if (!formed) {
-        write_file_name(w, "particles", b->file, b->contents);
+        yaml_write_file_name(w, "particles", b->file, b->contents);
         return;
     }
     writer_begin_key(w, "particles");
     fputc('\n', w->out);
     w->indent += 2;
-    write_file_name(w, "file", b->file, b->contents);
+    yaml_write_file_name(w, "file", b->file, b->contents);
     if (b->form.scale > 0) {
         writer_begin_key(w, "scale");
         fputc(' ', w->out);
-        write_real(w, b->form.scale);
+        yaml_write_real(w, b->form.scale);
         fputs("  # m\n", w->out);
     }
     if (b->form.columns) {
@@ -366,7 +366,7 @@ static void write_body_parts(struct writer *w, const struct scene_body *b)
     fputc('\n', w->out);
     for (int k = 0; k < b->parts; k++) {
         w->indent = 8, w->dash = true;
-        write_group(w, "bodies.parts", &b->part[k]);
+        yaml_write_keys_of_group(w, "bodies.parts", &b->part[k]);
     }
 }
 
@@ -376,7 +376,7 @@ static void write_bodies(struct writer *w)
     fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies + s->rigids; k++) {
         writer_begin_item(w);
-        write_group(w, "bodies", &s->body[k]);
+        yaml_write_keys_of_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_particle_list(w, &s->body[k]);
         write_body_parts(w, &s->body[k]);
     }
@@ -391,11 +391,11 @@ static void write_interfaces(struct writer *w)
         writer_begin_item(w);
         writer_begin_key(w, "bodies");
         fputs(" [", w->out);
-        write_quoted(w, s->body[face->body[0]].name);
+        yaml_write_quoted_text(w, s->body[face->body[0]].name);
         fputs(", ", w->out);
-        write_quoted(w, s->body[face->body[1]].name);
+        yaml_write_quoted_text(w, s->body[face->body[1]].name);
         fputs("]\n", w->out);
-        write_group(w, "interfaces", face);
+        yaml_write_keys_of_group(w, "interfaces", face);
     }
 }
 
@@ -408,7 +408,7 @@ static void write_cracks(struct writer *w)
         fprintf(w->out, "  - {%s: ", s->dim == 1 ? "at" : s->dim == 2 ? "from" : "polygon");
         for (int j = 0; j < c->n; j++) {
             fputs(j == 0 ? s->dim == 3 ? "[" : "" : s->dim == 2 ? ", to: " : ", ", w->out);
-            write_list(w, c->corner[j], s->dim);
+            yaml_write_number_list(w, c->corner[j], s->dim);
         }
         fputs(s->dim == 3 ? "]" : "", w->out);
         if (c->width > 0) fprintf(w->out, ", width: %.17g", c->width);
@@ -424,7 +424,7 @@ static void write_growths(struct writer *w)
         struct growth_rule g = s->growth[k];
         if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
         writer_begin_item(w);
-        write_group(w, "growth", &g);
+        yaml_write_keys_of_group(w, "growth", &g);
     }
 }
 
@@ -435,9 +435,9 @@ static void write_initials(struct writer *w)
     for (int k = 0; k < s->initials; k++) {
         writer_begin_item(w);
         const struct scene_initial *one = &s->initial[k];
-        write_group(w, "initial", one);
-        if (one->sets_velocity) write_formulas(w, "velocity", one->velocity, one->formula);
-        if (one->sets_pulse) write_mapping(w, "pulse", "initial.pulse", one);
+        yaml_write_keys_of_group(w, "initial", one);
+        if (one->sets_velocity) yaml_write_vector_of_formulas(w, "velocity", one->velocity, one->formula);
+        if (one->sets_pulse) yaml_write_mapping(w, "pulse", "initial.pulse", one);
     }
 }
 
@@ -450,7 +450,7 @@ static void write_probes(struct writer *w)
         snprintf(group, sizeof group, "probes.%s", probe_names[s->probe[k].kind]);
         fprintf(w->out, "  - %s:\n", probe_names[s->probe[k].kind]);
         w->indent = 6;
-        write_group(w, group, &s->probe[k]);
+        yaml_write_keys_of_group(w, group, &s->probe[k]);
     }
 }
 
@@ -464,14 +464,14 @@ char *scene_to_yaml(const struct scene *s)
     head.has_frames = s->times.n == 0 && s->every == 0;
     struct writer w = {.out = memory_stream_open(&text, &length), .scene = s, .dim = s->dim};
     if (!w.out) return NULL;
-    write_group(&w, "", &head);
+    yaml_write_keys_of_group(&w, "", &head);
     write_materials(&w);
-    write_regions(&w);
+    yaml_write_named_regions(&w);
     write_bodies(&w);
     write_interfaces(&w);
     write_cracks(&w);
     write_initials(&w);
-    write_boundaries(&w);
+    yaml_write_boundaries(&w);
     write_probes(&w);
     write_growths(&w);
     if (fclose(w.out) != 0) {

@@ -22,45 +22,46 @@ void writer_begin_key(struct writer *w, const char *key);
 void writer_begin_item(struct writer *w);
 
 /* Writes a number to the YAML text with so many digits that it reads back to identical bits. */
-void write_real(struct writer *w, real value);
+void yaml_write_real(struct writer *w, real value);
 
 /* Writes a text in double quotes. */
-void write_quoted(struct writer *w, const char *text);
+void yaml_write_quoted_text(struct writer *w, const char *text);
 
 /* Writes the numbers value[n] to the YAML text as a list in brackets. */
-void write_list(struct writer *w, const real *value, int n);
+void yaml_write_number_list(struct writer *w, const real *value, int n);
 
-/* Writes the value of key k to the YAML text, in the form that the type of the key requires. place: address of the
- * value. */
-void write_value(struct writer *w, const struct key *k, const void *place);
+/* Writes the value of key k to the YAML text, in the form that the type of the key requires. value_address: address of
+ * the value. */
+void yaml_write_value(struct writer *w, const struct key *k, const void *value_address);
 
 /* Returns the address of the value of key k in the structure `base` of its group. */
 const void *key_value_address(const struct key *k, const void *base);
 
 /* Writes all keys of the group `group` (the path of a key with keys below it), one per line. base: structure with their
  * values. */
-void write_group(struct writer *w, const char *group, const void *base);
+void yaml_write_keys_of_group(struct writer *w, const char *group, const void *base);
 
 /* Writes `key:` and below it, as a mapping, all keys of the group `group`. base: structure with their values. */
-void write_mapping(struct writer *w, const char *key, const char *group, const void *base);
+void yaml_write_mapping(struct writer *w, const char *key, const char *group, const void *base);
 
 /* Writes the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
  * contents: hash of the file, which is written as a comment. */
-void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
+void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
 
 /* Writes all boundary conditions of the scene to the YAML text. */
-void write_boundaries(struct writer *w);
+void yaml_write_boundaries(struct writer *w);
 
 /* Writes the key `key` with a vector: component d is formula[d] if it is given, else the number value[d]. */
-void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
+void yaml_write_vector_of_formulas(struct writer *w, const char *key, const real *value,
+                                   const struct expression *formula);
 
 /* Writes a region to the YAML text, as a list of its solids. */
-void write_region(struct writer *w, const struct region *region);
+void yaml_write_region(struct writer *w, const struct region *region);
 
 /* Writes the named regions of the scene to the YAML text. */
-void write_regions(struct writer *w);
+void yaml_write_named_regions(struct writer *w);
 
 /* Writes the solid s, which was read from a file, to the YAML text, for example as `stl: {..}`. */
-void write_shape_file(struct writer *w, const struct solid *s);
+void yaml_write_shape_file(struct writer *w, const struct solid *s);
 
 #endif

@@ -7,11 +7,11 @@ static void write_time_file(struct writer *w, const struct boundary *b)
     writer_begin_key(w, "time");
     fputc('\n', w->out);
     w->indent += 2;
-    write_file_name(w, "file", b->time_file, b->time_contents);
+    yaml_write_file_name(w, "file", b->time_file, b->time_contents);
     if (b->time_column[0]) {
         writer_begin_key(w, "column");
         fputc(' ', w->out);
-        write_quoted(w, b->time_column);
+        yaml_write_quoted_text(w, b->time_column);
         fputc('\n', w->out);
     }
     w->indent -= 2;
@@ -33,15 +33,15 @@ static void write_time(struct writer *w, const struct boundary *b)
         fputs(" {table: [", w->out);
     else {
         fprintf(w->out, " {%s: {from: ", words[f->kind]);
-        write_real(w, f->from);
+        yaml_write_real(w, f->from);
         fputs(", until: ", w->out);
-        write_real(w, f->until);
+        yaml_write_real(w, f->until);
         fputs("}}", w->out);
     }
     for (int k = 0; k < f->n; k++) {
         real row[2] = {f->t[k], f->value[k]};
         fputs(k ? ", " : "", w->out);
-        write_list(w, row, 2);
+        yaml_write_number_list(w, row, 2);
     }
     fputs(f->kind == TIME_TABLE ? "]}\n" : "\n", w->out);
 }
@@ -53,7 +53,7 @@ static void write_profile(struct writer *w, const struct profile *f)
     for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
         if (!key_is_directly_below(&keys[i], group)) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
-        write_value(w, &keys[i], key_value_address(&keys[i], f));
+        yaml_write_value(w, &keys[i], key_value_address(&keys[i], f));
         between = ", ";
     }
     fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
@@ -63,12 +63,13 @@ static void write_profile(struct writer *w, const struct profile *f)
 static void write_formula(struct writer *w, const real *value, const struct expression *formula, int d)
 {
     if (formula[d].n > 0)
-        write_quoted(w, formula[d].text);
+        yaml_write_quoted_text(w, formula[d].text);
     else
-        write_real(w, value[d]);
+        yaml_write_real(w, value[d]);
 }
 
-void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula)
+void yaml_write_vector_of_formulas(struct writer *w, const char *key, const real *value,
+                                   const struct expression *formula)
 {
     writer_begin_key(w, key);
     for (int d = 0; d < w->scene->dim; d++) {
@@ -80,12 +81,12 @@ void write_formulas(struct writer *w, const char *key, const real *value, const 
 
 static void write_rotation(struct writer *w, const struct boundary *b)
 {
-    write_mapping(w, "rotation", "boundary.rotation", b);
+    yaml_write_mapping(w, "rotation", "boundary.rotation", b);
     if (w->scene->dim < 3) return;
     w->indent += 2;
     writer_begin_key(w, "axis");
     fputc(' ', w->out);
-    write_list(w, b->axis_of, DIM_MAX);
+    yaml_write_number_list(w, b->axis_of, DIM_MAX);
     fputc('\n', w->out);
     w->indent -= 2;
 }
@@ -107,9 +108,9 @@ static void write_velocity(struct writer *w, const struct boundary *b)
  * requires. */
 static void write_boundary(struct writer *w, const struct boundary *b)
 {
-    write_group(w, "boundary", b);
+    yaml_write_keys_of_group(w, "boundary", b);
     if (b->kind == BOUNDARY_MIRROR) {
-        write_mapping(w, "mirror", "boundary.mirror", b);
+        yaml_write_mapping(w, "mirror", "boundary.mirror", b);
         return;
     }
     if (b->rotates) {
@@ -125,7 +126,8 @@ static void write_boundary(struct writer *w, const struct boundary *b)
         write_formula(w, b->value, b->formula, 0);
         fputc('\n', w->out);
     } else {
-        write_formulas(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force", b->value, b->formula);
+        yaml_write_vector_of_formulas(w, b->kind == BOUNDARY_TRACTION ? "traction" : "body_force", b->value,
+                                      b->formula);
     }
     if (b->side != 0) {
         writer_begin_key(w, "face");
@@ -134,14 +136,14 @@ static void write_boundary(struct writer *w, const struct boundary *b)
     if (b->side != 0 && b->kind == BOUNDARY_VELOCITY) {
         writer_begin_key(w, "depth");
         fputc(' ', w->out);
-        write_real(w, b->depth);
+        yaml_write_real(w, b->depth);
         fputc('\n', w->out);
     }
     if (b->kind == BOUNDARY_BODY_FORCE) write_profile(w, &b->profile);
     if (b->kind != BOUNDARY_ABSORBING) write_time(w, b);
 }
 
-void write_boundaries(struct writer *w)
+void yaml_write_boundaries(struct writer *w)
 {
     const struct scene *s = w->scene;
     const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass; /* gravity is a key of its own */

@@ -29,7 +29,7 @@ static void write_paths(struct writer *w, const struct shape_file *f)
     for (int k = 0; k < f->files; k++) {
         char *whole = realpath(f->path[k], NULL);
         if (k > 0) fputs(", ", w->out);
-        write_quoted(w, whole ? whole : f->path[k]);
+        yaml_write_quoted_text(w, whole ? whole : f->path[k]);
         free(whole);
     }
     fprintf(w->out, "%s, contents: \"%016" PRIx64 "\"", f->files > 1 ? "]" : "", f->contents);
@@ -38,20 +38,20 @@ static void write_paths(struct writer *w, const struct shape_file *f)
 static void write_image(struct writer *w, const struct shape_file *f, const struct voxel_part *p)
 {
     fputs(", pixel: ", w->out);
-    write_real(w, f->size[0]);
+    yaml_write_real(w, f->size[0]);
     if (f->dim == 3) {
         fputs(", slice: ", w->out);
-        write_real(w, f->size[2]);
+        yaml_write_real(w, f->size[2]);
     }
     fputs(", origin: ", w->out);
-    write_list(w, f->from, f->dim);
+    yaml_write_number_list(w, f->from, f->dim);
     fputs(", values: [", w->out);
     for (int k = 0; k < p->ranges; k++)
         fprintf(w->out, "%s\"%d-%d\"", k ? ", " : "", p->range[k].low, p->range[k].high);
     fputc(']', w->out);
 }
 
-void write_shape_file(struct writer *w, const struct solid *s)
+void yaml_write_shape_file(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SHAPE_STL] = "stl", [SHAPE_MESH] = "mesh", [SHAPE_IMAGE] = "image"};
     const char *set;
@@ -63,15 +63,15 @@ void write_shape_file(struct writer *w, const struct solid *s)
         write_image(w, f, s->voxels);
     else {
         fputs(", scale: ", w->out);
-        write_real(w, f->scale);
+        yaml_write_real(w, f->scale);
     }
     if (set) {
         fputs(", set: ", w->out);
-        write_quoted(w, set);
+        yaml_write_quoted_text(w, set);
     }
     if (s->kind == SOLID_HULL && s->hull->open) {
         fputs(", within: ", w->out);
-        write_real(w, s->radius);
+        yaml_write_real(w, s->radius);
     }
     fputc('}', w->out);
 }

@@ -13,7 +13,7 @@ static void write_keys(struct writer *w, const char *group, const void *base, co
         if (!key_is_directly_below(k, group) || !k->place) continue;
         if (k->has && !*((const bool *)base + (k->has - 1))) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(k));
-        write_value(w, k, (const char *)base + (k->place - 1));
+        yaml_write_value(w, k, (const char *)base + (k->place - 1));
         if (k->unit == UNIT_ANGLE) fputs(" rad", w->out);
         between = ", ";
     }
@@ -23,7 +23,7 @@ static void write_corners(struct writer *w, const struct polygon *p)
 {
     for (int k = 0; k < p->n; k++) {
         fputs(k ? ", " : "corners: [", w->out);
-        write_list(w, p->corner[k], 2);
+        yaml_write_number_list(w, p->corner[k], 2);
     }
     fputc(']', w->out);
     write_keys(w, "solid.polygon", p, ", ");
@@ -36,7 +36,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
     const int dim = w->dim;
     fputs("shape: ", w->out);
     w->dim = 2;
-    write_region(w, &s->region);
+    yaml_write_region(w, &s->region);
     w->dim = dim;
     write_keys(w, "solid.extrude", s, ", ");
 }
@@ -55,7 +55,7 @@ static void write_shape(struct writer *w, const struct solid *s)
         return;
     }
     if (s->kind == SOLID_HULL || s->kind == SOLID_VOXELS) {
-        write_shape_file(w, s);
+        yaml_write_shape_file(w, s);
         return;
     }
     const char *word = s->kind == SOLID_ELLIPSOID ? w->dim == 2 ? "ellipse" : "ellipsoid" : words[s->kind];
@@ -84,7 +84,7 @@ static void write_motions(struct writer *w, const struct solid *s)
         const struct solid_motion *m = &s->motion[k];
         if (m->kind == MOTION_MOVE) {
             fputs(", move: ", w->out);
-            write_list(w, m->step, w->dim);
+            yaml_write_number_list(w, m->step, w->dim);
             continue;
         }
         fputs(begins[m->kind], w->out);
@@ -121,15 +121,15 @@ static void write_items(struct writer *w, const struct region *region, bool inte
     fputc(']', w->out);
 }
 
-void write_region(struct writer *w, const struct region *region) { write_items(w, region, false); }
+void yaml_write_region(struct writer *w, const struct region *region) { write_items(w, region, false); }
 
-void write_regions(struct writer *w)
+void yaml_write_named_regions(struct writer *w)
 {
     const struct scene *s = w->scene;
     if (s->regions) fputs("regions:\n", w->out);
     for (int k = 0; k < s->regions; k++) {
         fprintf(w->out, "  %s: ", s->named[k].name);
-        write_region(w, &s->named[k].region);
+        yaml_write_region(w, &s->named[k].region);
         fputc('\n', w->out);
     }
 }

@@ -329,11 +329,11 @@ static bool number_constant(const struct yaml_node *n, const struct key *k, stru
     return true;
 }
 
-status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
+status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
                        struct expression *e)
 {
     char what[256];
-    struct compile c = {.r = r, .of = of, .text = n->text, .what = what, .room = sizeof what};
+    struct compile c = {.r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
         return fault(r, n, "%s is no expression; %s is expected, as %s", node_text(r, n), unit->name, unit->example);

@@ -39,18 +39,19 @@ const char *origin_file_name(const struct reader *r, int origin)
     return origin <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin] : r->name;
 }
 
-int folder_length(const char *path)
+int path_folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
     return slash ? (int)(slash - path) + 1 : 0;
 }
 
-status read_path(struct reader *r, const struct yaml_node *n, const char *what, char **path, uint64_t *contents)
+status read_input_file_path(struct reader *r, const struct yaml_node *n, const char *file_kind, char **path,
+                            uint64_t *contents)
 {
     const char *from = origin_file_name(r, n->origin);
-    const size_t folder = (size_t)folder_length(from), length = strlen(n->text);
+    const size_t folder = (size_t)path_folder_length(from), length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0)
-        return fault(r, n, "%s is no file name; %s is expected", node_text(r, n), what);
+        return fault(r, n, "%s is no file name; %s is expected", node_text(r, n), file_kind);
     *path = NEW("file name", folder + length + 1, char);
     if (r->files && folder > 0 && n->text[0] != '/') {
         memcpy(*path, from, folder);
@@ -60,5 +61,5 @@ status read_path(struct reader *r, const struct yaml_node *n, const char *what, 
     memcpy(*path, n->text, length + 1);
     if (!r->files) return OK;
     if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
-    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_text(r, n), what);
+    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_text(r, n), file_kind);
 }

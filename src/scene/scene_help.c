@@ -125,7 +125,7 @@ static void path_of_table(const char *key, char *path, size_t capacity)
         if (*c == '\0') break;
     }
     path[used] = '\0';
-    text_replace_controls(path);
+    text_replace_control_characters(path);
 }
 
 bool key_is_below(const struct key *k, const char *path)
@@ -179,7 +179,7 @@ static bool is_value_of(const struct key *k, const char *word)
     return false;
 }
 
-bool scene_has_key(const char *key)
+bool scene_help_knows_word(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);

@@ -138,7 +138,7 @@ static status read_grey_part(struct reader *r, const struct yaml_node *solid, co
     return read_region(r, copy, &part->region);
 }
 
-status read_grey_parts(struct reader *r, const struct yaml_node *shape, struct scene_body *b)
+status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape, struct scene_body *b)
 {
     const struct yaml_node *solid = shape && shape->kind == NODE_LIST ? shape->first : shape;
     const int wanted = r->grey_materials;

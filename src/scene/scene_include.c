@@ -92,7 +92,7 @@ static int length_of(const struct chain *chain)
 static char *path_from(struct reader *r, const struct yaml_node *n)
 {
     const char *from = origin_file_name(r, n->origin);
-    const size_t folder = *n->text == '/' ? 0 : (size_t)folder_length(from), length = strlen(n->text);
+    const size_t folder = *n->text == '/' ? 0 : (size_t)path_folder_length(from), length = strlen(n->text);
     char *path = arena_new(r, folder + length + 1);
     memcpy(path, from, folder);
     memcpy(path + folder, n->text, length);

@@ -64,7 +64,8 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
         return fault(r, yaml_node_find(n, "energy_release_rate"),
                      "body %s has parts of different materials; an interface joins bodies of one material each",
                      one->parts > 0 ? one->name : other->name);
-    if (material_softens(&s->material[one->material]) || material_softens(&s->material[other->material]))
+    if (material_has_softening_bonds(&s->material[one->material]) ||
+        material_has_softening_bonds(&s->material[other->material]))
         return fault(r, yaml_node_find(n, "energy_release_rate"),
                      "joins bodies of which one has a tensile_strength; an interface of its own energy is brittle, and "
                      "goes with brittle bodies so far");
@@ -98,7 +99,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *n = list->first;
     for (int k = 0; k < s->interfaces; k++, n = n->next) {
         struct scene_interface *face = &s->interface[k];
-        TRY(read_group(r, n, n, "interfaces", face));
+        TRY(read_keys_of_group(r, n, n, "interfaces", face));
         TRY(interface_bodies(r, n, face));
         if (!face->joined && yaml_node_find(n, "energy_release_rate"))
             return fault(r, yaml_node_find(n, "energy_release_rate"), "only of bodies that are joined");

@@ -60,7 +60,7 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
-    real *spacing_most; /* of note_largest_spacing; NULL: strengths that do not suit the spacing are refused */
+    real *spacing_most; /* of limit_spacing_if_searched; NULL: strengths that do not suit the spacing are refused */
 };
 
 /* Returns `size` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
@@ -117,7 +117,7 @@ const char *origin_file_name(const struct reader *r, int origin);
 
 /* Returns the number of characters of the folder at the beginning of `path`, with its final slash; 0 if there is no
  * folder. */
-int folder_length(const char *path);
+int path_folder_length(const char *path);
 
 /* Reads the whole file `path` into an allocated array *bytes of *length bytes, which the caller releases with
  * memory_free. Returns REFUSED, with a message, if it cannot be read. */
@@ -195,9 +195,9 @@ void unit_write_text(const int twice[3], char *text, size_t capacity);
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
 /* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *e; a number is one,
- * too. of: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free. Returns REFUSED, with
- * a message of one line that states the position of the fault in the text. */
-status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of,
+ * too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free. Returns
+ * REFUSED, with a message of one line that states the position of the fault in the text. */
+status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
                        struct expression *e);
 
 /* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. On
@@ -308,7 +308,7 @@ const struct key *key_find(const char *group, const char *leaf);
 
 /* Returns the key directly below the key `group` ("" for the top of a scene) whose last part has the smallest edit
  * distance to `leaf`. */
-const struct key *key_nearest(const char *group, const char *leaf);
+const struct key *key_find_most_similar(const char *group, const char *leaf);
 
 /* Returns a key whose last part is `leaf`, in any group; one at the top of a scene if there is one. Returns NULL if
  * there is none. Stores the number of keys with this last part in *keys_of_name. */
@@ -357,7 +357,8 @@ status fault_missing_key(struct reader *r, const struct yaml_node *map, const st
 
 /* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
  * that was set last: by an override, else in the scene file. */
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b);
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *first_key,
+                            const struct yaml_node *second_key);
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
  * which arena_free releases. */
@@ -373,19 +374,19 @@ const char *words_for_message(struct reader *r, const char *words);
  * OK. */
 status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group);
 
-/* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT = `what`;
- * else OK. */
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what);
+/* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
+ * `expected`; else OK. */
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected);
 
 /* Reads all keys of the group `group` that need no function of their own into the structure `base`. map: mapping with
  * the keys, or NULL to store the defaults only; where: node at whose location missing keys are reported. Returns
  * REFUSED, with a message, for a missing key or an invalid value. */
-status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
-                  void *base);
+status read_keys_of_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map,
+                          const char *group, void *base);
 
 /* Reads the value of key k from node n into `base`, the structure of its group, as the table of keys describes it.
  * Returns REFUSED, with a message, for an invalid value. */
-status read_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base);
+status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base);
 
 /* Reads a number in the unit and range of key k from node n into *value [SI]. Returns REFUSED, with a message, for an
  * invalid value. */
@@ -404,10 +405,11 @@ const char *space_for_message(const struct reader *r);
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Reads a file name from node n: searches the folder of the scene, then the current folder. Stores the path in *path
- * and a hash of the contents of the file in *contents. The caller releases *path with memory_free. what: kind of file,
- * for messages. If r->files is false, copies the name without opening the file. Returns REFUSED, with a message, if the
- * file cannot be read. */
-status read_path(struct reader *r, const struct yaml_node *n, const char *what, char **path, uint64_t *contents);
+ * and a hash of the contents of the file in *contents. The caller releases *path with memory_free. file_kind: kind of
+ * file, for messages. If r->files is false, copies the name without opening the file. Returns REFUSED, with a message,
+ * if the file cannot be read. */
+status read_input_file_path(struct reader *r, const struct yaml_node *n, const char *file_kind, char **path,
+                            uint64_t *contents);
 
 /* Words of scenes for the values of enum space, in their order. */
 extern const char *const space_names[];

@@ -24,7 +24,7 @@ const struct key *key_find(const char *group, const char *leaf)
     return NULL;
 }
 
-const struct key *key_nearest(const char *group, const char *leaf)
+const struct key *key_find_most_similar(const char *group, const char *leaf)
 {
     const struct key *nearest = NULL;
     int least = 1000;

@@ -78,7 +78,7 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
 {
     char group[64];
     const struct yaml_node *given = NULL, *modulus = yaml_node_find(material, "yield_hardening");
-    TRY(read_group(r, n, n, "material.hardening", law));
+    TRY(read_keys_of_group(r, n, n, "material.hardening", law));
     for (int flow = 0; flow < FLOW_LAWS; flow++) {
         const char *word = flow_properties[flow].word;
         const struct yaml_node *one = word ? yaml_node_find(n, word) : NULL;
@@ -90,7 +90,7 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     law->given = true;
     if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
     snprintf(group, sizeof group, "material.hardening.%s", flow_properties[law->flow].word);
-    return read_group(r, given, given, group, law);
+    return read_keys_of_group(r, given, given, group, law);
 }
 
 /* Reads the flow law of Johnson and Cook into `law`. material: node of the material; n: node of `johnson_cook`. Returns
@@ -101,7 +101,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
     const struct yaml_node *hardening = yaml_node_find(material, "hardening"),
                            *modulus = yaml_node_find(material, "yield_hardening");
     if (hardening || modulus) return fault_exclusive_keys(r, hardening ? hardening : modulus, n);
-    TRY(read_group(r, n, n, "material.johnson_cook", law));
+    TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
     return fault(r, yaml_node_find(n, "T_melt"), "%g K is not above T_room, %g K; the melting temperature is expected",
@@ -154,7 +154,7 @@ status read_flow_law(struct reader *r, const struct yaml_node *n, struct materia
     if (hardening) TRY(read_hardening_law(r, n, hardening, law));
     if (johnson_cook) TRY(read_johnson_cook(r, n, johnson_cook, law));
     if (!first) first = kinematic;
-    if (kinematic) TRY(read_group(r, kinematic, kinematic, "material.kinematic", law));
+    if (kinematic) TRY(read_keys_of_group(r, kinematic, kinematic, "material.kinematic", law));
     if (!law->given && (kinematic || (material_yields(m) && r->scene->method != METHOD_PD))) {
         law->given = true, law->flow = FLOW_LINEAR;
         law->hardening = m->young * m->yield_tangent / (m->young - m->yield_tangent);

@@ -21,7 +21,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
     TRY(check_keys_known(r, n, "boundary.profile"));
     if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
     f->kind = PROFILE_SINE;
-    TRY(read_group(r, n->first, n->first, "boundary.profile.sine", f));
+    TRY(read_keys_of_group(r, n->first, n->first, "boundary.profile.sine", f));
     real length2 = dot(f->direction, f->direction, r->dim);
     if (length2 > 0 && isfinite(length2)) return OK;
     return fault(r, yaml_node_find(n->first, "direction"),
@@ -77,14 +77,14 @@ static status read_formula(struct reader *r, const struct key *k, const struct y
     return read_number(r, k, n, value);
 }
 
-status read_formulas(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
-                     struct expression *formula)
+status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *n,
+                               unsigned further_variables, real *value, struct expression *formula)
 {
     int d = 0;
-    if (n->kind == NODE_SCALAR && r->dim == 1) return read_formula(r, k, n, of, value, formula);
+    if (n->kind == NODE_SCALAR && r->dim == 1) return read_formula(r, k, n, further_variables, value, formula);
     if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, value);
     for (const struct yaml_node *c = n->first; c; c = c->next, d++)
-        TRY(read_formula(r, k, c, of, &value[d], &formula[d]));
+        TRY(read_formula(r, k, c, further_variables, &value[d], &formula[d]));
     return OK;
 }
 
@@ -161,7 +161,7 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *n, const cha
  * values. */
 static status read_rotation(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
-    TRY(read_group(r, n, n, "boundary.rotation", b));
+    TRY(read_keys_of_group(r, n, n, "boundary.rotation", b));
     TRY(read_rotation_axis(r, n, "boundary.rotation", b->axis_of));
     b->rotates = true;
     b->components = (uint8_t)((1 << r->dim) - 1);
@@ -179,7 +179,7 @@ static status read_mirror(struct reader *r, const struct yaml_node *map, const s
         const struct yaml_node *other = yaml_node_find(map, senseless[k]);
         if (other) return fault(r, other, "has no meaning with mirror, which always acts on every body; leave it out");
     }
-    TRY(read_group(r, n, n, "boundary.mirror", b));
+    TRY(read_keys_of_group(r, n, n, "boundary.mirror", b));
     const struct yaml_node *at = yaml_node_find(n, "axis");
     return read_axis(r, at, at->text, &axis);
 }
@@ -312,7 +312,8 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
     if (*kind->key == 'v' || b->displaces) return read_velocity(r, kind, b);
     if (*kind->key == 'r') return read_rotation(r, kind, b);
     if (*kind->key == 'p') return read_pressure(r, kind, b);
-    TRY(read_formulas(r, key_find("boundary", kind->key), kind, EXPRESS_SPACE | EXPRESS_TIME, b->value, b->formula));
+    TRY(read_vector_of_formulas(r, key_find("boundary", kind->key), kind, EXPRESS_SPACE | EXPRESS_TIME, b->value,
+                                b->formula));
     return b->kind == BOUNDARY_TRACTION ? read_face(r, n, b) : OK;
 }
 
@@ -322,7 +323,7 @@ static status read_boundary(struct reader *r, const struct yaml_node *n, struct 
     TRY(expect_node_kind(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys_known(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
-    TRY(read_group(r, n, n, "boundary", b));
+    TRY(read_keys_of_group(r, n, n, "boundary", b));
     TRY(read_kind(r, n, kind, b));
     TRY(read_time_function(r, yaml_node_find(n, "time"), b));
     return check_time_unit(r, kind, b);

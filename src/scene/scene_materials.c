@@ -40,7 +40,7 @@ static status check_poisson(struct reader *r, const struct yaml_node *n, const s
     const struct yaml_node *poisson = yaml_node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
-    return refuse_poisson(r, poisson);
+    return refuse_bond_based_poisson_ratio(r, poisson);
 }
 
 /* Sets m->yield_tangent, the slope E_t of the stress-strain curve after yield [Pa], from the key yield_tangent or
@@ -72,9 +72,9 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
-    const struct state_modulus modulus = state_modulus_of_material(m, s->space, true);
+    const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, true);
     family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
-    return sqrt(m->energy_release_rate / family_separation_work_per_area(&f, &modulus, !s->bulk));
+    return sqrt(m->energy_release_rate / family_separation_work_over_stretch_squared(&f, &modulus, !s->bulk));
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
@@ -84,7 +84,7 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     struct strength_scatter *s = &m->scatter;
     if (!n) return OK;
     s->modulus = s->variation = NAN;
-    TRY(read_group(r, n, n, "material.scatter", s));
+    TRY(read_keys_of_group(r, n, n, "material.scatter", s));
     s->given = true;
     const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
     const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
@@ -107,7 +107,7 @@ static status read_viscosity(struct reader *r, const struct yaml_node *n, struct
 {
     struct scene *s = r->scene;
     if (!n) return OK;
-    TRY(read_group(r, n, n, "material.viscosity", m));
+    TRY(read_keys_of_group(r, n, n, "material.viscosity", m));
     if (s->levels == LEVELS_AUTO) s->levels = 0;
     s->active_set = false;
     const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
@@ -129,7 +129,7 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     m->compressive_strength = m->hydrostatic_strength = m->biaxial_strength = m->strength_radius = NAN;
     m->poisson = line ? 0 : bond_based_poisson_ratio(s->space);
     strcpy(m->name, "material");
-    TRY(read_group(r, n, n, "material", m));
+    TRY(read_keys_of_group(r, n, n, "material", m));
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
@@ -137,10 +137,10 @@ static status scene_parts_read_material(struct reader *r, const struct yaml_node
     TRY(read_scatter(r, yaml_node_find(n, "scatter"), m));
     TRY(read_viscosity(r, yaml_node_find(n, "viscosity"), m));
     const struct yaml_node *yield = yaml_node_find(n, "yield_stress");
-    if (s->model != MODEL_BOND && material_yields(m)) return refuse_state_yield(r, yield ? yield : n);
+    if (s->model != MODEL_BOND && material_yields(m)) return refuse_yield_with_state_model(r, yield ? yield : n);
     material_compute_derived_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
-    if (m->critical_stretch > 0) return read_softening(r, n, m);
+    if (m->critical_stretch > 0) return read_softening_onset(r, n, m);
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
 }
 
@@ -160,7 +160,7 @@ status read_materials(struct reader *r, const struct yaml_node *root)
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
                 return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);
-        TRY(check_one_softening(r, n, k));
+        TRY(check_single_softening_law(r, n, k));
     }
     return OK;
 }

@@ -46,7 +46,7 @@ static status read_about(struct reader *r, const struct yaml_node *n, const stru
 static status read_rotate(struct reader *r, const struct yaml_node *n, const struct solid *s, struct solid_motion *m)
 {
     m->kind = MOTION_ROTATE;
-    TRY(read_group(r, n, n, "solid.rotate", m));
+    TRY(read_keys_of_group(r, n, n, "solid.rotate", m));
     TRY(read_turning_axis(r, n, m));
     return read_about(r, n, s, m);
 }
@@ -54,7 +54,7 @@ static status read_rotate(struct reader *r, const struct yaml_node *n, const str
 static status read_mirror_image(struct reader *r, const struct yaml_node *n, struct solid_motion *m)
 {
     m->kind = MOTION_MIRROR;
-    TRY(read_group(r, n, n, "solid.mirror", m));
+    TRY(read_keys_of_group(r, n, n, "solid.mirror", m));
     if (dot(m->axis, m->axis, r->dim) > 0) return OK;
     return fault(r, yaml_node_find(n, "normal"), "has no length; the normal of the plane is expected");
 }
@@ -67,7 +67,7 @@ static status read_pattern(struct reader *r, const struct yaml_node *n, struct s
     const struct yaml_node *form = n->first;
     const bool ring = strcmp(form->key, "ring") == 0;
     m->kind = ring ? MOTION_RING : MOTION_GRID;
-    TRY(read_group(r, form, form, ring ? "solid.pattern.ring" : "solid.pattern.grid", m));
+    TRY(read_keys_of_group(r, form, form, ring ? "solid.pattern.ring" : "solid.pattern.grid", m));
     for (int d = 0; d < (ring ? 1 : r->dim); d++)
         if (m->count[d] != round(m->count[d]))
             return fault(r, yaml_node_find(form, "count"), "%s is not a whole number; the number of copies is expected",
@@ -83,7 +83,7 @@ static status read_motion(struct reader *r, const struct yaml_node *n, const str
     switch (word) {
     case 0:
         m->kind = MOTION_MOVE;
-        return read_key(r, key_find("solid", "move"), n, m);
+        return read_value_of_key(r, key_find("solid", "move"), n, m);
     case 1:
         return read_rotate(r, n, s, m);
     case 2:

@@ -43,14 +43,14 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     const struct yaml_node *file = mapping ? yaml_node_find(n, "file") : n;
     const struct yaml_node *columns = mapping ? yaml_node_find(n, "columns") : NULL;
     fault_write_location(r, n, b->place, sizeof b->place);
-    if (mapping) TRY(read_group(r, n, n, "bodies.particles", b));
+    if (mapping) TRY(read_keys_of_group(r, n, n, "bodies.particles", b));
     if (!file) return fault_missing_key(r, n, key_find("bodies.particles", "file"));
-    if (file->kind != NODE_SCALAR || !is_particle_list_name(file->text))
+    if (file->kind != NODE_SCALAR || !path_has_particle_list_extension(file->text))
         return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
                      node_text(r, file));
     if (mapping) TRY(read_file_unit(r, n, false, &b->form.scale));
     if (columns) TRY(read_list_columns(r, columns, b));
-    TRY(read_path(r, file, "a particle list", &b->file, &b->contents));
+    TRY(read_input_file_path(r, file, "a particle list", &b->file, &b->contents));
     return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
@@ -85,10 +85,10 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     fault_write_location(r, n, b->place, sizeof b->place);
     b->material = -1;
     r->bounded = !yaml_node_find(n, "rigid");
-    TRY(read_group(r, n, n, "bodies", b));
+    TRY(read_keys_of_group(r, n, n, "bodies", b));
     r->bounded = false;
     TRY(check_rigid_body(r, n, b));
-    TRY(read_grey_parts(r, shape, b));
+    TRY(read_body_parts_by_grey_value(r, shape, b));
     TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
     if (!shape && !file) return fault_missing_key(r, n, key_find("bodies", "shape"));
     if (shape && file) return fault_exclusive_keys(r, shape, file);
@@ -136,7 +136,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
         r->bounded = false;
-        TRY(read_grey_parts(r, one, s->body));
+        TRY(read_body_parts_by_grey_value(r, one, s->body));
         if (s->materials > 1 && !parts && s->body->parts == 0)
             return fault(r, one,
                          "the scene has %d materials, and the key body cannot name one; use parts, or bodies with a "
@@ -185,7 +185,7 @@ static status read_pulse(struct reader *r, const struct yaml_node *n, struct sce
 {
     real *direction = initial->pulse.direction, length;
     if (!n) return OK;
-    TRY(read_group(r, n, n, "initial.pulse", initial));
+    TRY(read_keys_of_group(r, n, n, "initial.pulse", initial));
     length = sqrt(dot(direction, direction, r->dim));
     if (!(length > 0))
         return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as 1 is expected");
@@ -203,7 +203,7 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
     real w[DIM_MAX] = {0}, rate;
     if (!n) return OK;
     if (gradient || centre) return fault_exclusive_keys(r, n, gradient ? gradient : centre);
-    TRY(read_group(r, n, n, "initial.rotation", initial));
+    TRY(read_keys_of_group(r, n, n, "initial.rotation", initial));
     TRY(read_rotation_axis(r, n, "initial.rotation", w));
     if (!yaml_node_find(n, "rate")) return fault_missing_key(r, n, key_find("initial.rotation", "rate"));
     TRY(read_number(r, key_find("initial.rotation", "rate"), yaml_node_find(n, "rate"), &rate));
@@ -222,14 +222,15 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
 {
     if (!n) return OK;
     initial->sets_velocity = true;
-    return read_formulas(r, key_find("initial", "velocity"), n, EXPRESS_SPACE, initial->velocity, initial->formula);
+    return read_vector_of_formulas(r, key_find("initial", "velocity"), n, EXPRESS_SPACE, initial->velocity,
+                                   initial->formula);
 }
 
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
     fault_write_location(r, n, initial->place, sizeof initial->place);
-    TRY(read_group(r, n, n, "initial", initial));
+    TRY(read_keys_of_group(r, n, n, "initial", initial));
     TRY(read_initial_velocity(r, yaml_node_find(n, "velocity"), initial));
     TRY(read_pulse(r, yaml_node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
@@ -260,7 +261,7 @@ static status read_growth(struct reader *r, const struct yaml_node *n, struct gr
 {
     real length;
     snprintf(g->name, sizeof g->name, "growth%d", number);
-    TRY(read_group(r, n, n, "growth", g));
+    TRY(read_keys_of_group(r, n, n, "growth", g));
     length = sqrt(dot(g->direction, g->direction, r->dim));
     if (!(length > 0))
         return fault(r, yaml_node_find(n, "direction"), "has no length; a direction such as [1, 0] is expected");
@@ -322,7 +323,7 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
 {
     struct scene *s = r->scene;
     struct scene_series *one = &s->series[number];
-    TRY(read_group(r, n, n, "output.regions", one));
+    TRY(read_keys_of_group(r, n, n, "output.regions", one));
     if (strcmp(one->name, "frames") == 0)
         return fault(r, yaml_node_find(n, "name"),
                      "frames is the name of the body's own files; another one is expected");

@@ -14,19 +14,19 @@ status read_regions(struct reader *r, const struct yaml_node *root);
 
 /* Reads a solid whose surface is in an STL file from node n into *s. Returns REFUSED, with a message, for an invalid
  * key or file. */
-status read_stl(struct reader *r, const struct yaml_node *n, struct solid *s);
+status read_stl_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Reads a solid from node n into *s: a mesh from a file, or a set of its elements or nodes. Returns REFUSED, with a
  * message, for an invalid key or file. */
-status read_mesh(struct reader *r, const struct yaml_node *n, struct solid *s);
+status read_mesh_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Reads a solid from node n into *s: the voxels of an image that have certain grey values. Returns REFUSED, with a
  * message, for an invalid key or file. */
-status read_image(struct reader *r, const struct yaml_node *n, struct solid *s);
+status read_image_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
 
 /* Adds a part to body b for each material that the images in its shape assign to grey values. shape: node of the shape.
  * Returns REFUSED, with a message, for an unknown material or invalid grey values. */
-status read_grey_parts(struct reader *r, const struct yaml_node *shape, struct scene_body *b);
+status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape, struct scene_body *b);
 
 /* Returns true if node n is a key that moves, turns or repeats a solid. */
 bool node_is_solid_motion(const struct yaml_node *n);
@@ -61,17 +61,17 @@ status read_time_function(struct reader *r, const struct yaml_node *n, struct bo
 status read_rotation_axis(struct reader *r, const struct yaml_node *n, const char *group, real *axis);
 
 /* Reads the components of a vector from node n. A number is stored in value[d], a formula in formula[d], and then
- * value[d] is 1. k: key of the vector, for unit and range; of: variables other than x, y and z that formulas may
- * contain (EXPRESS_*). Returns REFUSED, with a message, for an invalid component. */
-status read_formulas(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned of, real *value,
-                     struct expression *formula);
+ * value[d] is 1. k: key of the vector, for unit and range; further_variables: variables other than x, y and z that
+ * formulas may contain (EXPRESS_*). Returns REFUSED, with a message, for an invalid component. */
+status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *n,
+                               unsigned further_variables, real *value, struct expression *formula);
 
 status read_boundaries(struct reader *r, const struct yaml_node *root);
 status read_probes(struct reader *r, const struct yaml_node *root);
 status read_frame_regions(struct reader *r, const struct yaml_node *root);
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. root:
  * tree of the scene. Returns REFUSED, with a message, for keys that contradict each other. */
-status check_scene(struct reader *r, const struct yaml_node *root);
+status check_keys_of_scene(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Materials
  * must have been read before. root: tree of the scene, to see whether the key is given. */
@@ -98,23 +98,23 @@ status check_joined_bodies(struct reader *r, const struct yaml_node *root);
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
 /* Reports the largest spacing with which a material can have its strength [m] to a search for the spacing: reduces
- * *r->spacing_most to `most` if it is larger. Returns false, and does nothing, if r->spacing_most is NULL, that is, if
- * there is no such search. Only in the latter case is a strength refused because of the present spacing. */
-static inline bool note_largest_spacing(struct reader *r, real most)
+ * *r->spacing_most to `largest` if it is larger. Returns false, and does nothing, if r->spacing_most is NULL, that is,
+ * if there is no such search. Only in the latter case is a strength refused because of the present spacing. */
+static inline bool limit_spacing_if_searched(struct reader *r, real largest)
 {
-    if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, most);
+    if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest);
     return r->spacing_most != NULL;
 }
 
 /* Sets m->onset_stretch, the stretch at which bonds of material m begin to soften, from its tensile strength;
  * m->critical_stretch must be set. n: node of the material. Returns REFUSED if bonds cannot soften with the method or
  * model of the scene, or if they would break before the tensile strength is reached. */
-status read_softening(struct reader *r, const struct yaml_node *n, struct material *m);
+status read_softening_onset(struct reader *r, const struct yaml_node *n, struct material *m);
 
 /* Sets the strength surface of material m, if the scene gives strengths other than the tensile one, and
  * m->onset_stretch; m->critical_stretch must be set. n: node of the material. Returns REFUSED if the strengths
  * contradict each other, or if bonds would begin to soften before the stress reaches the surface in tension. */
-status read_surface(struct reader *r, const struct yaml_node *n, struct material *m);
+status read_strength_surface(struct reader *r, const struct yaml_node *n, struct material *m);
 
 /* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of material m. n: node of the strength, for
  * the message. */
@@ -122,15 +122,15 @@ status check_strength_size(struct reader *r, const struct yaml_node *n, const st
 
 /* Returns REFUSED if the material with the index k, read from node n, has another softening law than an earlier
  * material. All bonds of a scene must have one law, since bonds between two materials have one curve. */
-status check_one_softening(struct reader *r, const struct yaml_node *n, int k);
+status check_single_softening_law(struct reader *r, const struct yaml_node *n, int material_index);
 
 /* Returns REFUSED for friction where it is not supported: with the contact law between pairs of particles, or together
  * with planes of symmetry. root: tree of the scene. */
-status check_friction(struct reader *r, const struct yaml_node *root);
+status check_friction_is_supported(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the scene, for the
  * location in the message. */
-status check_absorbing(struct reader *r, const struct yaml_node *root);
+status check_absorbing_needs_dynamics(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED for loads that static solvers, or particles at randomly shifted positions, do not support. root: tree
  * of the scene. */
@@ -147,14 +147,14 @@ void resolve_particle_lists(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, for keys that static solvers do not support. Materials and probes must have been
  * read before. root: tree of the scene. */
-status check_solver(struct reader *r, const struct yaml_node *root);
+status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, for keys that the solver with load steps does not support. root: tree of the
  * scene. */
-status check_load_steps(struct reader *r, const struct yaml_node *root);
+status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if the scene is solved in load steps and has a material whose bonds soften. */
-bool steps_soften(const struct scene *s);
+bool scene_load_steps_soften_bonds(const struct scene *s);
 
 /* Returns REFUSED if the scene gives settings of load steps but has another solver, unless all of them have their
  * default values. root: tree of the scene. */

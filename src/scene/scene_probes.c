@@ -121,7 +121,7 @@ static status read_probe(struct reader *r, const struct yaml_node *n, struct pro
     p->inner = p->outer = p->core = p->experiment = NAN;
     snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);
     strcpy(p->name, probe_names[p->kind]);
-    TRY(read_group(r, map ? map : n, map, group, p));
+    TRY(read_keys_of_group(r, map ? map : n, map, group, p));
     if (p->kind == PROBE_LINE && memcmp(p->from, p->to, sizeof p->from) == 0)
         return fault(r, map, "has no length; from and to are its two ends");
     TRY(check_exact(r, n, map, p));

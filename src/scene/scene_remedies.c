@@ -38,7 +38,7 @@ static const char *const had[] = {"rigid bodies",     "a Poisson's ratio that bo
                                   "tensile_strength", "viscosity",
                                   "interfaces"};
 
-bool scene_material_gives(const struct yaml_node *root, const char *key)
+bool scene_any_material_gives_key(const struct yaml_node *root, const char *key)
 {
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
     bool has = one && yaml_node_find(one, key);
@@ -67,12 +67,12 @@ static unsigned scene_has(const struct reader *r)
     unsigned has = 0;
     if (has_rigid_bodies(root)) has |= HAS_RIGID;
     if (yaml_node_find(root, "interfaces")) has |= HAS_INTERFACES;
-    if (scene_material_gives(root, "yield_stress")) has |= HAS_YIELD;
-    if (scene_material_gives(root, "hardening") || scene_material_gives(root, "kinematic") ||
-        scene_material_gives(root, "johnson_cook"))
+    if (scene_any_material_gives_key(root, "yield_stress")) has |= HAS_YIELD;
+    if (scene_any_material_gives_key(root, "hardening") || scene_any_material_gives_key(root, "kinematic") ||
+        scene_any_material_gives_key(root, "johnson_cook"))
         has |= HAS_FLOW;
-    if (scene_material_gives(root, "tensile_strength")) has |= HAS_SOFTENING;
-    if (scene_material_gives(root, "viscosity")) has |= HAS_VISCOSITY;
+    if (scene_any_material_gives_key(root, "tensile_strength")) has |= HAS_SOFTENING;
+    if (scene_any_material_gives_key(root, "viscosity")) has |= HAS_VISCOSITY;
     for (int m = 0; m < s->materials && s->dim > 1; m++)
         if (s->material[m].young > 0 && fabs(s->material[m].poisson - bond_based_poisson_ratio(s->space)) > 1e-6)
             has |= HAS_RATIO;
@@ -147,7 +147,7 @@ static const char *names_of(struct reader *r, unsigned has)
 /* Returns the Poisson's ratio of bonds in the space of the scene, as text. */
 static const char *ratio_of_bonds(const struct scene *s) { return s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4"; }
 
-status refuse_poisson(struct reader *r, const struct yaml_node *n)
+status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *n)
 {
     const unsigned has = scene_has(r) | HAS_RATIO;
     const char *change = changes_that_allow(r, has), *bonds = ratio_of_bonds(r->scene);
@@ -160,7 +160,7 @@ status refuse_poisson(struct reader *r, const struct yaml_node *n)
                  node_text(r, n), bonds, space_names[r->scene->space], names_of(r, has & ~(unsigned)HAS_RATIO));
 }
 
-status refuse_state_yield(struct reader *r, const struct yaml_node *n)
+status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *n)
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);

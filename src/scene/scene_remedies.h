@@ -5,15 +5,15 @@
 #include "scene_internal.h"
 
 /* Returns true if at least one material of the scene has the key `key`. root: tree of the scene. */
-bool scene_material_gives(const struct yaml_node *root, const char *key);
+bool scene_any_material_gives_key(const struct yaml_node *root, const char *key);
 
 /* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by node n, and
  * how the scene can be changed to have it. The material must have been read before. */
-status refuse_poisson(struct reader *r, const struct yaml_node *n);
+status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *n);
 
 /* Returns REFUSED with the message that materials cannot yield with a state-based model, and how the scene can be
  * changed. n: node that makes the material yield. */
-status refuse_state_yield(struct reader *r, const struct yaml_node *n);
+status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *n);
 
 /* Returns REFUSED with the message that the plastic law at node n requires the method mpm, and how the scene can be
  * changed. */

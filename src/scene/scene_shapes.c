@@ -32,7 +32,7 @@ static status shape_path_add(struct reader *r, const struct yaml_node *n, struct
 {
     uint64_t contents = 0;
     GROW("shape files", f->path, f->files + 1);
-    TRY(read_path(r, n, "a file", &f->path[f->files], &contents));
+    TRY(read_input_file_path(r, n, "a file", &f->path[f->files], &contents));
     contents_add(f, contents);
     f->files++;
     return OK;
@@ -102,7 +102,7 @@ void shape_files_free(struct shape_file *first)
 static bool same_words(const struct shape_file *a, const struct shape_file *b)
 {
     bool same = a->kind == b->kind && a->dim == b->dim && a->files == b->files && a->contents == b->contents &&
-                bits_equal(a->scale, b->scale) && memcmp(a->size, b->size, sizeof a->size) == 0 &&
+                reals_are_bitwise_equal(a->scale, b->scale) && memcmp(a->size, b->size, sizeof a->size) == 0 &&
                 memcmp(a->from, b->from, sizeof a->from) == 0;
     for (int k = 0; k < a->files && same; k++) same = strcmp(a->path[k], b->path[k]) == 0;
     return same;
@@ -136,7 +136,7 @@ static status shape_take(struct reader *r, const struct yaml_node *n, struct sha
     real spacing = NAN;
     status s = f->kind == SHAPE_MESH ? read_spacing(r, n, &spacing) : OK;
     if (s == OK)
-        s = f->kind == SHAPE_IMAGE ? image_read(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
+        s = f->kind == SHAPE_IMAGE ? image_read_voxels(&f->voxels, f->files, f->path, f->dim, f->size, f->from)
                                    : geometry_read(&f->geometry, f->path[0], f->dim, f->scale, CURVE_FINE * spacing);
     if (s != OK) {
         shape_file_free(f);
@@ -210,7 +210,7 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     const struct yaml_node *file = yaml_node_find(n, "file");
     struct shape_words words = {.scale = NAN, .within = NAN};
     struct shape_file *f = NULL;
-    TRY(read_group(r, n, n, group, &words));
+    TRY(read_keys_of_group(r, n, n, group, &words));
     if (!file) return fault_missing_key(r, n, key_find(group, "file"));
     TRY(read_file_unit(r, n, true, &words.scale));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
@@ -227,11 +227,11 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     return read_mesh_set(r, n, &words, &f->geometry, s);
 }
 
-status read_stl(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_stl_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     return read_geometry(r, n, SHAPE_STL, s);
 }
-status read_mesh(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_mesh_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     return read_geometry(r, n, SHAPE_MESH, s);
 }
@@ -244,7 +244,7 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
 {
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");
     struct shape_words words = {.pixel = NAN, .slice = NAN};
-    TRY(read_group(r, n, n, "solid.image", &words));
+    TRY(read_keys_of_group(r, n, n, "solid.image", &words));
     if (!file) return fault_missing_key(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
@@ -277,7 +277,7 @@ static const struct voxel_part *grey_part_of(struct shape_file *f, const struct 
     return f->part[f->parts++] = part;
 }
 
-status read_image(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_image_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct yaml_node *values = yaml_node_find(n, "values"), *materials = yaml_node_find(n, "materials");
     struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};

@@ -13,7 +13,7 @@ struct softening_model scene_softening_model(const struct scene *s, const struct
     const bool rotates = s->model == MODEL_MOSPD;
     const real unit = material_uniaxial_tension_modulus(m, s->space);
     if (s->model == MODEL_BOND) return (struct softening_model){0, 0, false};
-    const struct state_modulus modulus = state_modulus_of_material(m, s->space, rotates);
+    const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, rotates);
     return (struct softening_model){modulus.A / unit, modulus.B / unit, rotates};
 }
 
@@ -23,26 +23,26 @@ struct softening_model scene_softening_model(const struct scene *s, const struct
 static void set_stretches(const struct scene *s, struct material *m)
 {
     const struct softening_model model = scene_softening_model(s, m);
-    m->onset_stretch = softening_model_onset(m, s->space, &model);
+    m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
     if (s->model == MODEL_BOND || isnan(m->energy_release_rate)) return;
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
-    const struct state_modulus modulus = state_modulus_of_material(m, s->space, model.rotates);
-    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, model.rotates);
+    const struct softening_curve curve = softening_curve_of_law(m->softening);
     family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     for (int k = 0; k < ITERATIONS && m->onset_stretch < m->critical_stretch; k++) {
-        const struct softening_range range = softening_range_of(&curve, m->onset_stretch, m->critical_stretch);
+        const struct softening_range range = softening_range_from_onset(&curve, m->onset_stretch, m->critical_stretch);
         const real work = family_softening_work_per_area(&f, &modulus, model.rotates, &curve, range);
         m->critical_stretch *= sqrt(m->energy_release_rate / work);
-        m->onset_stretch = softening_model_onset(m, s->space, &model);
+        m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
         if (fabs(work / m->energy_release_rate - 1) < 1e-7) break;
     }
 }
 
 real scene_softening_horizon(const struct scene *s, const struct material *m, real kappa)
 {
-    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct softening_curve curve = softening_curve_of_law(m->softening);
     const struct softening_model model = scene_softening_model(s, m);
-    const real phi = kappa > 1 ? softening_model_strength(&curve, s->space, kappa, &model).tension : 1;
+    const real phi = kappa > 1 ? softening_model_normalised_strengths(&curve, s->space, kappa, &model).tension : 1;
     const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
     return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
 }
@@ -54,7 +54,7 @@ static status check_reachable(struct reader *r, const struct yaml_node *n, const
     const struct scene *s = r->scene;
     const real most = scene_softening_horizon(s, m, 1);
     const bool spacing_counts = !isnan(m->energy_release_rate);
-    if (spacing_counts && note_largest_spacing(r, scene_softening_horizon(s, m, FREE_OF_TRAPPING) / s->horizon))
+    if (spacing_counts && limit_spacing_if_searched(r, scene_softening_horizon(s, m, FREE_OF_TRAPPING) / s->horizon))
         return OK;
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
@@ -104,20 +104,20 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     const struct scene *s = r->scene;
     const struct yaml_node *rate = yaml_node_find(n, "rate"), *table = rate ? yaml_node_find(rate, "table") : NULL;
     if (!rate) return OK;
-    TRY(read_group(r, rate, rate, "material.rate", m));
+    TRY(read_keys_of_group(r, rate, rate, "material.rate", m));
     if (!table) return fault_missing_key(r, rate, key_find("material.rate", "table"));
     if (s->solver != SOLVER_EXPLICIT)
         return fault(r, rate,
                      "load steps have no strain rate; tensile_strength alone, or solver: explicit, is expected");
-    if (material_has_surface(m))
+    if (material_has_strength_surface(m))
         return fault(r, rate, "a strength surface does not depend on the rate; one of both is expected");
     TRY(read_rate_table(r, table, &m->rate));
     const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
     TRY(check_strength_size(r, table, m, strongest));
     const struct softening_model model = scene_softening_model(s, m);
-    const real least = strength_rate_compute_onsets(m, s->space, &model);
+    const real least = strength_rate_compute_onset_factors(m, s->space, &model);
     const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
-    if (least >= RATE_LEAST_RATIO || note_largest_spacing(r, most / s->horizon)) return OK;
+    if (least >= RATE_LEAST_RATIO || limit_spacing_if_searched(r, most / s->horizon)) return OK;
     return fault(r, table,
                  "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
                  "last rate; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
@@ -147,7 +147,7 @@ static bool steps_can_soften(const struct scene *s, const struct yaml_node *n)
            !yaml_node_find(n, "hydrostatic_strength") && !yaml_node_find(n, "biaxial_strength");
 }
 
-status read_softening(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_softening_onset(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *strength = yaml_node_find(n, "tensile_strength"), *law = yaml_node_find(n, "softening"),
@@ -175,16 +175,17 @@ status read_softening(struct reader *r, const struct yaml_node *n, struct materi
                      "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
     TRY(check_strength_size(r, strength, m, m->tensile_strength));
     set_stretches(s, m);
-    TRY(read_surface(r, n, m));
-    if (!material_has_surface(m)) TRY(check_reachable(r, strength, m));
+    TRY(read_strength_surface(r, n, m));
+    if (!material_has_strength_surface(m)) TRY(check_reachable(r, strength, m));
     return read_rate(r, n, m);
 }
 
-status check_one_softening(struct reader *r, const struct yaml_node *n, int k)
+status check_single_softening_law(struct reader *r, const struct yaml_node *n, int material_index)
 {
     const struct material *m = r->scene->material;
-    for (int j = 0; j < k; j++)
-        if (material_softens(&m[j]) && material_softens(&m[k]) && m[j].softening != m[k].softening)
+    for (int j = 0; j < material_index; j++)
+        if (material_has_softening_bonds(&m[j]) && material_has_softening_bonds(&m[material_index]) &&
+            m[j].softening != m[material_index].softening)
             return fault(r, n, "softens by another law than material %s; one law for all is expected", m[j].name);
     return OK;
 }

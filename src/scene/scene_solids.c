@@ -76,7 +76,7 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     int at = 0;
     corner.range.given = false;
     s->polygon = NEW("solids.polygon", 1, struct polygon);
-    TRY(read_group(r, n, n, "solid.polygon", s->polygon));
+    TRY(read_keys_of_group(r, n, n, "solid.polygon", s->polygon));
     if (!list) return fault_missing_key(r, n, k);
     TRY(expect_list(r, k, list));
     s->polygon->n = list->n;
@@ -109,7 +109,7 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
 static status read_extrusion(struct reader *r, const struct yaml_node *n, struct solid *s)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape");
-    TRY(read_group(r, n, n, "solid.extrude", s));
+    TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
     if (!shape) return fault_missing_key(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
     r->dim = 2;
@@ -133,12 +133,12 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
                                                    : "ball, cylinder, tube, cone, extrude or box");
     if (r->bounded && !r->cutting && (s->kind == SOLID_ALL || s->kind == SOLID_HALF_SPACE))
         return fault(r, n, "a body cannot be infinite; box, ball and cylinder are finite");
-    if (s->kind == SOLID_VOXELS) return read_image(r, n, s);
-    if (s->kind == SOLID_HULL) return (strcmp(word->name, "stl") == 0 ? read_stl : read_mesh)(r, n, s);
+    if (s->kind == SOLID_VOXELS) return read_image_solid(r, n, s);
+    if (s->kind == SOLID_HULL) return (strcmp(word->name, "stl") == 0 ? read_stl_solid : read_mesh_solid)(r, n, s);
     if (s->kind == SOLID_POLYGON) return read_corners(r, n, s);
     if (s->kind == SOLID_EXTRUSION) return read_extrusion(r, n, s);
     if (s->kind != SOLID_ALL) {
-        TRY(read_group(r, n, n, group, s));
+        TRY(read_keys_of_group(r, n, n, group, s));
         return check_solid(r, n, s);
     }
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
@@ -206,7 +206,7 @@ static status read_names(struct reader *r, const struct yaml_node *map, struct n
         for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
-        TRY(read_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
+        TRY(read_value_of_key(r, &(struct key){.type = KEY_NAME, .place = 1}, &name, named[*count].name));
         TRY(read_called(r, &name, &named[(*count)++].region));
     }
     return OK;
@@ -412,7 +412,7 @@ static status read_crack(struct reader *r, const struct yaml_node *n, struct cra
 {
     TRY(read_crack_place(r, n, c));
     const struct yaml_node *width = yaml_node_find(n, "width");
-    return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
+    return width ? read_value_of_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
 /* Appends the slits (inner free surfaces) of all meshes in a shape to the cracks of the scene s, once for each copy

@@ -50,10 +50,10 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-bool steps_soften(const struct scene *s)
+bool scene_load_steps_soften_bonds(const struct scene *s)
 {
     bool softens = false;
-    for (int m = 0; m < s->materials; m++) softens |= material_softens(&s->material[m]);
+    for (int m = 0; m < s->materials; m++) softens |= material_has_softening_bonds(&s->material[m]);
     return softens && scene_has_load_steps(s);
 }
 
@@ -62,7 +62,7 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
-    if (!steps_soften(s)) return OK;
+    if (!scene_load_steps_soften_bonds(s)) return OK;
     if (s->method != METHOD_PD) return fault(r, solver, "bonds soften in load steps of method: pd, which is expected");
     if (s->rigids > 0)
         return fault(r, solver,
@@ -72,7 +72,7 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
                      "bonds that soften choose their path; control: energy or load, then: equilibrium, and path: bonds "
                      "or auto are expected");
     for (int m = 0; m < s->materials; m++)
-        if (isfinite(s->material[m].critical_stretch) && !material_softens(&s->material[m]))
+        if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
             return fault(r, solver,
                          "material %s breaks without softening, which load steps do not mix; a tensile_strength of all "
                          "materials that break, or of none, is expected",
@@ -100,7 +100,7 @@ static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
         "rigid body with a velocity, is expected");
 }
 
-status check_load_steps(struct reader *r, const struct yaml_node *root)
+status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *steps = yaml_node_find(root, "steps");

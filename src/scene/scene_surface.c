@@ -44,14 +44,14 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
         TRY(check_strength_size(r, n, m, m->compressive_strength));
         if (m->compressive_strength < tension)
             return fault(r, n, "is below tensile_strength; at least %.4g Pa is expected", tension);
-        material_set_surface(m, space, surface_of_compression(tension, m->compressive_strength));
+        material_set_strength_surface(m, space, strength_surface_from_compression(tension, m->compressive_strength));
     } else if (key[0] == 'h') {
         TRY(check_strength_size(r, n, m, m->hydrostatic_strength));
         TRY(check_fraction(r, n, m, m->hydrostatic_strength, 1.0 / 3, INFINITY));
-        material_set_surface(m, space, surface_of_hydrostatic(tension, m->hydrostatic_strength));
+        material_set_strength_surface(m, space, strength_surface_from_hydrostatic(tension, m->hydrostatic_strength));
     } else {
         TRY(check_fraction(r, n, m, m->biaxial_strength, 0.5, 1));
-        material_set_surface(m, space, surface_of_biaxial(tension, m->biaxial_strength));
+        material_set_strength_surface(m, space, strength_surface_from_biaxial(tension, m->biaxial_strength));
     }
     return OK;
 }
@@ -69,7 +69,7 @@ static real characteristic_length(const struct scene *s, const struct material *
     return m->young * release_rate / square(m->tensile_strength);
 }
 
-real scene_surface_horizon(const struct scene *s, const struct material *m)
+real scene_strength_surface_horizon(const struct scene *s, const struct material *m)
 {
     const struct surface_strengths surface = material_surface_strengths(m, s->space);
     const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
@@ -82,12 +82,12 @@ real scene_surface_horizon(const struct scene *s, const struct material *m)
 static status check_first(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    const struct softening_curve curve = softening_curve_of(m->softening);
+    const struct softening_curve curve = softening_curve_of_law(m->softening);
     const real own = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch *
-                     softening_curve_strength(&curve, s->space, OWN_RATIO).tension;
+                     softening_curve_normalised_strengths(&curve, s->space, OWN_RATIO).tension;
     const real most = s->horizon * s->spacing * square(own / material_surface_strengths(m, s->space).tension);
     const bool spacing_counts = !isnan(m->energy_release_rate);
-    if (spacing_counts && note_largest_spacing(r, scene_surface_horizon(s, m) / s->horizon)) return OK;
+    if (spacing_counts && limit_spacing_if_searched(r, scene_strength_surface_horizon(s, m) / s->horizon)) return OK;
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
                  "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "
@@ -95,7 +95,7 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
                  s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
 }
 
-status read_surface(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_strength_surface(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength"};
     const struct scene *s = r->scene;

@@ -182,7 +182,7 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
         return fault(r, column, "%s is no name of a column", node_text(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
-    TRY(read_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
+    TRY(read_input_file_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
     if (!r->files) return OK;
     TRY(csv_open(&c.in, b->time_file, "a function of time has a time and its value a line"));
     status s = time_entries(&c, &b->time, b->time_column);
@@ -214,6 +214,6 @@ status read_time_function(struct reader *r, const struct yaml_node *n, struct bo
     int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;
-    TRY(read_group(r, form, form, groups[kind], f));
+    TRY(read_keys_of_group(r, form, form, groups[kind], f));
     return f->from < f->until ? OK : fault(r, form, "from is not before until; it begins at from and ends at until");
 }

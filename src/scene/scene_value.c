@@ -23,7 +23,7 @@ const char *text_for_message(struct reader *r, const char *text)
         cut--; /* keep whole UTF-8 characters */
     char *copy = arena_new(r, cut + 4);
     memcpy(copy, text, cut);
-    text_replace_controls(copy);
+    text_replace_control_characters(copy);
     if (cut < length) memcpy(copy + cut, "...", 3);
     return copy;
 }
@@ -90,10 +90,11 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
     return status_set(REFUSED, "%s%s", place, what);
 }
 
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *a, const struct yaml_node *b)
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *first_key,
+                            const struct yaml_node *second_key)
 {
-    const struct yaml_node *late = a->origin > b->origin ? a : b;
-    return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
+    const struct yaml_node *late = first_key->origin > second_key->origin ? first_key : second_key;
+    return fault(r, late, "given beside %s; keep one of the two", late == first_key ? second_key->key : first_key->key);
 }
 
 /* Returns, for a message, what values key k expects. The text is static or in the reader's arena. */
@@ -148,7 +149,7 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
 {
     char instead[400];
     if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
-    const struct key *nearest = key_nearest(group, n->key);
+    const struct key *nearest = key_find_most_similar(group, n->key);
     const char *leaf = nearest ? key_leaf(nearest) : "";
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
     if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
@@ -175,12 +176,12 @@ status check_keys_known(struct reader *r, const struct yaml_node *map, const cha
     return OK;
 }
 
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *what)
+status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected)
 {
     const bool top = n->key && n->parent && !n->parent->key;
     const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
     if (n->kind == kind) return OK;
-    return fault(r, n, "%s is not %s%s%s", node_text(r, n), what, advice ? "; " : "", advice ? advice : "");
+    return fault(r, n, "%s is not %s%s%s", node_text(r, n), expected, advice ? "; " : "", advice ? advice : "");
 }
 
 status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n)
@@ -457,7 +458,7 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-status read_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base)
+status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base)
 {
     char none[16];
     void *place = k->place ? (char *)base + (k->place - 1) : (void *)none;
@@ -501,11 +502,11 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
     if (strcmp(k->fallback, "required") == 0) return fault_missing_key(r, where, k);
     n.key = (char *)key_leaf(k);
     n.text = (char *)k->fallback;
-    return read_key(r, k, &n, base);
+    return read_value_of_key(r, k, &n, base);
 }
 
-status read_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map, const char *group,
-                  void *base)
+status read_keys_of_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map,
+                          const char *group, void *base)
 {
     if (map) TRY(expect_node_kind(r, map, NODE_MAP, "a mapping of keys to values"));
     if (map) TRY(check_keys_known(r, map, group));
@@ -514,9 +515,9 @@ status read_group(struct reader *r, const struct yaml_node *where, const struct 
         if (!key_is_directly_below(k, group)) continue;
         const struct yaml_node *n = yaml_node_find(map, key_leaf(k));
         if (k->type == KEY_MAP)
-            TRY(read_group(r, n ? n : where, n, k->path, base));
+            TRY(read_keys_of_group(r, n ? n : where, n, k->path, base));
         else if (n)
-            TRY(read_key(r, k, n, base));
+            TRY(read_value_of_key(r, k, n, base));
         else
             TRY(read_fallback(r, where, k, base));
         if (n && k->has) *((char *)base + (k->has - 1)) = true;

@@ -66,9 +66,10 @@ static status provisional_read(struct reader *r, const char *text, size_t length
         if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
     const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
-               soft = read == OK && scene_material_gives(root, "tensile_strength"),
-               bonds = read == OK && ((soft && !with->soft_states) || scene_material_gives(root, "yield_stress") ||
-                                      scene_material_gives(root, "viscosity"));
+               soft = read == OK && scene_any_material_gives_key(root, "tensile_strength"),
+               bonds =
+                   read == OK && ((soft && !with->soft_states) || scene_any_material_gives_key(root, "yield_stress") ||
+                                  scene_any_material_gives_key(root, "viscosity"));
     if (read == OK && !tree_find(root, "particles.spacing"))
         read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
     if (read == OK) read = tree_apply_override(&own, root, "method", with->method);
@@ -104,7 +105,7 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
     const status first = provisional_read_any(r, text, length, s, 1);
     r->spacing_most = NULL;
     TRY(first);
-    real spacing = given ? 0 : spacing_that_resolves(s);
+    real spacing = given ? 0 : spacing_that_resolves_all_lengths(s);
     if (spacing > *most) spacing = spacing_that_fits_lattice(s, *most, true);
     if (spacing > 0) {
         scene_free(s);

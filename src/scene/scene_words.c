@@ -24,7 +24,7 @@ bool value_read_in_unit(real *value, const char *text, const char *symbol, char 
     return number_read(value, text, unit, false, message, capacity);
 }
 
-const char *word_nearest(const char *word, const char *const *name, int n)
+const char *word_find_most_similar(const char *word, const char *const *name, int n)
 {
     int nearest = 0;
     for (int k = 1; k < n; k++)

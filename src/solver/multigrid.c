@@ -128,7 +128,7 @@ static bool coarsen(struct multigrid *m)
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
     *next = (struct multigrid_level){0};
     multigrid_make_coarse_modes(l, next);
-    multigrid_make_transfer(l);
+    multigrid_make_prolongation(l);
     multigrid_make_coarse_matrix(l, next);
     multigrid_find_unconstrained(l, next);
     coarse_diagonal(next);
@@ -138,11 +138,12 @@ static bool coarsen(struct multigrid *m)
     return true;
 }
 
-status multigrid_make(struct multigrid **out, const struct block_matrix *a, real *const *position, const uint8_t *held)
+status multigrid_make(struct multigrid **out, const struct block_matrix *matrix, real *const *position,
+                      const uint8_t *held)
 {
     struct multigrid *m = *out = NEW("multigrid", 1, struct multigrid);
     m->levels = 1;
-    const status made = finest_make(&m->level[0], a, held);
+    const status made = finest_make(&m->level[0], matrix, held);
     if (made != OK) {
         multigrid_free(m);
         *out = NULL;
@@ -220,15 +221,15 @@ static void cycle(struct multigrid *m, int k)
     level_smooth(l, degree, false);
 }
 
-void multigrid_apply(struct multigrid *m, real *const *r, real *const *z)
+void multigrid_apply(struct multigrid *m, real *const *residual, real *const *result)
 {
     struct multigrid_level *l = &m->level[0];
     const int w = l->width;
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)
-        for (int d = 0; d < w; d++) l->b[i * w + d] = r[d][i];
+        for (int d = 0; d < w; d++) l->b[i * w + d] = residual[d][i];
     cycle(m, 0);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < l->n; i++)
-        for (int d = 0; d < w; d++) z[d][i] = l->x[i * w + d];
+        for (int d = 0; d < w; d++) result[d][i] = l->x[i * w + d];
 }

@@ -169,9 +169,9 @@ static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct mu
 
 void multigrid_compute_residual(struct multigrid_level *l) { BY_WIDTH(l->n, row_residual, l, i); }
 
-void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool start_from_zero)
+void multigrid_smooth(struct multigrid_level *l, real old_factor, real residual_factor, bool start_from_zero)
 {
-    BY_WIDTH(l->n, row_relax, l, i, keep, step, start_from_zero);
+    BY_WIDTH(l->n, row_relax, l, i, old_factor, residual_factor, start_from_zero);
     real *x = l->x;
     l->x = l->y, l->y = x;
 }

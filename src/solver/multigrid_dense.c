@@ -34,10 +34,10 @@ void dense_factorise(struct dense *d, const struct multigrid_level *l)
         for (int64_t k = j + 1; k < n; k++) d->upper[j * n + k] *= d->inverse[j];
 }
 
-void dense_solve(const struct dense *d, const real *b, real *x)
+void dense_solve(const struct dense *d, const real *load, real *x)
 {
     const int64_t n = d->n;
-    array_copy(x, b, n, sizeof *x);
+    array_copy(x, load, n, sizeof *x);
     for (int64_t j = 0; j < n; j++) {
         const real *restrict row = d->upper + j * n;
         const real y = x[j];

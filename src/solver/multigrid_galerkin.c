@@ -122,7 +122,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
         const int64_t j = l->column[q];
         real a[WIDTH_MOST * WIDTH_MOST];
-        multigrid_matrix_entry(l, i, q, w, a);
+        multigrid_copy_matrix_block(l, i, q, w, a);
         for (int64_t s = down->first[j]; s < down->first[j + 1]; s++) {
             real motion[WIDTH_MOST * WIDTH_MOST];
             for (int k = 0; k < w * m; k++) motion[k] = down->block[s * w * m + k];

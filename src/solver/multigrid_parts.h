@@ -60,16 +60,16 @@ static ALWAYS_INLINE pair lane_pair_load(const real *from)
     return a;
 }
 
-/* Copies the matrix block in row i, at entry q of l->column, to `entry`: w x w values row by row [N/m]. w: components
- * of a node of level l. The diagonal block is read from l->diagonal, others from l->single or l->block. */
-static ALWAYS_INLINE void multigrid_matrix_entry(const struct multigrid_level *l, int64_t i, int64_t q, const int w,
-                                                 real *entry)
+/* Copies the matrix block in row i, at entry q of l->column, to `entry`: w x w values row by row [N/m]. width:
+ * components of a node of level l. The diagonal block is read from l->diagonal, others from l->single or l->block. */
+static ALWAYS_INLINE void multigrid_copy_matrix_block(const struct multigrid_level *l, int64_t i, int64_t column_entry,
+                                                      const int width, real *entry)
 {
-    const bool own = l->column[q] == i;
-    for (int k = 0; k < w * w; k++)
-        entry[k] = own         ? l->diagonal[i * w * w + k]
-                   : l->single ? (real)l->single[q * w * w + k]
-                               : l->block[q * w * w + k];
+    const bool own = l->column[column_entry] == i;
+    for (int k = 0; k < width * width; k++)
+        entry[k] = own         ? l->diagonal[i * width * width + k]
+                   : l->single ? (real)l->single[column_entry * width * width + k]
+                               : l->block[column_entry * width * width + k];
 }
 
 /* Number of rows above which a loop on all threads is faster than one in a single thread. */
@@ -131,7 +131,7 @@ void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_lev
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
  * The prolongation is P - step D^-1 K P: the orthonormal rigid motions P of the aggregates of nodes, smoothed by one
  * step with the matrix K of the level and its diagonal blocks D. */
-void multigrid_make_transfer(struct multigrid_level *l);
+void multigrid_make_prolongation(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
  * l->down. */
@@ -141,8 +141,8 @@ void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multig
  * *d. Pivots without stiffness are replaced by the mean stiffness l->scale. Release with dense_free. */
 void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
-/* Solves K x = b with the factorisation d of dense_factorise. b: d->n loads; x: receives d->n values. */
-void dense_solve(const struct dense *d, const real *b, real *x);
+/* Solves K x = b with the factorisation d of dense_factorise. load: d->n loads; x: receives d->n values. */
+void dense_solve(const struct dense *d, const real *load, real *x);
 
 /* Frees the arrays of a factorisation. */
 void dense_free(struct dense *d);
@@ -151,9 +151,9 @@ void dense_free(struct dense *d);
 void multigrid_compute_residual(struct multigrid_level *l);
 
 /* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
- * of the level and its diagonal blocks D. keep, step: coefficients of the step [1]; start_from_zero: true if x and d
- * are 0 on entry, which saves the product. */
-void multigrid_smooth(struct multigrid_level *l, real keep, real step, bool start_from_zero);
+ * of the level and its diagonal blocks D. keep, residual_factor: coefficients of the step [1]; start_from_zero: true if
+ * x and d are 0 on entry, which saves the product. */
+void multigrid_smooth(struct multigrid_level *l, real old_factor, real residual_factor, bool start_from_zero);
 
 /* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
 void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next);

@@ -61,7 +61,7 @@ static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i
         while (k < n && name[k] != l->aggregate[j]) k++;
         if (k == n) continue;
         real entry[BLOCK_MOST];
-        multigrid_matrix_entry(l, i, q, w, entry);
+        multigrid_copy_matrix_block(l, i, q, w, entry);
         const real *motion = l->tentative + j * w * m;
         for (int a = 0; a < w; a++)
             for (int c = 0; c < w; c++)
@@ -115,7 +115,7 @@ static void transfer_transpose(const struct multigrid_level *l, const struct tra
     memory_free(from);
 }
 
-void multigrid_make_transfer(struct multigrid_level *l)
+void multigrid_make_prolongation(struct multigrid_level *l)
 {
     const real step = 4 / (3 * l->largest);
     down_pattern(l);

@@ -26,21 +26,21 @@ real field_largest_component(const struct field *v, int dim, int64_t n)
  * differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
-void static_body_tangent_product(const struct static_body *body, const struct field *in, struct field *out,
+void static_body_tangent_product(const struct static_body *body, const struct field *displacement, struct field *force,
                                  real strain_ratio)
 {
     struct particles *p = body->part;
-    const real most = field_largest_component(in, p->dim, p->n);
+    const real most = field_largest_component(displacement, p->dim, p->n);
     const real s = most > 0 ? TANGENT_STRAIN / (strain_ratio * most) : 0;
     for (int sign = 1; sign >= -1; sign -= 2) {
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
-            for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] + sign * s * in->of[d][i];
+            for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] + sign * s * displacement->of[d][i];
         static_body_compute_bond_forces(body);
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++)
-                out->of[d][i] = s == 0 ? 0 : sign > 0 ? p->f[d][i] : (p->f[d][i] - out->of[d][i]) / (2 * s);
+                force->of[d][i] = s == 0 ? 0 : sign > 0 ? p->f[d][i] : (p->f[d][i] - force->of[d][i]) / (2 * s);
     }
 }
 

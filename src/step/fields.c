@@ -76,7 +76,7 @@ static void gradient_of_points(const struct particles *p, const struct bond_sour
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
-        if (p->body[j] != p->body[i] || torn || cracks_separate_particles(source->crack, source->cracks, p, i, j) ||
+        if (p->body[j] != p->body[i] || torn || precracks_cut_bond_between(source->crack, source->cracks, p, i, j) ||
             void_separates_particles(source->voids, p, i, j))
             continue;
         gradient_add(&sum, p, i, j);
@@ -167,7 +167,7 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
 {
     if (!b->soft.near) return NULL;
     real *share = NEW("report.share", p->n, real);
-    bonds_surface_shares(b, p, source, share);
+    bonds_compute_stress_to_strength_ratios(b, p, source, share);
     return share;
 }
 
@@ -176,7 +176,8 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);
-    for (int64_t i = 0; i < shown->n; i++) share[i] = particle_stress_share(shown, s->material, s->space, i);
+    for (int64_t i = 0; i < shown->n; i++)
+        share[i] = particle_stress_to_strength_ratio(shown, s->material, s->space, i);
     return share;
 }
 

@@ -174,7 +174,7 @@ static status write_frames(struct run *e, unsigned due)
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
-    frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_points(e->frame, &e->part, &e->loads);
     r->last_checkpoint = wall_clock();
     TRY(output_wait_for_frame(r->out));
     const double begun = wall_clock();
@@ -212,7 +212,7 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
     int lost;
     TRY(output_index_drop_lost_frames(out, &lost, text, sizeof text));
     if (lost > 0) warnings_add_and_print(to, text);
-    profiles_check(probes, out, to);
+    profiles_warn_of_missing_files(probes, out, to);
     return OK;
 }
 
@@ -224,7 +224,7 @@ status report_start(struct run *e)
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
     status s = sample_open_history(e, resumed);
-    if (s == OK && r->out) contact_allocate_forces(e->contact, &e->part);
+    if (s == OK && r->out) contact_allocate_force_record(e->contact, &e->part);
     r->setup_seconds += wall_clock() - r->started;
     if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
     if (s == OK && r->out && !resumed) {
@@ -301,7 +301,7 @@ status report_step(struct run *e)
     if (last && !in_steps) sample_take_final(e);
     TRY(r->history_status);
     TRY(energy_check(e));
-    if (last) warn_of_imbalance(e);
+    if (last) warn_of_unconserved_quantities(e);
     if (last) warn_of_fast_tips(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
     if (r->out) {

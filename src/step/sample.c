@@ -158,7 +158,7 @@ static bool wants_stress(const struct scene *s)
 
 void run_update_particles(struct run *e)
 {
-    frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_points(e->frame, &e->part, &e->loads);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
@@ -177,7 +177,7 @@ static bool wants_motion(const struct scene *s)
 /* Returns the present kinetic energy of particles and of nodes of meshes [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
-    return particles_kinetic_energy(p) + frame_kinetic_energy(reference);
+    return particles_kinetic_energy(p) + reference_frame_kinetic_energy(reference);
 }
 
 /* Stores the grids of the reference frame and of its coarse cells, whose nodes carry momentum, in nodes[]; returns
@@ -228,7 +228,7 @@ real sample_strain_energy(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
-           frame_strain_energy(e->frame, &e->part);
+           reference_frame_strain_energy(e->frame, &e->part);
 }
 
 /* Computes the energies of a sample at the present positions, except the kinetic energy, in e->report->sampling.energy
@@ -253,7 +253,7 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) frame_update_points(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) reference_frame_update_points(e->frame, &e->part, &e->loads);
     struct observed_run o = observed_run_of(e);
     probes_sample_end(&e->probing->probes, &o, now);
     if (scene_is_dynamic(e->scene)) {
@@ -298,7 +298,7 @@ void sample_begin(struct run *e)
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) frame_update_points(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) reference_frame_update_points(e->frame, &e->part, &e->loads);
     if (sampling->due)
         sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
@@ -436,8 +436,8 @@ static real power_last(struct run *e, real *held)
     loads_clear_forces(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
-    loads_complete_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
-    if (e->frame->mesh.points > 0) frame_compute_forces(e->frame, &e->part, e->clock.step);
+    loads_apply_to_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
+    if (e->frame->mesh.points > 0) reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
     const real power = power_now(&e->part, e->frame) + grid_power_of_forces(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
@@ -458,7 +458,8 @@ void sample_take_final(struct run *e)
 {
     real held = 0;
     family_states_precompute(&e->bonds, &e->part, &e->source);
-    frame_update_points(e->frame, &e->part, &e->loads); /* positions, velocities and stresses of points of the mesh */
+    reference_frame_update_points(e->frame, &e->part,
+                                  &e->loads); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);

@@ -75,7 +75,7 @@ static void say_damped(real share, struct warnings *to)
  * oscillate. Returns false, without text, if no such collision was expected, no bond broke, or the scene accepts it. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t capacity)
 {
-    const struct shock shock = scene_fastest_collision(s);
+    const struct shock shock = scene_most_severe_collision(s);
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM ||
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
@@ -133,7 +133,7 @@ static void say_flow_error(const struct particles *p, const struct scene *s, rea
     warnings_add_and_print(to, text);
 }
 
-void warn_of_imbalance(struct run *e)
+void warn_of_unconserved_quantities(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;

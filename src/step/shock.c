@@ -94,7 +94,7 @@ static const char *remedy_of(const struct scene *s)
     return "material.viscosity: {} spreads the front so that it does not oscillate";
 }
 
-struct shock scene_fastest_collision(const struct scene *s)
+struct shock scene_most_severe_collision(const struct scene *s)
 {
     struct shock shock = {0};
     bool viscous = true;

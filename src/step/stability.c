@@ -36,8 +36,8 @@ enum { MOMENTS = 256 };        /* samples of a function of time */
  * by component) at present [m/s]. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
-    const real moving = real_max(particles_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                                 particles_largest_speed(p, p->list_free, p->n_free));
+    const real moving = real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                                 particles_largest_speed_of_list(p, p->list_free, p->n_free));
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
@@ -86,7 +86,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
  * [J]. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
-    const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
+    const real kinetic = particles_kinetic_energy(p) + reference_frame_kinetic_energy(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
@@ -320,7 +320,7 @@ status stability_check(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(&e->loads, &e->part, &e->clock));
-    if (diverged) frame_update_point_motion(e->frame, &e->part, &e->loads);
+    if (diverged) reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_check_largest_overlap(e));
@@ -491,7 +491,7 @@ status energy_check(struct run *e)
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
         e->stability->parted =
-            parted_points_say(&e->stability->pairs, &e->part, &e->cells, e->scene, e->clock.t, &e->warnings);
+            parted_points_warn(&e->stability->pairs, &e->part, &e->cells, e->scene, e->clock.t, &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

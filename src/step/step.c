@@ -42,7 +42,7 @@ static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_flag_points(e);
     sample_record_breaks(e, now->broken);
-    now->converted = conversion_apply(e, now->broken, marked, cracks_have_fading_bonds(e->fracture));
+    now->converted = conversion_convert_and_update_run(e, now->broken, marked, cracks_have_fading_bonds(e->fracture));
     timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
@@ -113,7 +113,7 @@ static void push_bonds(struct run *e, struct step *now)
 {
     loads_clear_forces(&e->loads, &e->part);
     if (e->clock.step % surface_interval(e->source.family.horizon, e->tables.wave_speed, e->clock.dt) == 0)
-        bonds_start_by_surface(&e->bonds, &e->part, &e->source);
+        bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
     e->source.limit.retries = e->clock.step % SOFTENING_RETRY_STEPS == 0;
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
@@ -152,7 +152,7 @@ static void move_grid(struct run *e, const struct step *now)
     if (e->clock.step == 0) patch_residual_store(e->probing, e->scene, &e->part, e->grid);
     grid_advance_points(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain)
-        bonded_points_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
+        bonded_points_compute_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
     if (any) timer_add_elapsed(&e->timers, TIMER_GATHER);
     if (now->damps) e->damped += interface_zone_damped_energy_second_half(&e->coupling->zone, &e->part);
 }
@@ -162,10 +162,10 @@ static void move_grid(struct run *e, const struct step *now)
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
-    frame_compute_forces(e->frame, &e->part, e->clock.step);
+    reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
     viscosity_add_nodal_forces(e);
     if (e->clock.step == 0) patch_residual_store_mesh(e->probing, e->scene, &e->frame->mesh);
-    frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
+    reference_frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
 /* Adds the reactions of prescribed nodal velocities to their supports. Then sets velocities and positions of particles
@@ -195,7 +195,7 @@ static void finish(struct run *e, const struct step *now)
     timer_add_elapsed(&e->timers, TIMER_SAMPLE);
 }
 
-bool step_convert(struct run *e, int64_t broken_bonds)
+bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bonds)
 {
     struct step now = {.broken = broken_bonds};
     if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
@@ -221,7 +221,7 @@ status step(struct run *e)
 {
     struct step now = step_begin(&e->clock, e->scene->damping, &e->grid->transfer);
     if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
-    reversion_apply_due(e);
+    reversion_revert_relaxed_particles(e);
     motion_begin(e, &now);
     sample_begin(e);
     TRY(sort(e));
@@ -232,7 +232,7 @@ status step(struct run *e)
     viscosity_add_forces(e);
     push_contact(e->contact, &e->part, e->report, e->scene, &e->clock);
     rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_complete_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
+    loads_apply_to_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
     timer_add_elapsed(&e->timers, TIMER_BONDS);
     sample_compute_energies(e);
     now.broken += cracks_grow_one_step(e);

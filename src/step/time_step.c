@@ -142,7 +142,7 @@ static real critical_of_bonds(struct run *e)
         return isfinite(step) ? step : s->spacing / e->tables.wave_speed;
     }
     const real step = critical_of_lattices(&e->source, &e->part, force, &bound);
-    const real share = real_min(1, bonds_critical_time_step(&e->part, &e->source) / bound);
+    const real share = real_min(1, bonds_critical_time_step_if_all_peridynamic(&e->part, &e->source) / bound);
     return share * step * share_of_coupling(e->scene, e->coupling_kind);
 }
 
@@ -217,7 +217,7 @@ status time_step_choose(struct run *e)
                            sqrt(lightest_share(s, &e->part)) *
                            viscosity_time_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_time_step(e->contact, &e->part, s->material, e->clock.dt_critical);
-    const int levels = frame_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
+    const int levels = mesh_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
         real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));

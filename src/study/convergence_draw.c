@@ -27,7 +27,7 @@ status scalar_results_check_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
     if (study_folder_check(folder) != OK) return OK; /* study_lock_folder reports the fault */
-    TRY(file_check_beginning(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
+    TRY(file_check_is_from_cleave(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_check_replaceable(convergence_picture(folder, "convergence.png").text));
     return picture_check_replaceable(convergence_picture(folder, "path.png").text);
 }
@@ -106,7 +106,7 @@ enum { KEY_WIDE = 250, KEY_HIGH = 52, CELL_WIDE = 420, CELL_HIGH = 360 };
  * as many columns as make them largest. */
 static struct figures_layout figures_layout_make(int shown, const struct gnuplot *g)
 {
-    const bool narrow = gnuplot_is_narrow();
+    const bool narrow = picture_is_too_narrow_for_key();
     const int wide = shown < SHOWN_WIDE ? shown : SHOWN_WIDE, rows = (shown + SHOWN_WIDE - 1) / SHOWN_WIDE;
     struct figures_layout best = {.width = g ? g->width : KEY_WIDE + CELL_WIDE * wide, .columns = wide};
     double largest = 0;
@@ -138,7 +138,7 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
             (y - l->cell_high + l->below) / l->height);
     if (k > 0)
         fputs("unset key\n", to);
-    else if (gnuplot_is_narrow())
+    else if (picture_is_too_narrow_for_key())
         fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2 width -3\n", 8.0 / l->width,
                 (KEY_HIGH - 4.0) / l->height);
     else
@@ -337,7 +337,7 @@ static status draw_paths(const struct convergence_study *s)
     const int height = paths_height(&e);
     status done = gnuplot_open(&g, picture.text, PICTURE_PNG, PATHS_WIDE, height);
     if (done == OK) {
-        const bool narrow = gnuplot_is_narrow();
+        const bool narrow = picture_is_too_narrow_for_key();
         const double left = narrow ? PATHS_LEFT_NARROW : PATHS_LEFT, above = narrow ? PATHS_ABOVE_NARROW : PATHS_ABOVE;
         const double right = narrow ? PATHS_RIGHT_NARROW : PATHS_RIGHT,
                      below = narrow ? PATHS_BELOW_NARROW : PATHS_BELOW;

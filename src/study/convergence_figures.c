@@ -156,18 +156,18 @@ static void figures_units(const struct convergence_study *s, struct scalar_resul
     for (int f = 0; f < figures; f++) study_result_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
 }
 
-status scalar_results_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
+status scalar_results_find(const struct convergence_study *s, const char *const *wanted_names, int wanted_count,
                            struct scalar_result_study **figure, int *figures)
 {
-    for (int k = 0; k < wanteds; k++)
-        if (study_find_result(&s->table, wanted[k]) < 0)
+    for (int k = 0; k < wanted_count; k++)
+        if (study_find_result(&s->table, wanted_names[k]) < 0)
             return status_set(REFUSED,
                               "%s: summary.json has no such figure; names in it are joined by points, as "
                               "in crack.angle_deg",
-                              wanted[k]);
+                              wanted_names[k]);
     *figure = NEW("study.figures", s->table.figures, struct scalar_result_study);
     *figures = 0;
-    for (int f = 0; f < s->table.figures && wanteds == 0; f++)
+    for (int f = 0; f < s->table.figures && wanted_count == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
                     "figure %s is left out, as several positions of a run tie for it and the run reports one of them; "
@@ -175,9 +175,9 @@ status scalar_results_find(const struct convergence_study *s, const char *const 
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
-            if ((wanteds > 0 || !is_one_of_several(s, s->table.figure[f])) && part_of(s->table.figure[f]) == part &&
-                is_wanted(s, s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
-                (wanteds > 0 || figure_moves(&(*figure)[*figures])))
+            if ((wanted_count > 0 || !is_one_of_several(s, s->table.figure[f])) &&
+                part_of(s->table.figure[f]) == part && is_wanted(s, s->table.figure[f], wanted_names, wanted_count) &&
+                figure_make(&(*figure)[*figures], s, f) && (wanted_count > 0 || figure_moves(&(*figure)[*figures])))
                 ++*figures;
     figures_units(s, *figure, *figures);
     if (*figures > 0) return OK;
@@ -235,7 +235,7 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
     if (to) figures_table(to, s, figure, figures);
-    TRY(study_write_file(&s->study, "converge.csv", to, &text, &length));
+    TRY(study_write_stream_to_file(&s->study, "converge.csv", to, &text, &length));
     return study_write_scene(s->study.folder, s->scene.text, s->study.options);
 }
 

@@ -170,7 +170,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     options.quiet = true;
     options.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
-    TRY(study_check_scenes(&s->study, false));
+    TRY(study_determine_case_states(&s->study, false));
     TRY(study_run(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
@@ -310,7 +310,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     runs_add_all(s);
     if (!options.quiet)
         fprintf(stderr, "[1/%d] %s: done in %.3g s\n", s->study.n, s->study.at[s->first].name, s->spent);
-    TRY(study_check_scenes(&s->study, false));
+    TRY(study_determine_case_states(&s->study, false));
     options.until = s->begun + s->budget;
     TRY(study_run(&s->study, options));
     int failed = 0;

@@ -80,7 +80,7 @@ status pilot_plan(struct pilot_search *p)
                               "%s: method: auto varies the spacing, but a body of this scene comes from a particle "
                               "list, whose spacing is fixed; give a method and particles.spacing",
                               p->scene);
-    if (!(p->wish.spacing > 0) && !(spacing_that_resolves(s) > 0))
+    if (!(p->wish.spacing > 0) && !(spacing_that_resolves_all_lengths(s) > 0))
         return status_set(REFUSED,
                           "%s: the scene has no length from which pilot runs could choose a spacing; give method and "
                           "particles.spacing",

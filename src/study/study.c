@@ -132,7 +132,7 @@ static bool is_scene_of_study(const char *path, const char *scene_text)
     return text != NULL;
 }
 
-bool study_has_scene(const char *folder, const char *text)
+bool study_folder_is_of_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
     const bool same = own && scene_texts_are_equal(own, text);
@@ -242,11 +242,11 @@ struct study_case *study_add_case(struct study *s, const char *name, const struc
     GROW("study.cases", s->at, s->n + 1);
     study_grow_name_table(s);
     struct study_case *c = &s->at[s->n];
-    study_name_choose(s, c->name, name, override, overrides);
+    study_choose_case_name(s, c->name, name, override, overrides);
     c->override = NEW("study.overrides", overrides, struct scene_override);
     for (int k = 0; k < overrides; k++) c->override[k] = override_copy(override[k]);
     c->overrides = overrides;
-    study_name_register(s, s->n++);
+    study_register_case_name(s, s->n++);
     return c;
 }
 
@@ -262,7 +262,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
     for (int left = (int)all; left > 0; left--) {
         char name[CASE_NAME_ROOM];
         for (int k = 0; k < keys; k++) override[k] = (struct scene_override){key[k].key, key[k].value[at[k]]};
-        study_name_compose(name, key, keys, order, varied, at);
+        study_compose_case_name(name, key, keys, order, varied, at);
         study_add_case(s, name, override, keys);
         for (int k = keys - 1; k >= 0 && ++at[k] == key[k].values; k--) at[k] = 0;
     }
@@ -308,7 +308,7 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
-    const uint64_t hash = study_hash(STUDY_HASH_START, text);
+    const uint64_t hash = study_hash_add_text(STUDY_HASH_START, text);
     int at = (int)(hash % (uint64_t)seen->room);
     for (; seen->number[at] > 0; at = (at + 1) % seen->room) {
         const struct study_case *other = &s->at[seen->number[at] - 1];
@@ -345,12 +345,12 @@ static status case_check(struct study *s, int number, bool collect, struct scene
     return looked;
 }
 
-status study_check_scenes(struct study *s, bool collect)
+status study_determine_case_states(struct study *s, bool keep_failed)
 {
     const int room = 2 * s->n + 1;
     struct scenes_seen seen = {NEW("study.seen", room, int), room, NEW("study.hashes", room, uint64_t)};
     status checked = OK;
-    for (int k = 0; k < s->n && checked == OK; k++) checked = case_check(s, k, collect, &seen);
+    for (int k = 0; k < s->n && checked == OK; k++) checked = case_check(s, k, keep_failed, &seen);
     memory_free(seen.hash);
     memory_free(seen.number);
     return checked;
@@ -374,7 +374,7 @@ const char *study_case_value(const struct study_case *c, const char *key)
     return "";
 }
 
-status study_write_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
+status study_write_stream_to_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
 {
     const bool whole = to && fclose(to) == 0;
     const status written = whole ? file_write_whole(path_join(s->folder, name).text, *text, *length)

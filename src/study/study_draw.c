@@ -17,7 +17,7 @@ enum { LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST 
 enum { WIDE = 320, HIGH = 220, LEAST = 60, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
 
 /* Returns the width of a character in the pictures of a study [pixel]. */
-static int character(void) { return gnuplot_is_narrow() ? 8 : 10; }
+static int character(void) { return picture_is_too_narrow_for_key() ? 8 : 10; }
 
 /* Statistics of the runs that are combined to one point of a line: mean and scatter of a figure, and number of runs. */
 struct point_of {
@@ -169,7 +169,7 @@ static int panel_rows(const struct study_picture *p) { return (p->panels + p->co
 static void panels_arrange(struct study_picture *p)
 {
     const struct picture_size given = picture_size_get();
-    const int most = gnuplot_is_narrow() ? 1 + (p->panels > 2) : COLUMNS_MOST;
+    const int most = picture_is_too_narrow_for_key() ? 1 + (p->panels > 2) : COLUMNS_MOST;
     p->columns = p->panels < most ? p->panels : most;
     p->wide = WIDE, p->high = HIGH;
     if (given.width) p->wide = given.width / p->columns - NUMBERS;
@@ -203,7 +203,9 @@ static void room_find(struct study_picture *p, const struct varied_key *up)
     const struct varied_key *across = &p->key[p->across];
     const int along = study_longest_label(across) * character();
     const bool words = up || !p->numbers;
-    p->left = up ? (study_longest_label(up) + 7) * character() : gnuplot_is_narrow() ? 8 * character() : NUMBERS;
+    p->left = up                                ? (study_longest_label(up) + 7) * character()
+              : picture_is_too_narrow_for_key() ? 8 * character()
+                                                : NUMBERS;
     p->right = up ? COLOURS : words ? 2 * character() + along / 2 : 3 * character();
     p->below = BELOW;
     if (words && words_touch(p, across)) {

@@ -10,20 +10,21 @@
 /* ---- names (study_names.c) --------------------------------------------------------------------------------------- */
 
 #define STUDY_HASH_START 0xcbf29ce484222325u
-/* Returns the hash of a sequence of texts that ends with `text`. hash: hash of the preceding texts; STUDY_HASH_START
- * if there are none. */
-uint64_t study_hash(uint64_t hash, const char *text);
+/* Returns the hash of a sequence of texts that ends with `next_text`. hash: hash of the preceding texts;
+ * STUDY_HASH_START if there are none. */
+uint64_t study_hash_add_text(uint64_t hash, const char *next_text);
 
 /* Enlarges the hash table of the names of the runs of s if it has no space for one more name. */
 void study_grow_name_table(struct study *s);
 
-/* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text `wanted`,
- * restricted to characters that every file system accepts. If that is too long, reserved or taken, it is case-HASH,
- * with a hash of the overrides o[n] of the run. */
-void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
+/* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text
+ * `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken, it is
+ * case-HASH, with a hash of the overrides override[n] of the run. */
+void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
+                            const struct scene_override *override, int overrides);
 
-/* Adds the name of the run with the index `number` of the study s to the hash table of the names of its runs. */
-void study_name_register(struct study *s, int number);
+/* Adds the name of the run with the index `case_number` of the study s to the hash table of the names of its runs. */
+void study_register_case_name(struct study *s, int case_number);
 
 /* Finds which of the keys key[keys] appear in the names of runs, those with several values. Stores their indices in
  * order[], which has space for `keys` entries, in the order in which they appear. Returns their number. */
@@ -32,8 +33,8 @@ int study_order_name_keys(int *order, const struct varied_key *key, int keys);
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
  * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; order[n]: indices of those in the name, in order of
  * appearance; value_index[k]: index of the value of key k in this run. */
-void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n,
-                        const int *value_index);
+void study_compose_case_name(char *name, const struct varied_key *key, int keys, const int *order, int n,
+                             const int *value_index);
 
 /* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
 

@@ -11,11 +11,12 @@
 
 /* ---- hashes ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the hash of a sequence of texts that ends with `text`, by FNV-1a (Fowler, Noll and Vo) with a final mixing
- * step. hash: hash of the texts before it. */
-uint64_t study_hash(uint64_t hash, const char *text)
+/* Returns the hash of a sequence of texts that ends with `next_text`, by FNV-1a (Fowler, Noll and Vo) with a final
+ * mixing step. hash: hash of the texts before it. */
+uint64_t study_hash_add_text(uint64_t hash, const char *next_text)
 {
-    for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
+    for (; *next_text; next_text++)
+        hash = (hash ^ (unsigned char)*next_text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
     hash = (hash ^ hash >> 32) * 0x9e3779b97f4a7c15u;
     return hash ^ hash >> 29;
 }
@@ -24,7 +25,7 @@ uint64_t study_hash(uint64_t hash, const char *text)
 static uint64_t overrides_hash(const struct scene_override *o, int n)
 {
     uint64_t sum = 0;
-    for (int k = 0; k < n; k++) sum += study_hash(study_hash(STUDY_HASH_START, o[k].key), o[k].value);
+    for (int k = 0; k < n; k++) sum += study_hash_add_text(study_hash_add_text(STUDY_HASH_START, o[k].key), o[k].value);
     return sum;
 }
 
@@ -32,14 +33,17 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
  * entered. */
 static int name_slot(const struct study *s, const char *name)
 {
-    int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);
+    int at = (int)(study_hash_add_text(STUDY_HASH_START, name) % (uint64_t)s->slots);
     while (s->slot[at] > 0 && strcmp(s->at[s->slot[at] - 1].name, name) != 0) at = (at + 1) % s->slots;
     return at;
 }
 
 static bool name_taken(const struct study *s, const char *name) { return s->slot[name_slot(s, name)] > 0; }
 
-void study_name_register(struct study *s, int number) { s->slot[name_slot(s, s->at[number].name)] = number + 1; }
+void study_register_case_name(struct study *s, int case_number)
+{
+    s->slot[name_slot(s, s->at[case_number].name)] = case_number + 1;
+}
 
 void study_grow_name_table(struct study *s)
 {
@@ -47,7 +51,7 @@ void study_grow_name_table(struct study *s)
     memory_free(s->slot);
     s->slots = s->slots > 0 ? 2 * s->slots : 64;
     s->slot = NEW("study.names", s->slots, int);
-    for (int k = 0; k < s->n; k++) study_name_register(s, k);
+    for (int k = 0; k < s->n; k++) study_register_case_name(s, k);
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -64,13 +68,14 @@ static void name_append(char *name, const char *text)
     name[n] = '\0';
 }
 
-void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n)
+void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
+                            const struct scene_override *override, int overrides)
 {
     *name = '\0';
-    name_append(name, wanted);
+    name_append(name, wanted_name);
     const bool reserved = !*name || *name == '.' || *name == '-' || !strcmp(name, "pictures") || !strcmp(name, "logs");
-    if (strlen(wanted) + 1 < CASE_NAME_ROOM && !reserved && !name_taken(s, name)) return;
-    uint64_t hash = study_hash(overrides_hash(o, n), wanted);
+    if (strlen(wanted_name) + 1 < CASE_NAME_ROOM && !reserved && !name_taken(s, name)) return;
+    uint64_t hash = study_hash_add_text(overrides_hash(override, overrides), wanted_name);
     do snprintf(name, CASE_NAME_ROOM, "case-%012llx", (unsigned long long)(hash++ & 0xffffffffffffu));
     while (name_taken(s, name));
 }
@@ -117,8 +122,8 @@ int study_order_name_keys(int *order, const struct varied_key *key, int keys)
     return n;
 }
 
-void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n,
-                        const int *value_index)
+void study_compose_case_name(char *name, const struct varied_key *key, int keys, const int *order, int n,
+                             const int *value_index)
 {
     *name = '\0';
     for (int k = 0; k < n; k++) {

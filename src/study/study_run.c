@@ -68,7 +68,7 @@ static void print_quoted(FILE *out, char c, bool harmful)
         putc(c, out);
 }
 
-void study_print_word(FILE *out, const char *word)
+void study_print_shell_word(FILE *out, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     const size_t length = strlen(word);
@@ -78,7 +78,7 @@ void study_print_word(FILE *out, const char *word)
     }
     char *shown = NEW("study.shown", (int64_t)length + 1, char);
     strcpy(shown, word);
-    text_replace_controls(shown);
+    text_replace_control_characters(shown);
     putc('\'', out);
     for (size_t k = 0; k < length; k++)
         print_quoted(out, word[k], shown[k] != word[k] && word[k] != '\n' && word[k] != '\t');
@@ -108,10 +108,10 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
     snprintf(team, sizeof team, "%d", how.threads);
     char **word = command_words(scene.text, c, how.threads > 0 ? team : NULL, folder.text,
                                 how.overwrite ? "--overwrite" : "--resume", &pairs);
-    study_print_word(out, *program.text ? program.text : name);
+    study_print_shell_word(out, *program.text ? program.text : name);
     for (int k = 1; word[k]; k++) {
         putc(' ', out);
-        study_print_word(out, word[k]);
+        study_print_shell_word(out, word[k]);
     }
     putc('\n', out);
     memory_free(pairs);
@@ -142,7 +142,7 @@ static status case_guard(const struct study *s, const struct study_case *c)
         return status_set(REFUSED, "%s is a symbolic link, and results would be written elsewhere; choose another -o",
                           folder.text);
     TRY(file_check_replaceable(log.text));
-    return file_check_beginning(log.text, begin, COUNT_OF(begin));
+    return file_check_is_from_cleave(log.text, begin, COUNT_OF(begin));
 }
 
 /* Replaces the child process by the command word[], with its output to the descriptor `log`. The process has its own
@@ -210,7 +210,7 @@ static void last_line(const char *path, char *line, size_t capacity)
     while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
     const char *last = strrchr(text, '\n');
     if (last) snprintf(line, capacity, "%s", last + 1);
-    text_replace_controls(line);
+    text_replace_control_characters(line);
     memory_free(text);
 }
 

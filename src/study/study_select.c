@@ -49,7 +49,7 @@ status panels_of(struct study_picture *p, const char *const *of, int asked)
         if (f < 0)
             return status_set(REFUSED, "sweep: --of %s: there is no such figure in sweep.csv; do you mean %s?",
                               printable_name(of[k]).text,
-                              word_nearest(of[k], (const char *const *)t->figure, t->figures));
+                              word_find_most_similar(of[k], (const char *const *)t->figure, t->figures));
         p->figure[p->panels++] = f;
     }
     return OK;

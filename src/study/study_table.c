@@ -152,7 +152,7 @@ status study_write_table(const struct study_table *t, const struct study *s, con
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
     if (to) table_print(to, t, s, key, keys);
-    return study_write_file(s, "sweep.csv", to, &text, &length);
+    return study_write_stream_to_file(s, "sweep.csv", to, &text, &length);
 }
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
@@ -164,7 +164,7 @@ status study_check_output_files(const struct study *s, const struct varied_key *
     static const char *const begin[] = {"run,state"};
     const struct path pictures = path_join(s->folder, "pictures");
     if (study_folder_check(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
-    TRY(file_check_beginning(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
+    TRY(file_check_is_from_cleave(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_check_replaceable(path_join(pictures.text, "map.png").text));
     for (int k = 0; k < keys; k++) {
         char name[PICTURE_NAME_ROOM];

@@ -62,7 +62,7 @@ void study_print_warnings(const struct study *s, FILE *out)
         }
     }
     for (int k = 0; k < kinds; k++) {
-        text_replace_controls(kind[k].text);
+        text_replace_control_characters(kind[k].text);
         fprintf(out, "warning: in %d of %d runs: %.*s%s\n", kind[k].runs, runs, SHOWN_LONGEST, kind[k].text,
                 strlen(kind[k].text) > SHOWN_LONGEST ? "..." : "");
     }

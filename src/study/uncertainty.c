@@ -98,9 +98,9 @@ int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, 
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!study_has_scene(study.text, s->text)) {
+    if (!study_folder_is_of_scene(study.text, s->text)) {
         study = pilot_folder(folder);
-        if (!study_has_scene(study.text, s->text)) return 0;
+        if (!study_folder_is_of_scene(study.text, s->text)) return 0;
     }
     if (file_read_whole(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);

@@ -58,7 +58,7 @@ static void put_checkpoint(const uint8_t *bytes, size_t n)
     const int fd = open(path_temporary(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (fd < 0 || write(fd, bytes, n) != (ssize_t)n) fuzz_fail("cannot write", "");
     close(fd);
-    if (file_append_footer(path) != OK || file_replace_by_temporary(path) != OK)
+    if (file_append_checksum_footer(path) != OK || file_replace_by_temporary(path) != OK)
         fuzz_fail("cannot write", status_message());
 }
 

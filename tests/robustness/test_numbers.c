@@ -69,7 +69,7 @@ static struct search look_through(const char *path)
     return s;
 }
 
-static void write_list(const char *path, double middle)
+static void yaml_write_number_list(const char *path, double middle)
 {
     const double value[3] = {1, middle, -1e300};
     const hsize_t n = 3;
@@ -87,12 +87,12 @@ static void what_is_none_is_found(void **state)
     (void)state;
     assert_true(fd >= 0);
     close(fd);
-    write_list(path, 0);
+    yaml_write_number_list(path, 0);
     assert_int_equal(look_through(path).bad, 0);
     assert_int_equal(look_through(path).lists, 1);
-    write_list(path, NAN);
+    yaml_write_number_list(path, NAN);
     assert_int_equal(look_through(path).bad, 1);
-    write_list(path, INFINITY);
+    yaml_write_number_list(path, INFINITY);
     assert_int_equal(look_through(path).bad, 1);
     unlink(path);
 }

@@ -126,7 +126,7 @@ static inline void cloud_exact(struct particle_cloud *c)
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->implicit[g]) row_block_expand_stencil(b, g);
+        if (b->implicit[g]) row_block_write_columns_from_stencil(b, g);
 }
 
 /* Creates the cells of body c and sets c->source, all that bonds_make needs: materials, limits, and the surface
@@ -147,7 +147,7 @@ static inline void cloud_source(struct particle_cloud *c)
         s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
-    bonds_compute_neighbour_volume(c->neighbour_volume, &c->p, s);
+    bonds_compute_family_volumes(c->neighbour_volume, &c->p, s);
     s->neighbour_volume = c->neighbour_volume;
 }
 

@@ -66,7 +66,7 @@ static inline void block_average(struct block *b, bool mixed)
 {
     for (int m = 0; m < CLOUD_MATERIALS; m++) b->elastic[m].mean_dilatation = b->c.p.dim > 1;
     for (int64_t i = 0; i < b->c.p.n && mixed; i++) b->c.p.material[i] = i * 7 % 11 == 0;
-    mesh_remove_converted(&b->mesh, &b->c.p, &b->source, NULL, 0);
+    mesh_remove_points_and_return_lost_energy(&b->mesh, &b->c.p, &b->source, NULL, 0);
 }
 
 static void block_free(struct block *b)
@@ -88,7 +88,7 @@ static void shake(struct block *b, real by, uint64_t seed)
 static real node_place(const struct mesh *mesh, int64_t I, int d)
 {
     return grid_node_position(&mesh->grid, d,
-                              mesh_regular_node_of(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
+                              mesh_regular_node_of_doubled_node(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 /* Displaces all nodes with mass as a body that is first extended along x by `stretch` [1] and then rotated about z by

@@ -129,7 +129,7 @@ static inline void operator_forces(struct operator* o, real *f)
         for (int d = 0; d < g->dim; d++)
             e->frame->mesh.displacement[d][g->mirror_node[k].node] =
                 g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) frame_update_points(e->frame, &e->part, &e->loads);
+    if (getenv("OPERATOR_SHOW")) reference_frame_update_points(e->frame, &e->part, &e->loads);
     run_compute_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)

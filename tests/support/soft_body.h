@@ -17,7 +17,7 @@ struct soft_body {
  * particle_cloud_make, in place of cloud_bonds. */
 static inline void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
 {
-    s->curve = softening_curve_of(law);
+    s->curve = softening_curve_of_law(law);
     cloud_source(&s->c);
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++)
         s->pair[k] = (struct softening_pair){.onset = onset}, s->c.limit[k] = critical;

@@ -110,7 +110,7 @@ static void out_of_memory_says_so(void **state)
         assert_non_null(strstr(line, wanted));
     }
     assert_int_equal(exit_of(allocate, &few, line), 0);
-    assert_true(memory_peak() > 1000000); /* a process with its libraries is larger than 1 MB */
+    assert_true(memory_peak_resident_size() > 1000000); /* a process with its libraries is larger than 1 MB */
 }
 
 /* Breaks the same invariant in every thread of a team; returns the number of its line. */

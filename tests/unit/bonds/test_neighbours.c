@@ -407,17 +407,18 @@ static void test_rows_of_lattice(void **state)
         c.source.yield = (struct bond_yield){NULL, NULL, 0};
         if (c.neighbour_volume) {
             real *volume = NEW("test.volume", c.p.n_all, real);
-            bonds_compute_neighbour_volume(volume, &c.p, &c.source);
+            bonds_compute_family_volumes(volume, &c.p, &c.source);
             assert_memory_equal(volume, c.neighbour_volume, (size_t)c.p.n * sizeof *volume);
             memory_free(volume);
         }
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
-        const real step = bonds_critical_time_step_of_rows(&c.bonds, &c.p);
-        if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_time_step(&c.p, &c.source));
+        const real step = bonds_critical_time_step_of_existing_bonds(&c.bonds, &c.p);
+        if (c.p.n_of[KIND_PD] == c.p.n)
+            assert_true(step == bonds_critical_time_step_if_all_peridynamic(&c.p, &c.source));
         struct bond_source states = c.source; /* bonds between equal materials agree with states, others are stiffer */
         states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
-        const real of_states = bonds_critical_time_step(&c.p, &states),
-                   of_bonds = bonds_critical_time_step(&c.p, &c.source);
+        const real of_states = bonds_critical_time_step_if_all_peridynamic(&c.p, &states),
+                   of_bonds = bonds_critical_time_step_if_all_peridynamic(&c.p, &c.source);
         if (k >= COUNT_OF(plan))
             assert_true(fabs(of_states - of_bonds) <= 1e-12 * of_bonds);
         else

@@ -28,7 +28,7 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
     for (int k = 0; k < CLOUD_MATERIALS; k++) {
         b->c.material[k].poisson = poisson;
         material_compute_derived_constants(&b->c.material[k], plan.space);
-        b->modulus[k] = state_modulus_of_material(&b->c.material[k], plan.space, model == PD_MOSPD);
+        b->modulus[k] = state_based_moduli_of_material(&b->c.material[k], plan.space, model == PD_MOSPD);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = STRETCH;
     b->c.source.modulus = b->modulus, b->c.source.local = local, b->c.source.rotates = model == PD_MOSPD;
@@ -68,7 +68,7 @@ static void test_rotations(void **state)
             for (int n = 0; n < 2; n++) {
                 struct pulled b;
                 pulled_make(&b, PD_MOSPD, n ? 0.45 : 0.2, influence[k], local);
-                real want = family_separation_work_per_area(&b.c.source.family, &b.modulus[0], local);
+                real want = family_separation_work_over_stretch_squared(&b.c.source.family, &b.modulus[0], local);
                 assert_true(fabs(separation(&b) / want - 1) < 3e-3);
                 particle_cloud_free(&b.c);
             }

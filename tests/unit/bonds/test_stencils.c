@@ -114,7 +114,7 @@ static void test_what_is_stored(void **state)
 static void make_again(struct particle_cloud *c)
 {
     bonds_free(&c->bonds);
-    if (c->neighbour_volume) bonds_compute_neighbour_volume(c->neighbour_volume, &c->p, &c->source);
+    if (c->neighbour_volume) bonds_compute_family_volumes(c->neighbour_volume, &c->p, &c->source);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
@@ -130,8 +130,8 @@ static void test_twins(void **state)
             alone.p.mass[0] *= 2;
             make_again(&alike), make_again(&alone);
             const struct bonds *a = &alike.bonds, *b = &alone.bonds;
-            assert_true(bonds_critical_time_step(&alike.p, &alike.source) ==
-                        bonds_critical_time_step(&alone.p, &alone.source));
+            assert_true(bonds_critical_time_step_if_all_peridynamic(&alike.p, &alike.source) ==
+                        bonds_critical_time_step_if_all_peridynamic(&alone.p, &alone.source));
             if (surface)
                 assert_memory_equal(alike.neighbour_volume, alone.neighbour_volume, (size_t)alone.p.n * sizeof(real));
             assert_memory_equal(a->trigger, b->trigger, (size_t)b->rows * sizeof *b->trigger);
@@ -216,7 +216,7 @@ static void test_fault(void **state)
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
     assert_null(bonds_find_inconsistency(b));
-    const int64_t q = bond_writable_index(b, b->row_blocks / 2, 3, 4), column = q / LANES;
+    const int64_t q = bond_index_for_writing(b, b->row_blocks / 2, 3, 4), column = q / LANES;
     assert_null(bonds_find_inconsistency(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_find_inconsistency(b));
@@ -246,7 +246,7 @@ static void test_who_leaves(void **state)
     struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     const int64_t implicit = count_folded(&c.bonds), row_block = c.bonds.row_blocks / 2,
-                  q = bond_writable_index(&c.bonds, row_block, 3, 4);
+                  q = bond_index_for_writing(&c.bonds, row_block, 3, 4);
     bond_fade(&c.bonds, &c.p, row_block * LANES + 4, q, 0);
     for (int64_t g = 0; g < c.bonds.row_blocks; g++)
         assert_true(c.bonds.stencil[g] ? g != row_block : g == row_block || at_an_end(&c, g));
@@ -266,7 +266,7 @@ static void test_who_stays_out(void **state)
     particles_update_kind_lists(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     const int64_t row = c.bonds.row_of[point] + 1,
-                  q = bond_writable_index(&c.bonds, row / LANES, 5, (int)(row % LANES));
+                  q = bond_index_for_writing(&c.bonds, row / LANES, 5, (int)(row % LANES));
     const int32_t j = c.bonds.nbr[q];
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
@@ -276,7 +276,7 @@ static void test_who_stays_out(void **state)
     bonds_free(&old);
     int found = 0;
     for (int64_t k = 0; k < c.bonds.column_count[row / LANES]; k++) {
-        const int64_t at = bond_writable_index(&c.bonds, row / LANES, k, (int)(row % LANES));
+        const int64_t at = bond_index_for_writing(&c.bonds, row / LANES, k, (int)(row % LANES));
         if (c.bonds.nbr[at] == j && c.bonds.w[at] == 0.5) found++;
     }
     assert_int_equal(found, 1);

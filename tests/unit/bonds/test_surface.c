@@ -95,7 +95,7 @@ static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[D
 
 static bool may_change(const struct plain *s, int64_t t, int k)
 {
-    const int32_t j = near_face_neighbour_of(&s->body, t, k);
+    const int32_t j = near_faces_neighbour_at_offset(&s->body, t, k);
     return j >= 0 && !(s->body.whole[s->body.particle[t]] && s->body.whole[j]);
 }
 
@@ -106,7 +106,7 @@ static real objective(const struct plain *s)
     for (int64_t t = 0; t < near->n; t++) {
         real fourth[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX] = {{{{0}}}}, third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}};
         for (int k = 0; k < near->offset.n; k++) {
-            if (near_face_neighbour_of(near, t, k) < 0) continue;
+            if (near_faces_neighbour_at_offset(near, t, k) < 0) continue;
             const real f = s->factor[t * near->offset.n + k];
             add_bond(s, k, f, fourth, third);
             if (may_change(s, t, k)) sum += 0.5 * s->prior * square(f - 1);
@@ -171,7 +171,7 @@ static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
     real *one = &s->factor[t * n + k];
-    real *other = &s->factor[s->body.place[near_face_neighbour_of(&s->body, t, k)] * n + n - 1 - k];
+    real *other = &s->factor[s->body.place[near_faces_neighbour_at_offset(&s->body, t, k)] * n + n - 1 - k];
     const real was = *one, step = 1e-4;
     assert_true(*one == *other);
     *one = *other = was + step;
@@ -348,7 +348,7 @@ static void residual_is_told(void **state)
     struct plain s;
     struct bond_classes a;
     plain_make(&s, &plan);
-    bond_classes_make(&a, &s.body);
+    bond_classes_make_near_faces(&a, &s.body);
     real *factor = NEW("test.factors", a.groups, real);
     assert_true(surface_fit_factors(factor, &s.body, &s.faces, &a, false, SURFACE_PRODUCTS) < 1e-12);
     const real left = surface_fit_factors(factor, &s.body, &s.faces, &a, false, 3);

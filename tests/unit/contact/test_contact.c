@@ -198,7 +198,7 @@ static real plain_faces(const struct run *e)
 static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
-    contact_activate_particles(e->contact, &e->part, &e->bonds, &e->loads);
+    contact_activate_particles_after_restart(e->contact, &e->part, &e->bonds, &e->loads);
     contact_compute_forces(e->contact, &e->part, 0);
 }
 
@@ -425,7 +425,7 @@ static void test_sizes(void **state)
             p.X[dim > 1][i] = i * h, p.body[i] = i == 2;
             p.volume0[i] = (i == 1 ? 0.3 : 1) * pow(h, dim) * c.law.section;
         }
-        contact_list_compute_arrays(&c, &p);
+        contact_list_compute_entry_data(&c, &p);
         assert_close(c.size[0], h, 1e-14);
         assert_close(c.size[1], dim == 1 ? 0.3 * h : dim == 2 ? sqrt(0.3) * h : cbrt(0.3) * h, 1e-12);
         assert_near(contact_notch_width(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
@@ -471,7 +471,7 @@ static void test_beside_a_ball(void **state)
         for (int q = 0; q < 3; q++) assert_near(c[k].near[0].zero[q], -zero[k - 1] * h, 1e-12 * h);
     }
     const real wide = p.x[0][0] - p.x[0][2], high = p.x[1][2] - p.x[1][0];
-    assert_close(contact_patch_diagonal(&c[4], &p, 0), hypot(wide, high), 1e-12);
+    assert_close(contact_patch_bounding_box_diagonal(&c[4], &p, 0), hypot(wide, high), 1e-12);
     for (int k = 1; k < 5; k++) {
         memory_free(c[k].near[0].row), memory_free(c[k].near[0].zero), memory_free(c[k].near[0].balance);
         memory_free(c[k].near);

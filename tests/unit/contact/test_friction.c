@@ -23,7 +23,7 @@ static void spring_of_coulomb(void **state)
     struct contact_spring s = {.stored = 0};
     real given = 0, drag = 0;
     for (int n = 1; n <= 40; n++) {
-        contact_spring_advance(&s, 3, normal, step, k, most);
+        contact_friction_spring_advance(&s, 3, normal, step, k, most);
         const real force = real_min(most, k * size * n);
         for (int d = 0; d < 3; d++) assert_near(s.drag[d], -force * along[d] / size, 1e-13);
         given += 0.5 * (drag + force) * size, drag = force;
@@ -31,7 +31,7 @@ static void spring_of_coulomb(void **state)
     }
     assert_true(k * size * 40 > 1.5 * most);
     assert_close(s.stored + s.lost, given, 1e-12);
-    contact_spring_advance(&s, 3, none, none, k, 0); /* separated */
+    contact_friction_spring_advance(&s, 3, none, none, k, 0); /* separated */
     assert_near(s.stored, 0, 0);
     assert_close(s.lost, given, 1e-12);
 }
@@ -42,8 +42,8 @@ static void spring_follows_its_face(void **state)
     (void)state;
     const real before[] = {0, 0, 1}, after[] = {0.6, 0, 0.8}, step[] = {4e-6, 3e-6, 0}, none[3] = {0};
     struct contact_spring s = {.stored = 0};
-    contact_spring_advance(&s, 3, before, step, 1000, 1);
-    contact_spring_advance(&s, 3, after, none, 1000, 1);
+    contact_friction_spring_advance(&s, 3, before, step, 1000, 1);
+    contact_friction_spring_advance(&s, 3, after, none, 1000, 1);
     assert_close(dot(s.length, s.length, 3), 25e-12, 1e-12);
     assert_near(dot(s.length, after, 3), 0, 1e-20);
     assert_close(s.stored, 0.5 * 1000 * 25e-12, 1e-12);
@@ -265,7 +265,7 @@ static void weights_of_sizes(void **state)
             const real own = p->body[i] == 1 ? 1.3e-3 : 1e-3, felt = p->body[j] == 1 ? 1.3e-3 : 1e-3;
             const real mean = 0.5 * (own + felt), r = hypot(p->x[0][i] - p->x[0][j], p->x[1][i] - p->x[1][j]);
             const real z = r / (2 * mean), W = z < 1 ? square(square(1 - z)) * (1 + 4 * z) : 0;
-            assert_near(contact_face_weight(c, p, row, l, 0).weight, felt / mean * W, 1e-9);
+            assert_near(contact_face_density_contribution(c, p, row, l, 0).weight, felt / mean * W, 1e-9);
             tried += own != felt && W > 0;
         }
     assert_true(tried > 10);

@@ -253,10 +253,10 @@ static real couple_of(int felt, real aside, int along, real *balance)
     particles_make(&p, 3, 4, 0);
     p.x[2][0] = H, p.v[along][0] = 10;
     for (int j = 0; j < felt; j++) p.x[0][j + 1] = (j - (felt - 1) / 2) * H, p.x[1][j + 1] = j == 1 ? -aside : aside;
-    contact_face_advance_spring(&c, &p, 0, 1e-7);
+    contact_face_advance_friction_spring(&c, &p, 0, 1e-7);
     vector_product(reaction.arm, spring.drag, moment);
     for (int j = 0; j < felt; j++) {
-        const struct contact_weight w = contact_face_weight(&c, &p, 0, j + 1, 0);
+        const struct contact_weight w = contact_face_density_contribution(&c, &p, 0, j + 1, 0);
         real r[3], turning[3];
         for (int d = 0; d < 3; d++) r[d] = reaction.arm[d] - w.apart[d];
         vector_product(reaction.turn, r, force);

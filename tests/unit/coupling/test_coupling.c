@@ -234,7 +234,7 @@ static void test_energy_at_start(void **state)
         is_near("energy before", before / particle, (real)c.p.n, 1e-4);
         struct solid box = {
             .kind = SOLID_BOX, .from = {12 * CLOUD_SPACING}, .to = {(12 + row[k].block) * CLOUD_SPACING}};
-        convert_particles_at_precracks(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
+        convert_to_peridynamic_at_precracks(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
         assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         set_stress(&c, strain, stress);
@@ -323,7 +323,7 @@ static void test_crack_in_its_body(void **state)
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 40;
     cloud_source(&c);
     c.source.crack = &crack, c.source.cracks = 1;
-    convert_particles_at_precracks(&c.p, &c.source, NULL);
+    convert_to_peridynamic_at_precracks(&c.p, &c.source, NULL);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i < 40 ? KIND_PD : KIND_MPM);
     particle_cloud_free(&c);
 }

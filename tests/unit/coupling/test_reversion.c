@@ -92,7 +92,7 @@ static void test_bar(void **state)
     assert_near(energy / particle, 60, 1e-3);
     assert_int_equal(choose(&s, &list), 20);
     cloud_copy(&before, p, WITH_REVERSION | WITH_GRADIENT);
-    reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, &partial, list, 20);
+    reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, &partial, list, 20);
     assert_near((energy_of(&s, &partial) - energy) / particle, 0, 1e-3);
     assert_memory_equal(p->x[0], before.x[0], (size_t)p->n * sizeof(real));
     assert_memory_equal(p->v[0], before.v[0], (size_t)p->n * sizeof(real));
@@ -137,7 +137,7 @@ static void test_wave(void **state)
         setting_never(&s);
         const real before = energy_of(&s, &partial);
         assert_int_equal(choose(&s, &list), p->n);
-        reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
+        reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         assert_near(0.5 * (energy_of(&s, &partial) / before - 1), row[k].change, row[k].within);
         memory_free(list);
         particle_cloud_free(&s.c);
@@ -170,7 +170,7 @@ static void test_surfaces(void **state)
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
         assert_true(most > 0);
-        reversion_apply(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
+        reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         for (int64_t i = 0; i < p->n; i++) {
             for (int c = 0; c < n; c++) assert_near(p->stress[c][i], middle[c], 1e-5 * most);
             assert_near(p->volume[i] / p->volume0[i], 1 + strain[0][0] + strain[1][1], 1e-11);
@@ -316,14 +316,14 @@ static void test_mesh(void **state)
     int64_t n = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (i % 16 < 7) p->kind[i] = KIND_PD, list[n++] = (int32_t)i;
-    mesh_remove_converted(&mesh, p, &source, NULL, 0);
+    mesh_remove_points_and_return_lost_energy(&mesh, p, &source, NULL, 0);
     assert_int_equal(mesh.points, p->n - n);
     real kinetic = mesh_kinetic(&mesh);
     for (int64_t k = 0; k < n; k++)
         for (int d = 0; d < dim; d++) kinetic += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
     for (int64_t k = 0; k < n; k++) p->kind[list[k]] = KIND_MPM;
-    const real lost = mesh_insert_points(&mesh, p, list, n);
-    mesh_remove_converted(&mesh, p, &source, list, n);
+    const real lost = mesh_insert_points_and_return_lost_energy(&mesh, p, list, n);
+    mesh_remove_points_and_return_lost_energy(&mesh, p, &source, list, n);
     assert_int_equal(mesh.points, p->n);
     for (int64_t I = 0; I < mesh.grid.n; I++)
         for (int d = 0; d < dim; d++) {

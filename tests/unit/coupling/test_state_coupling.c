@@ -35,7 +35,7 @@ static void both_make(struct both *b, const struct partners *k)
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
         material_compute_derived_constants(&c->material[m], k->plan.space);
-        b->modulus[m] = state_modulus_of_material(&c->material[m], k->plan.space, k->model == PD_MOSPD);
+        b->modulus[m] = state_based_moduli_of_material(&c->material[m], k->plan.space, k->model == PD_MOSPD);
     }
     c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
 }
@@ -62,7 +62,7 @@ static void forces(struct both *b, enum pd_model model)
 {
     struct particle_cloud *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
-    bonded_points_strain_from_stress(&b->s.partial, &c->p, c->material);
+    bonded_points_compute_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -204,7 +204,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     cloud_strain(c, strain);
     stress_set(c, strain);
     const real before = energy_of(&b, model), particle = before / (real)c->p.n;
-    convert_particles_at_precracks(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
+    convert_to_peridynamic_at_precracks(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
     forces(&b, model);
@@ -263,9 +263,9 @@ static void test_response(void **state)
             tried++;
         }
     assert_int_equal(tried, 1);
-    is_near("half", particle_half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
+    is_near("half", particle_cell_half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
     c->p.volume0[3] *= 4;
-    is_near("half", particle_half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
+    is_near("half", particle_cell_half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
     particle_cloud_free(c);
 }
 

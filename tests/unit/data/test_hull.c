@@ -73,7 +73,8 @@ static void ball_and_torus(void **state)
             const real distance = hull_distance(&s, X, normal);
             assert_true(fabs(distance - exact) < 0.003);
             const real most[] = {0, 0.4, -0.4, distance, nextafter(distance, -9)};
-            for (int t = 0; t < 5; t++) assert_true(hull_is_within(&s, X, most[t]) == (distance <= most[t]));
+            for (int t = 0; t < 5; t++)
+                assert_true(hull_point_is_within_distance(&s, X, most[t]) == (distance <= most[t]));
             assert_true(fabs(dot(normal, normal, 3) - 1) < 1e-12);
             const real along =
                 torus ? (X[0] * normal[0] + X[1] * normal[1]) / out * (out - 2) + X[2] * normal[2] : dot(X, normal, 3);
@@ -103,7 +104,7 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_ambiguous_fraction(&s) < 0.01);
+    assert_true(hull_ambiguous_inside_fraction(&s) < 0.01);
     assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
@@ -111,7 +112,7 @@ static void turned_and_open(void **state)
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_ambiguous_fraction(&s) > 0.1);
+    assert_true(hull_ambiguous_inside_fraction(&s) > 0.1);
     hull_free(&s);
 }
 
@@ -172,8 +173,10 @@ static void open_ones(void **state)
     assert_true(fabs(hull_distance(&s, (real[]){0.5, 0, 2}, NULL) - 2) < 1e-12);
     assert_true(fabs(hull_distance(&s, (real[]){0, 5, -1}, NULL) - 1) < 1e-12);
     assert_true(hull_distance(&s, (real[]){0, 5, 0}, NULL) == 0);
-    assert_true(hull_is_within(&s, (real[]){0, 5, 0}, 0) && hull_is_within(&s, (real[]){0, 5, 1}, 1));
-    assert_false(hull_is_within(&s, (real[]){0, 5, 1}, 0.999) || hull_is_within(&s, (real[]){0, 5, 0}, -1));
+    assert_true(hull_point_is_within_distance(&s, (real[]){0, 5, 0}, 0) &&
+                hull_point_is_within_distance(&s, (real[]){0, 5, 1}, 1));
+    assert_false(hull_point_is_within_distance(&s, (real[]){0, 5, 1}, 0.999) ||
+                 hull_point_is_within_distance(&s, (real[]){0, 5, 0}, -1));
     hull_free(&s);
 }
 

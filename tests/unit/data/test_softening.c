@@ -11,7 +11,7 @@ static void test_curves(void **state)
     (void)state;
     const real area[] = {0.5, 5.0 / 18, 1.0 / 5 - exp(-5) / (1 - exp(-5))}, within[] = {1e-15, 1e-15, 8e-3};
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
-        const struct softening_curve c = softening_curve_of(law);
+        const struct softening_curve c = softening_curve_of_law(law);
         real sum = 0;
         assert_near(c.area, area[law], within[law]);
         assert_near(softening_curve_value(&c, 0), 1, 1e-15);
@@ -21,7 +21,7 @@ static void test_curves(void **state)
         for (int k = 0; k <= 1000 && law == SOFTENING_EXPONENTIAL; k++)
             assert_near(softening_curve_value(&c, 1e-3 * k), (exp(-5e-3 * k) - exp(-5)) / (1 - exp(-5)), 8e-3);
     }
-    const struct softening_curve concrete = softening_curve_of(SOFTENING_BILINEAR);
+    const struct softening_curve concrete = softening_curve_of_law(SOFTENING_BILINEAR);
     assert_near(softening_curve_value(&concrete, 2.0 / 9), 1.0 / 3, 1e-15);
 }
 
@@ -31,16 +31,16 @@ static void test_energy(void **state)
     (void)state;
     const real onset = 1.3e-4, critical = 2.9e-4;
     for (enum softening law = SOFTENING_LINEAR; law <= SOFTENING_EXPONENTIAL; law++) {
-        const struct softening_curve c = softening_curve_of(law);
+        const struct softening_curve c = softening_curve_of_law(law);
         const real end = softening_end_stretch(&c, onset, critical);
-        assert_close(softening_dissipated_energy(&c, onset, end, end), 0.5 * critical * critical, 1e-13);
-        assert_close(softening_dissipated_energy(&c, onset, end, 7 * end), 0.5 * critical * critical, 1e-13);
-        assert_near(softening_dissipated_energy(&c, onset, end, onset), 0, 1e-25);
+        assert_close(softening_normalised_dissipated_energy(&c, onset, end, end), 0.5 * critical * critical, 1e-13);
+        assert_close(softening_normalised_dissipated_energy(&c, onset, end, 7 * end), 0.5 * critical * critical, 1e-13);
+        assert_near(softening_normalised_dissipated_energy(&c, onset, end, onset), 0, 1e-25);
         if (law != SOFTENING_LINEAR) continue;
         assert_close(end, critical * critical / onset, 1e-14);
         for (real k = onset; k < end; k += 1e-5)
-            assert_near(softening_dissipated_energy(&c, onset, end, k), 0.5 * onset * end * (k - onset) / (end - onset),
-                        1e-22);
+            assert_near(softening_normalised_dissipated_energy(&c, onset, end, k),
+                        0.5 * onset * end * (k - onset) / (end - onset), 1e-22);
     }
 }
 
@@ -52,16 +52,16 @@ static void test_strength(void **state)
     (void)state;
     const real kappa[] = {1.2, 2, 4, 10, 20};
     const real plane[] = {1.003, 1.035, 1.096, 1.183, 1.242}, solid[] = {1.038, 1.143, 1.281, 1.445, 1.552};
-    const struct softening_curve c = softening_curve_of(SOFTENING_LINEAR);
+    const struct softening_curve c = softening_curve_of_law(SOFTENING_LINEAR);
     for (size_t k = 0; k < COUNT_OF(kappa); k++) {
-        const struct softening_strength flat = softening_curve_strength(&c, SPACE_PLANE_STRESS, kappa[k]);
+        const struct softening_strength flat = softening_curve_normalised_strengths(&c, SPACE_PLANE_STRESS, kappa[k]);
         assert_near(flat.tension, plane[k], 1.5e-3);
         assert_near(flat.biaxial, 1.5, 1e-9);
-        assert_near(softening_curve_strength(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
-        assert_near(softening_curve_strength(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
+        assert_near(softening_curve_normalised_strengths(&c, SPACE_SOLID, kappa[k]).tension, solid[k], 1.5e-3);
+        assert_near(softening_curve_normalised_strengths(&c, SPACE_LINE, kappa[k]).tension, 1, 1e-12);
     }
-    assert_near(softening_curve_strength(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
-    assert_near(softening_curve_strength(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
+    assert_near(softening_curve_normalised_strengths(&c, SPACE_PLANE_STRAIN, 1).shear, 0.75, 1e-3);
+    assert_near(softening_curve_normalised_strengths(&c, SPACE_PLANE_STRESS, 4).shear, 0.864, 1.5e-3);
 }
 
 /* The onset gives the strength: E' s_0 tension(s_c^2/s_0^2) = strength. It is beyond the critical stretch where the
@@ -74,12 +74,12 @@ static void test_onset(void **state)
         struct material m = {.young = 70e9, .density = 2440, .critical_stretch = 1e-3, .tensile_strength = 40e6};
         m.poisson = k == 0 ? 0 : bond_based_poisson_ratio(spaces[k]);
         const real modulus = k == 2 ? 70e9 / (1 - 1.0 / 16) : 70e9,
-                   onset = softening_onset_from_strength(&m, spaces[k]);
-        const struct softening_curve c = softening_curve_of(m.softening);
-        const real tension = softening_curve_strength(&c, spaces[k], square(1e-3 / onset)).tension;
+                   onset = softening_onset_stretch_from_strength(&m, spaces[k]);
+        const struct softening_curve c = softening_curve_of_law(m.softening);
+        const real tension = softening_curve_normalised_strengths(&c, spaces[k], square(1e-3 / onset)).tension;
         assert_close(modulus * onset * tension, 40e6, 1e-6);
         m.tensile_strength = 80e6;
-        assert_true(softening_onset_from_strength(&m, spaces[k]) > m.critical_stretch);
+        assert_true(softening_onset_stretch_from_strength(&m, spaces[k]) > m.critical_stretch);
     }
 }
 

@@ -27,7 +27,7 @@ static void takes_what_it_says(const char *space, const char *box, const char *p
     if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
     if (engine_run(&e) != OK) fail_msg("%s", status_message());
-    *taken = (double)memory_peak();
+    *taken = (double)memory_peak_resident_size();
     const double said = run_estimate_memory(&s, &e.part, &e.source);
     print_message("%.5s, %s: said %.0f MB, with what was there before at most %.0f MB\n", space, particles, 1e-6 * said,
                   1e-6 * *taken);

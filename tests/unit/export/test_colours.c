@@ -93,7 +93,7 @@ static int colours_of(const struct points *s)
     struct touched t = touched_of(s);
     int32_t *colour = NEW("test", t.n, int32_t);
     const int n = particle_colours_assign(colour, &t);
-    uint8_t *pair = particle_colours_pair_states(colour, n, &t);
+    uint8_t *pair = particle_colours_find_bonded_pairs(colour, n, &t);
     assert_non_null(pair);
     for (int64_t k = 0; k < t.n; k++)
         for (int64_t m = 0; m < t.n; m++) {
@@ -104,7 +104,7 @@ static int colours_of(const struct points *s)
         }
     memory_free(pair);
     memory_free(colour);
-    touched_free(&t);
+    touched_particles_free(&t);
     return n;
 }
 
@@ -149,13 +149,13 @@ static void both_kinds_are_found(void **state)
     uint64_t key[] = {5, 5, 6};
     const struct touched t = {3, particle, first, near, cut, key};
     (void)state;
-    assert_null(particle_colours_pair_states(colour, 2, &t));
-    pair = particle_colours_pair_states(own, 3, &t);
+    assert_null(particle_colours_find_bonded_pairs(colour, 2, &t));
+    pair = particle_colours_find_bonded_pairs(own, 3, &t);
     assert_non_null(pair);
     memory_free(pair);
     int32_t made[3];
     const int n = particle_colours_assign(made, &t);
-    pair = particle_colours_pair_states(made, n, &t);
+    pair = particle_colours_find_bonded_pairs(made, n, &t);
     assert_non_null(pair);
     memory_free(pair);
 }

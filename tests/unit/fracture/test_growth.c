@@ -120,7 +120,7 @@ static void check_weights(struct stage *s, real damping, real exponent, int64_t 
     const real advance = SPEED * STEP;
     for (int64_t row = 0; row < b->rows; row++)
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            const int64_t q = bond_writable_index(b, row / LANES, k, (int)(row % LANES));
+            const int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
             real X[DIM_MAX], Y[DIM_MAX];
             particle_reference_position(&s->c.p, b->particle[row], X);
             particle_reference_position(&s->c.p, b->nbr[q], Y);
@@ -325,7 +325,7 @@ static real follow(struct stage *s, real (*still)(real t), real delay, real end)
     for (real t = 0; t < end; t += STEP / 4) {
         seen = delay > 0 ? seen - (s->g.speed - seen) * expm1(-0.25 * STEP / delay) : s->g.speed;
         s->K.time = t;
-        s->K.factors.K[MODE_I] = crack_speed_sif_factor(&s->K.medium, SPEED_EXACT, seen) * still(t);
+        s->K.factors.K[MODE_I] = crack_sif_ratio_at_speed(&s->K.medium, SPEED_EXACT, seen) * still(t);
         growing_crack_advance(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
         fastest = real_max(fastest, s->g.speed);
     }
@@ -363,9 +363,8 @@ static void test_follows(void **state)
         struct stage s;
         stage_follow(&s);
         const struct crack_medium *m = &s.K.medium;
-        const real settling = HORIZON / m->rayleigh,
-                   wanted = crack_speed_from_sif_factor(m, 1 / 1.4, 0.9 * m->rayleigh);
-        assert_close(crack_speed_sif_factor(m, SPEED_EXACT, wanted), 1 / 1.4, 1e-12);
+        const real settling = HORIZON / m->rayleigh, wanted = crack_speed_from_sif_ratio(m, 1 / 1.4, 0.9 * m->rayleigh);
+        assert_close(crack_sif_ratio_at_speed(m, SPEED_EXACT, wanted), 1 / 1.4, 1e-12);
         assert_true(wanted > 0.2 * m->rayleigh && wanted < 0.5 * m->rayleigh);
         const real most = follow(&s, steady, lag * settling, 16 * settling);
         assert_close(s.g.speed, wanted, lag < 2 ? 1e-3 : 0.05);
@@ -395,8 +394,8 @@ static void test_follows_and_rests(void **state)
     stage_free(&s), stage_follow(&s);
     follow(&s, rising, settling, 14e-6);
     assert_near(s.g.start_time, 10e-6, 2 * STEP);
-    const real now = crack_speed_from_sif_factor(&m, sqrt(10.0 / 14), m.rayleigh * 0.9);
-    const real before = crack_speed_from_sif_factor(&m, sqrt(10e-6 / (14e-6 - 0.6 * settling)), m.rayleigh * 0.9);
+    const real now = crack_speed_from_sif_ratio(&m, sqrt(10.0 / 14), m.rayleigh * 0.9);
+    const real before = crack_speed_from_sif_ratio(&m, sqrt(10e-6 / (14e-6 - 0.6 * settling)), m.rayleigh * 0.9);
     assert_true(s.g.speed < now && s.g.speed > before);
     stage_free(&s);
 }

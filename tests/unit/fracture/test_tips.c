@@ -15,7 +15,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     assert_near(t.tip[0].along[1], 0, 0);
     assert_int_equal(t.label[particle_at(&b, 3.5, 10.5, 0)], 255);
     assert_null(tips_longest(&t));
-    assert_true(isnan(tip_angle(&t.tip[0], 2)));
+    assert_true(isnan(tip_deflection_angle(&t.tip[0], 2)));
     tips_free(&t);
 
     /* Both ends inside: two tips; a second segment that continues the first removes their common end. */
@@ -72,7 +72,7 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     assert_near(tip->arrest_time, 10 * dt, 1e-15);
     assert_near(tip->speed_max, 500, 1e-9); /* slopes of exact lines: round-off times 500/dt */
     assert_near(tip->speed_mean, 500, 1e-9);
-    assert_near(tip_angle(tip, 2), 0, 1e-5); /* acos near 1 halves the digits */
+    assert_near(tip_deflection_angle(tip, 2), 0, 1e-5); /* acos near 1 halves the digits */
     notched_free(&b, &t);
 }
 
@@ -104,7 +104,7 @@ static void tip_turns(void **state)
     hurt(&b, 10.5, 11.5, 0), hurt(&b, 11.5, 12.5, 0), hurt(&b, 12.5, 13.5, 0);
     tips_update(&t, &b.p, &b.c, 0);
     assert_int_equal(t.n, 1);
-    assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
+    assert_near(tip_deflection_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
     /* A mirror image about y = 10.5: the tip is on the upper of both branches; then on the longer one. */
     assert_int_equal(tips_count_longest_ends(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
@@ -284,7 +284,7 @@ static void tip_of_a_front(void **state)
     tips_update(&t, &b.p, &b.c, 0);
     assert_int_equal(t.n, 1);
     assert_near(t.tip[0].growth, hypot(3.5, 0.5), 1e-12);
-    assert_near(tip_angle(&t.tip[0], 3), atan2(0.5, 3.5) * 180 / M_PI, 1e-9);
+    assert_near(tip_deflection_angle(&t.tip[0], 3), atan2(0.5, 3.5) * 180 / M_PI, 1e-9);
     notched_free(&b, &t);
 }
 

@@ -88,7 +88,7 @@ static void check_values(const char *name, int dim, int pages, int bits)
     struct voxels v;
     char path[32], *const paths[] = {path};
     snprintf(path, sizeof path, "%s", name);
-    assert_ok(image_read(&v, 1, paths, dim, size, from));
+    assert_ok(image_read_voxels(&v, 1, paths, dim, size, from));
     assert_int_equal(v.n[0], WIDE), assert_int_equal(v.n[1], HIGH), assert_int_equal(v.n[2], pages);
     for (int p = 0; p < pages; p++)
         for (int j = 0; j < HIGH; j++)
@@ -240,7 +240,7 @@ static void samples_refused(void **state)
         a.samples = 1, a.planar = PLANARCONFIG_CONTIG;
         if (a.orientation == 0) a.orientation = ORIENTATION_TOPLEFT;
         write_layout(name, &a);
-        assert_refused(image_read(&v, 1, paths, 2, size, from), bad[k].message);
+        assert_refused(image_read_voxels(&v, 1, paths, 2, size, from), bad[k].message);
     }
 }
 
@@ -251,10 +251,10 @@ static void a_stack_of_files(void **state)
     struct voxels v;
     char one[] = "a.png", two[] = "b.tif", *const paths[] = {one, two, one};
     write_png(one, PNG_COLOR_TYPE_GRAY, 8);
-    assert_ok(image_read(&v, 3, paths, 3, size, from));
+    assert_ok(image_read_voxels(&v, 3, paths, 3, size, from));
     assert_int_equal(v.n[2], 3);
     voxels_free(&v);
-    assert_refused(image_read(&v, 2, paths, 2, size, from), "in plane spaces a single image is expected");
+    assert_refused(image_read_voxels(&v, 2, paths, 2, size, from), "in plane spaces a single image is expected");
 }
 
 static void write_bytes(const char *name, const void *bytes, size_t n)
@@ -277,7 +277,7 @@ static void refused(const unsigned char *bytes, size_t n, const char *message)
     struct voxels v;
     char name[] = "bad.png", *const paths[] = {name};
     write_bytes(name, bytes, n);
-    assert_refused(image_read(&v, 1, paths, 2, size, from), message);
+    assert_refused(image_read_voxels(&v, 1, paths, 2, size, from), message);
 }
 
 static void bad_images(void **state)
@@ -349,7 +349,7 @@ static void damaged(void **state)
             if (round % 5 == 0) length = 1 + (seed >> 35) % n;
             write_bytes(bad, copy, length);
             struct voxels v;
-            if (image_read(&v, 1, paths, 2 + round % 2, size, from) == OK) voxels_free(&v);
+            if (image_read_voxels(&v, 1, paths, 2 + round % 2, size, from) == OK) voxels_free(&v);
         }
     }
 }

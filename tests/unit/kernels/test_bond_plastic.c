@@ -16,7 +16,7 @@ static real pulled(struct particle_cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
     bond_force_table[1][PD_BOND_PLASTIC](&c->bonds, &c->p, &c->source.limit, NULL);
-    int64_t q = bond_writable_index(&c->bonds, 0, 0, 0);
+    int64_t q = bond_index_for_writing(&c->bonds, 0, 0, 0);
     assert_exact(c->p.f[0][0], -c->p.f[0][1]);
     return c->p.f[0][0] / (c->bonds.stiffness * c->bonds.w[q]);
 }
@@ -76,7 +76,7 @@ static void test_work(void **state)
     struct particle_cloud c;
     real work = 0, before = 0;
     pair_make(&c);
-    int64_t q = bond_writable_index(&c.bonds, 0, 0, 0);
+    int64_t q = bond_index_for_writing(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q];
     enum { STEPS = 10000 };
     for (size_t k = 1; k < COUNT_OF(corner); k++)
@@ -97,7 +97,7 @@ static void test_broken(void **state)
     (void)state;
     struct particle_cloud c;
     pair_make(&c);
-    const int64_t q = bond_writable_index(&c.bonds, 0, 0, 0);
+    const int64_t q = bond_index_for_writing(&c.bonds, 0, 0, 0);
     const real scale = c.bonds.stiffness * c.bonds.w[q] / c.bonds.inverse_length[q], path = 2 * YIELD / (1 + HARDENING);
     pulled(&c, 3 * YIELD);
     const real work = scale * path * (YIELD + 0.5 * HARDENING * path);

@@ -26,11 +26,12 @@ static void body_make(struct surface_body *s, enum space space, real shake, int 
     omp_set_num_threads(2);
     particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {11, 9, 7}, .horizon = 2.5, .shake = shake, .seed = 4});
-    s->curve = softening_curve_of(SOFTENING_LINEAR);
+    s->curve = softening_curve_of_law(SOFTENING_LINEAR);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct material *k = &s->c.material[m];
         k->tensile_strength = 0.4 * CRITICAL * k->young;
-        material_set_surface(k, space, surface_of_compression(k->tensile_strength, 10 * k->tensile_strength));
+        material_set_strength_surface(k, space,
+                                      strength_surface_from_compression(k->tensile_strength, 10 * k->tensile_strength));
         k->surface_means = means;
     }
     cloud_source(&s->c);
@@ -86,9 +87,9 @@ static void test_uniform(void **state)
                 symmetric_component_axes(dim, c, &a, &b);
                 stress[c] = 2 * m->shear * strain[a][b] + (a == b ? m->c12 * trace : 0);
             }
-            const real expected = material_stress_share(m, spaces[k], stress);
+            const real expected = material_stress_to_strength_ratio(m, spaces[k], stress);
             strain_and_turn(&s, strain, 1.1);
-            bonds_surface_shares(&s.c.bonds, p, &s.c.source, share);
+            bonds_compute_stress_to_strength_ratios(&s.c.bonds, p, &s.c.source, share);
             for (int64_t i = 0; i < p->n; i++) assert_close(share[i], expected, 1e-9);
             assert_true(expected > 0.1);
             memory_free(share);
@@ -153,11 +154,11 @@ static void test_means(void **state)
         }
         for (int64_t i = 0; i < p->n; i++) plain_strain(&s, i, strain[i]);
         for (int k = 0; k < means; k++) plain_mean(&s, strain);
-        bonds_surface_shares(&s.c.bonds, p, &s.c.source, share);
+        bonds_compute_stress_to_strength_ratios(&s.c.bonds, p, &s.c.source, share);
         for (int64_t i = 0; i < p->n; i++) {
             const real stress[] = {m->c11 * strain[i][0] + m->c12 * strain[i][1],
                                    m->c11 * strain[i][1] + m->c12 * strain[i][0], 2 * m->shear * strain[i][2]};
-            const real expected = material_stress_share(m, SPACE_PLANE_STRESS, stress);
+            const real expected = material_stress_to_strength_ratio(m, SPACE_PLANE_STRESS, stress);
             least = real_min(least, expected), most = real_max(most, expected);
             assert_near(share[i], expected, 1e-3);
         }
@@ -194,20 +195,20 @@ static void test_start(void **state)
         const real unit = 1e-4;
 #define STRAIN(F) ((const real[DIM_MAX][DIM_MAX]){{(F)*states[k][0]}, {0, (F)*states[k][1]}})
         cloud_strain(&s.c, STRAIN(unit));
-        bonds_surface_shares(b, p, &s.c.source, share);
+        bonds_compute_stress_to_strength_ratios(b, p, &s.c.source, share);
         const real at = unit / share[0];
         assert_true(at < CRITICAL / sqrt(2));
         for (real part = 0.5; part < 1; part += 0.07) {
             cloud_strain(&s.c, STRAIN(part * at));
             soft_forces(&s);
-            bonds_start_by_surface(b, p, &s.c.source);
+            bonds_start_softening_at_strength_surface(b, p, &s.c.source);
             assert_exact(started(b), 0);
         }
         cloud_strain(&s.c, STRAIN(1.001 * at));
         soft_forces(&s);
         real *before = NEW("test.force", p->n, real);
         for (int64_t i = 0; i < p->n; i++) before[i] = p->f[0][i];
-        bonds_start_by_surface(b, p, &s.c.source);
+        bonds_start_softening_at_strength_surface(b, p, &s.c.source);
         assert_exact(started(b), 1);
         assert_exact(bonds_fracture_energy(b), 0);
         soft_forces(&s);
@@ -238,7 +239,7 @@ static void test_ends(void **state)
         for (int64_t i = 0; i < p->n; i++) /* strains grow with x */
             p->x[0][i] = p->X[0][i] + (1 + step) * 4.5e-5 * square(p->X[0][i]) / (2 * CLOUD_SPACING);
         soft_forces(&s);
-        bonds_start_by_surface(b, p, &s.c.source);
+        bonds_start_softening_at_strength_surface(b, p, &s.c.source);
         struct bonds old = *b;
         bonds_make(b, &old, p, &s.c.source);
         bonds_free(&old);
@@ -280,12 +281,12 @@ static void test_scatter(void **state)
     bonds_make(b, NULL, p, &s.c.source);
     bonds_free(&old);
     cloud_strain(&s.c, (const real[DIM_MAX][DIM_MAX]){{1e-4}});
-    bonds_surface_shares(b, p, &s.c.source, share);
+    bonds_compute_stress_to_strength_ratios(b, p, &s.c.source, share);
     const real at = 1e-4 / share[0];
     for (int k = 0; k < 2; k++) {
         cloud_strain(&s.c, (const real[DIM_MAX][DIM_MAX]){{(k == 0 ? 0.79 : 0.81) * at}});
         soft_forces(&s);
-        bonds_start_by_surface(b, p, &s.c.source);
+        bonds_start_softening_at_strength_surface(b, p, &s.c.source);
         for (int64_t i = 0; i < p->n; i++) {
             int64_t begun = 0, bonds = 0;
             for (struct bond_iterator it = bond_iterator_of_row(b, b->row_of[i]); bond_next(&it); bonds++)
@@ -306,16 +307,16 @@ static void test_unstretched(void **state)
     body_make(&s, SPACE_SOLID, 0, 1, false);
     struct bonds *b = &s.c.bonds;
     for (int m = 0; m < CLOUD_MATERIALS; m++)
-        material_set_surface(
+        material_set_strength_surface(
             &s.c.material[m], SPACE_SOLID,
-            surface_of_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength));
+            strength_surface_from_compression(s.c.material[m].tensile_strength, s.c.material[m].tensile_strength));
     struct bonds old = *b;
     bonds_make(b, NULL, &s.c.p, &s.c.source);
     bonds_free(&old);
     for (real strain = -4e-4; strain > -8e-4; strain -= 3e-4) { /* sqrt(J2) = 2 G strain/sqrt(3): at -0.5e-3 */
         cloud_strain(&s.c, (const real[DIM_MAX][DIM_MAX]){{strain}});
         soft_forces(&s);
-        bonds_start_by_surface(b, &s.c.p, &s.c.source);
+        bonds_start_softening_at_strength_surface(b, &s.c.p, &s.c.source);
         assert_exact(started(b), strain < -5e-4 ? 1 : 0);
     }
     particle_cloud_free(&s.c);

@@ -185,7 +185,7 @@ static void site_map_make(struct particle_cloud *c, int dim, bool state)
                                                 .horizon = dim == 3 ? 2.015 : 3.015,
                                                 .surface = SURFACE_VOLUME});
     static struct state_modulus modulus;
-    modulus = state_modulus_of_material(&c->material[0], space_of[dim], true);
+    modulus = state_based_moduli_of_material(&c->material[0], space_of[dim], true);
     if (state) c->source.modulus = &modulus, c->source.rotates = true, c->source.local = true;
     for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c->limit[m] = 0.02;
     cloud_bonds(c);
@@ -193,7 +193,7 @@ static void site_map_make(struct particle_cloud *c, int dim, bool state)
         for (int64_t i = 0; i < c->p.n; i++)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
     struct bonds *b = &c->bonds;
-    const int64_t row = b->row_of[c->p.n / 2], q = bond_writable_index(b, row / LANES, 2, (int)(row % LANES));
+    const int64_t row = b->row_of[c->p.n / 2], q = bond_index_for_writing(b, row / LANES, 2, (int)(row % LANES));
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 

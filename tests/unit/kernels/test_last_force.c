@@ -20,7 +20,7 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c.limit[k] = LIMIT;
     cloud_bonds(&c);
     struct particles *p = &c.p;
-    const real stiffness = c.bonds.stiffness * c.bonds.w[bond_writable_index(&c.bonds, 0, 0, 0)] / CLOUD_SPACING;
+    const real stiffness = c.bonds.stiffness * c.bonds.w[bond_index_for_writing(&c.bonds, 0, 0, 0)] / CLOUD_SPACING;
     const real omega = sqrt(2 * stiffness / p->mass[0]), dt = step * 2 / omega;
     const real speed = omega * LIMIT * CLOUD_SPACING / sqrt(0.75), start = (phase - 1) * dt;
     const struct bond_limit limit = {
@@ -81,7 +81,7 @@ static void burst_make(struct burst *b, int dim, enum pd_model model, bool local
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         if (model >= PD_OSPD)
             b->c.material[m].poisson = 0.2, material_compute_derived_constants(&b->c.material[m], space);
-        b->modulus[m] = state_modulus_of_material(&b->c.material[m], space, model == PD_MOSPD);
+        b->modulus[m] = state_based_moduli_of_material(&b->c.material[m], space, model == PD_MOSPD);
     }
     if (model >= PD_OSPD)
         b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = local;

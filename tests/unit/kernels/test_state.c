@@ -269,7 +269,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
-    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_expand_stencil(&b->c.bonds, g);
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_write_columns_from_stencil(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
              q++) {
@@ -277,7 +277,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             const real *X = b->c.p.X[0], *Y = b->c.p.X[1], line = 4.5 * CLOUD_SPACING;
             if (b->c.bonds.w[q] == 0 || (X[i] < line) == (X[j] < line) || Y[i] + Y[j] > 8 * CLOUD_SPACING) continue;
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
-            bond_changed_update_column(&b->c.bonds, g * LANES + q % LANES, q);
+            bond_column_update_after_bond_change(&b->c.bonds, g * LANES + q % LANES, q);
         }
     state_update_weighted_volumes(&b->c.bonds, &b->c.p, &b->c.source);
     uint64_t seed = 17;

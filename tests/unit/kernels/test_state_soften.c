@@ -33,7 +33,7 @@ static void body_make(struct state_body *a, const struct cloud_plan *plan, enum 
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = poisson;
         material_compute_derived_constants(&c->material[m], plan->space);
-        a->modulus[m] = state_modulus_of_material(&c->material[m], plan->space, model == PD_MOSPD);
+        a->modulus[m] = state_based_moduli_of_material(&c->material[m], plan->space, model == PD_MOSPD);
     }
     c->source.modulus = a->modulus, c->source.rotates = model == PD_MOSPD, c->source.local = plan->shake > 0;
     if (plan->shake == 0) cloud_exact(c);
@@ -211,7 +211,7 @@ static void test_strength(void **state)
     for (int k = 0; k < 4; k++) {
         struct state_body a;
         const enum space space = k % 2 ? SPACE_SOLID : SPACE_PLANE_STRESS;
-        const struct softening_curve curve = softening_curve_of(SOFTENING_LINEAR);
+        const struct softening_curve curve = softening_curve_of_law(SOFTENING_LINEAR);
         const struct cloud_plan plan = {
             .space = space, .count = {15, 15, k % 2 ? 15 : 0}, .horizon = 3.015, .shells = SHELLS_ISOTROPIC};
         body_make(&a, &plan, k < 2 ? PD_OSPD : PD_MOSPD, 0.22, SMALL, 2 * SMALL);
@@ -230,7 +230,8 @@ static void test_strength(void **state)
             }
             peak = real_max(peak, p->stress[0][middle]);
         }
-        assert_close(peak, m->young * SMALL * softening_model_strength(&curve, space, 4, &model).tension, 0.05);
+        assert_close(peak, m->young * SMALL * softening_model_normalised_strengths(&curve, space, 4, &model).tension,
+                     0.05);
         particle_cloud_free(&a.s.c);
     }
 }
@@ -248,7 +249,7 @@ static void test_separation(void **state)
                   k ? PD_MOSPD : PD_OSPD, 0.3, SMALL, 1.6 * SMALL);
         struct particles *p = &a.s.c.p;
         struct bonds *b = &a.s.c.bonds;
-        const struct softening_range range = softening_range_of(&a.s.curve, SMALL, 1.6 * SMALL);
+        const struct softening_range range = softening_range_from_onset(&a.s.curve, SMALL, 1.6 * SMALL);
         const real last = 9.2 * CLOUD_SPACING * range.end, area = CLOUD_SPACING * a.s.c.source.family.section;
         real work = 0, before = 0, spent = 0;
         for (int step = 1; step <= OPENINGS; step++) {

@@ -55,7 +55,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     }
     for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) b->c.limit[m] = 0.04;
     for (int m = 0; m < CLOUD_MATERIALS; m++)
-        b->modulus[m] = state_modulus_of_material(&b->c.material[m], space_of[dim], model == PD_MOSPD);
+        b->modulus[m] = state_based_moduli_of_material(&b->c.material[m], space_of[dim], model == PD_MOSPD);
     if (model >= PD_OSPD)
         b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = true;
     cloud_bonds(&b->c);

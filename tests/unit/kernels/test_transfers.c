@@ -327,9 +327,9 @@ static void conserved(const struct choice *k)
         s.smallest_mass = 1e-30; /* no node with any mass is at rest */
         for (int64_t I = 0; I < s.g.n && walls; I += 7)
             if (s.g.mass[I] > 0.1 * p->mass[0])
-                grid_add_wall(&s.g,
-                              &(struct wall){
-                                  .node = (int32_t)I, .component = (int16_t)(I % s.dim), .velocity = 250, .change = 3});
+                grid_add_prescribed_velocity(
+                    &s.g, &(struct wall){
+                              .node = (int32_t)I, .component = (int16_t)(I % s.dim), .velocity = 250, .change = 3});
         assert_int_equal(s.g.walls > 0, walls);
         scene_step(&s, k, impulse, &work);
         for (int64_t i = 0; i < p->n; i++)

@@ -55,7 +55,7 @@ static void test_kick(void **state)
         for (int d = 0; d < 2; d++) p->v[d][i] = sin((real)i + d), p->f[d][i] = 1e3 * cos(3 * (real)i + d);
     real *before = NEW("test.f", 2 * p->n, real);
     for (int d = 0; d < 2; d++) memcpy(before + d * p->n, p->f[d], (size_t)p->n * sizeof(real));
-    loads_complete_particle_forces(&l, p, dt, dt, dt);
+    loads_apply_to_particle_forces(&l, p, dt, dt, dt);
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             const bool on[2] = {p->X[0][i] > right - 1e-9, p->X[1][i] > top - 1e-9};

@@ -30,7 +30,7 @@ static void test_sine(void **state)
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
     loads_clear_forces(&l, p);
-    loads_complete_particle_forces(&l, p, 1 + 0.5 * dt, dt,
+    loads_apply_to_particle_forces(&l, p, 1 + 0.5 * dt, dt,
                                    dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
@@ -88,7 +88,7 @@ static void check_together(int threads, bool together, real *impulse, real *work
         assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
                              3 * CLOUD_SPACING, 0));
         if (k == 0) loads_clear_forces(&l, &c.p);
-        loads_complete_particle_forces(&l, &c.p, 1, dt, dt);
+        loads_apply_to_particle_forces(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
         loads_impose_prescribed_motion(&l, &c.p, 1, dt);
@@ -148,7 +148,7 @@ static void test_kicks(void **state)
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
             loads_clear_forces(&l, &c.p);
-            loads_complete_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+            loads_apply_to_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
         loads_free(&l);

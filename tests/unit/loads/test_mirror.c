@@ -230,7 +230,7 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
         for (int m = 0; m < CLOUD_MATERIALS; m++) {
             both[k]->material[m].poisson = 0.2;
             material_compute_derived_constants(&both[k]->material[m], space);
-            modulus[m] = state_modulus_of_material(&both[k]->material[m], space, model == PD_MOSPD);
+            modulus[m] = state_based_moduli_of_material(&both[k]->material[m], space, model == PD_MOSPD);
             both[k]->source.modulus = modulus, both[k]->source.rotates = model == PD_MOSPD;
             both[k]->source.mirror_axis = axis;
         }

@@ -75,7 +75,7 @@ static void test_whole_and_cut(void **state)
             struct partial_stress nothing; /* the same with every cell cut */
             partial_of(&nothing, &b.c.p, b.c.material, 0);
             b.source.partial = &nothing;
-            mesh_remove_converted(&b.mesh, &b.c.p, &b.source, NULL, 0);
+            mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, NULL, 0);
             assert_int_equal(b.mesh.runs, 0);
             forces(&b, finite % 2);
             for (int64_t I = 0; I < b.mesh.grid.n; I++)
@@ -158,12 +158,12 @@ static void test_partial(void **state)
                 changed[i % 2] = (int32_t)i;
         }
         b.source.partial = &partial;
-        mesh_remove_converted(&b.mesh, &b.c.p, &b.source, NULL, 0);
+        mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
         assert_true(dim > 1 ||
                     !mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cut cell less */
-        mesh_remove_converted(&b.mesh, &b.c.p, &b.source, changed, 2);
+        mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
         assert_true(mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 1));
         shake(&b, 0.2, 23);
@@ -284,7 +284,7 @@ static void test_release(void **state)
         for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
         mesh_points_move(&b.mesh, p);
         for (int64_t i = 0; i < p->n; i++) p->kind[i] = fresh.c.p.kind[i];
-        kinetic -= mesh_remove_converted(&b.mesh, p, &b.source, NULL, 0);
+        kinetic -= mesh_remove_points_and_return_lost_energy(&b.mesh, p, &b.source, NULL, 0);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
             after += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
             assert_exact(b.mesh.grid.mass[I], fresh.mesh.grid.mass[I]);

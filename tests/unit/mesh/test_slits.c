@@ -206,11 +206,11 @@ static void test_points(void **state)
         for (int64_t i = 0; i < p->n && n < 64; i++)
             if (p->X[0][i] - like.anchor[0] < 6 * CLOUD_SPACING && p->X[0][i] - like.anchor[0] > 3 * CLOUD_SPACING)
                 list[n++] = (int32_t)i, p->kind[i] = KIND_PD;
-        mesh_remove_converted(&b.mesh, p, &b.source, NULL, 0);
+        mesh_remove_points_and_return_lost_energy(&b.mesh, p, &b.source, NULL, 0);
         assert_close(total_mass(&b), point_mass(&b), 1e-13);
         for (int k = 0; k < n; k++) p->kind[list[k]] = KIND_MPM;
-        (void)mesh_insert_points(&b.mesh, p, list, n);
-        mesh_remove_converted(&b.mesh, p, &b.source, list, n);
+        (void)mesh_insert_points_and_return_lost_energy(&b.mesh, p, list, n);
+        mesh_remove_points_and_return_lost_energy(&b.mesh, p, &b.source, list, n);
         assert_close(total_mass(&b), mass, 1e-13);
         mesh_points_move(&b.mesh, p);
         for (int64_t i = 0; i < p->n; i++)

@@ -125,7 +125,7 @@ static void frames_in_one_file(void **state)
         output_discard_particle_order(&o);
         assert_int_equal(output_write_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
     }
-    assert_int_equal(output_write_temporal_file(&o, scene_text), OK);
+    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
     output_close(&o);
     assert_int_equal(stat("temporal/frames.vtkhdf", &file), 0);
     assert_true(file.st_size < 64 << 10);
@@ -164,7 +164,7 @@ static void frames_of_a_region(void **state)
     for (int64_t i = 0; i < p.n; i++) inside += region_contains(&region, (real[]){p.X[0][i], p.X[1][i]}, 2, 0);
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     for (int k = 0; k < 3; k++) assert_int_equal(output_frame_begin(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
-    assert_int_equal(output_write_temporal_file(&o, scene_text), OK);
+    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
     assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].entry[2].rows == inside);
     assert_int_equal(frame_read(&f, "regions/frames_half/000002.hdf"), OK);
     assert_true(f.n == inside && inside > 100 && inside < PARTICLES - 100 && f.t == 1);

@@ -225,7 +225,7 @@ static void indices_list_all_frames(void **state)
     open_fresh(&o, "indices", false);
     make_particles(&p, 2, 10);
     for (int k = 0; k < 40; k++) assert_int_equal(output_write_frame(&o, &p, k / 7.0, k, scene_text), OK);
-    assert_int_equal(frames_list("indices", &n, &list), OK);
+    assert_int_equal(run_list_frames("indices", &n, &list), OK);
     assert_int_equal(n, 40);
     /* 17 digits: the same double. */
     for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);
@@ -235,7 +235,7 @@ static void indices_list_all_frames(void **state)
     memory_free(text);
     particles_free(&p);
     output_close(&o);
-    assert_int_equal(frames_list("nowhere", &n, &list), FAILED);
+    assert_int_equal(run_list_frames("nowhere", &n, &list), FAILED);
 }
 
 static void same_state_gives_same_bytes(void **state)
@@ -310,7 +310,8 @@ static void older_run_is_replaced_unless_resumed(void **state)
     static const char *const made[] = {"frames/000000.hdf", "history.csv", "checkpoint.h5", "checkpoint.previous.h5"};
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_write_text(&o, made[k], "x", 1), OK);
     assert_int_equal(output_write_text(&o, "frames/000000.hdf.cleave.tmp", "x", 1), OK);
-    assert_int_equal(file_append_footer("again/frames/000000.hdf"), OK); /* by which a frame is known as Cleave's */
+    assert_int_equal(file_append_checksum_footer("again/frames/000000.hdf"),
+                     OK); /* by which a frame is known as Cleave's */
     assert_int_equal(file_replace_by_temporary("again/frames/000000.hdf"), OK);
     static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
     for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_write_text(&o, others[k], "mine", 4), OK);

@@ -274,7 +274,7 @@ static void complete_frames_are_read(void **state)
     assert_true(H5Ocopy(from.file, "/Cleave", to.file, "/Cleave", list, H5P_DEFAULT) >= 0);
     H5Pclose(list);
     hdf_close(&from), hdf_close(&to);
-    assert_int_equal(file_append_footer("complete.hdf"), OK);
+    assert_int_equal(file_append_checksum_footer("complete.hdf"), OK);
     assert_int_equal(file_replace_by_temporary("complete.hdf"), OK);
     assert_int_equal(frame_read(&f, "complete.hdf"), OK);
     assert_true(f.n == 500 && f.t == 0.5 && f.step == 7 && f.X[2][9] == (float)p.X[2][9]);
@@ -320,7 +320,7 @@ static void contact_where_it_is(void **state)
     assert_null(strstr(text, "000000.hdf:/VTKHDF/PointData/contact_force"));
     assert_non_null(strstr(text, "000001.hdf:/VTKHDF/PointData/contact_force"));
     memory_free(text);
-    assert_int_equal(output_write_temporal_file(&o, scene_text), OK);
+    assert_int_equal(output_write_vtkhdf_of_all_frames(&o, scene_text), OK);
     hdf_open(&h, "touch/frames.vtkhdf");
     hdf_read_rows(&h, "/VTKHDF/PointData/contact_force", HDF_F32, 3000, all);
     assert_false(h.failed);

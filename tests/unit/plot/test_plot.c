@@ -180,7 +180,7 @@ static void one_particle_sets_no_scale(void **state)
     const struct plot_field *field;
     assert_int_equal(plot_field_find(&field, "speed", 2), OK);
     plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
-    struct view v = view_around(&c, 1);
+    struct view v = view_make_around_particles(&c, 1);
     view_set_field(&v, field, &c, 1);
     assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
     assert_int_equal(v.outside, 1);
@@ -409,7 +409,7 @@ static void rigid_bodies_are_shown(void **state)
             .at = {.centre = {2e-3, 1e-3, 0}, .x = {8e-3, 0, 0}, .turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
         r->bounded = region_bounding_box(&shape, dim, r->low, r->high);
         c.dim = dim, c.rigids = 1, c.rigid = r;
-        assert_true(fabs(view_around(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
+        assert_true(fabs(view_make_around_particles(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
         const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1};
         raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < PIXELS * PIXELS; q++) {
@@ -443,14 +443,14 @@ static void colours_keep_their_order(void **state)
     (void)state;
     double before = -1;
     for (int k = 0; k <= 20; k++) {
-        const struct colour c = colour_sequential(k / 20.0);
+        const struct colour c = colour_on_sequential_scale(k / 20.0);
         const double light = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
         assert_true(light > before);
         before = light;
     }
     for (int k = 0; k < LEDGER_ROWS; k++)
         for (int m = 0; m < k; m++) assert_string_not_equal(ledger[k].colour, ledger[m].colour);
-    assert_int_equal(colour_diverging(0.5).red, colour_diverging(0.5).blue);
+    assert_int_equal(colour_on_diverging_scale(0.5).red, colour_on_diverging_scale(0.5).blue);
 }
 
 static void words_have_units(void **state)
@@ -462,7 +462,7 @@ static void words_have_units(void **state)
     assert_true(length_read(&value, "4mm", what, sizeof what) && value == 4e-3);
     assert_true(time_read(&value, "10us", what, sizeof what) && value == 10e-6);
     assert_false(time_read(&value, "10mm", what, sizeof what));
-    assert_string_equal(word_nearest("--slcie", names, 3), "--slice");
+    assert_string_equal(word_find_most_similar("--slcie", names, 3), "--slice");
 }
 
 int main(void)

@@ -302,12 +302,12 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
     for (int64_t row = 0; row < b->rows; row++) {
         int32_t i = b->particle[row];
         for (int64_t k = 0; k < b->column_count[row / LANES]; k++) {
-            int64_t q = bond_writable_index(b, row / LANES, k, (int)(row % LANES));
+            int64_t q = bond_index_for_writing(b, row / LANES, k, (int)(row % LANES));
             int32_t j = b->nbr[q];
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
             b->w[q] = 0;
-            bond_changed_update_column(b, row, q);
+            bond_column_update_after_bond_change(b, row, q);
             b->broken[row]++;
             p->flag[i] |= FLAG_LOST_BOND | FLAG_CRACKED;
         }

@@ -110,7 +110,7 @@ static void test_face_area(void **state)
         real ahead[2];
         snprintf(text, sizeof text, half, k ? 4.0 : 0.0, k ? 4.0 : 0.0);
         const struct sif_crack_tip *tip = solution_begin(&a, text);
-        sif_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        sif_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
         const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead),
                    whole = 2.3e-3 * 0.37e-3;
         if (!(fabs(area / (k ? whole : 0.5 * whole) - 1) < 1e-9)) fail_msg("crack %d: %g of its area", k, area / whole);
@@ -138,7 +138,7 @@ static void test_width(void **state)
         const real from = k ? 0 : -0.5, wide = k ? 4e-3 : 3.5e-3;
         snprintf(text, sizeof text, block, from, from + 4);
         const struct sif_crack_tip *tip = solution_begin(&a, text);
-        sif_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        sif_plane_compute_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
         const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead);
         if (!(fabs(area / (2.3e-3 * wide) - 1) < 1e-9)) fail_msg("from %g mm: %g m wide", from, area / 2.3e-3);
         solution_free(&a);
@@ -167,7 +167,7 @@ static void test_release_rate(void **state)
         real record[20];
         if (k > 0) led->path[led->segments++] = (struct path_segment){{{grown[k - 1]}, {grown[k]}}, 0};
         a.e.statics->balance.lost = released[k];
-        statics_write_record(&a.e, record);
+        statics_write_history_values(&a.e, record);
         assert_true(fabs(record[2] - released[k]) <= 1e-12 * released[k]);
         assert_true(fabs(record[3] - 0.37e-3 * grown[k]) <= 1e-12 * grown[k]);
         const int since = k > 2 ? k - 2 : 0;
@@ -196,7 +196,7 @@ static void test_rate_of_damage(void **state)
             if (p->X[0][i] > 7e-3 && p->X[0][i] < (7 + k) * 1e-3 && fabs(p->X[1][i] - 4e-3) < 0.6e-3)
                 p->damage[i] = 0.45;
         a.e.statics->balance.lost = released[k];
-        statics_write_record(&a.e, record);
+        statics_write_history_values(&a.e, record);
         const int since = k > 8 ? 4 : 0;
         const real rate = (released[k] - released[since]) / (0.37e-3 * 1e-3 * (k - since));
         if (!(fabs(record[3] / (0.37e-6 * k) - 1) < 1e-9)) fail_msg("%d spacings: %g m^2", k, record[3]);

@@ -19,7 +19,7 @@ static void body_make(struct soft_body *s, enum space space)
     particle_cloud_make(
         &s->c, &(struct cloud_plan){.space = space, .count = {7, 6, 5}, .horizon = 2.015, .shake = 0.2, .seed = 4});
     soft_bonds(s, space == SPACE_SOLID ? SOFTENING_BILINEAR : SOFTENING_LINEAR, ONSET, CRITICAL);
-    softening_settle(&s->c.bonds, &s->c.p, &s->c.source.limit);
+    softening_store_equilibrium_stretches(&s->c.bonds, &s->c.p, &s->c.source.limit);
 }
 
 /* Stretches the body by `strain` along x and moves its particles at random. */
@@ -36,14 +36,14 @@ static void follow(struct soft_body *s, struct softening_list *l)
 {
     bonds_open_beyond_onset(&s->c.bonds, &s->c.p, &s->c.source.limit);
     softening_list_make(l, &s->c.bonds, &s->c.p, 1);
-    softening_list_store(l, &s->c.bonds, 1);
+    softening_list_store_largest_stretches(l, &s->c.bonds, 1);
 }
 
 /* Returns the potential, the sum of phi over all bonds, at the present positions [J]. */
 static real potential(struct soft_body *s, struct softening_list *l)
 {
     softening_list_make(l, &s->c.bonds, &s->c.p, 1);
-    softening_list_store(l, &s->c.bonds, 1);
+    softening_list_store_largest_stretches(l, &s->c.bonds, 1);
     return bond_energy_table[s->c.p.dim][PD_BOND_SOFT](&s->c.bonds, &s->c.p) + bonds_fracture_energy(&s->c.bonds);
 }
 
@@ -66,7 +66,7 @@ static void test_gradient(void **state)
         struct particles *p = &s.c.p;
         body_move(&s.c, 11, 2e-3);
         follow(&s, &l);
-        softening_settle(&s.c.bonds, p, &s.c.source.limit);
+        softening_store_equilibrium_stretches(&s.c.bonds, p, &s.c.source.limit);
         body_move(&s.c, 12, 2e-3);
         follow(&s, &l);
         forces(&s);
@@ -111,12 +111,12 @@ static void test_factor(void **state)
     struct soft_body s;
     struct softening_list l = {0};
     body_soften(&s, &l);
-    const real whole = softening_list_spent(&l, 1), wanted = 0.3 * whole;
+    const real whole = softening_list_dissipated_energy(&l, 1), wanted = 0.3 * whole;
     assert_close(bonds_fracture_energy(&s.c.bonds), whole, 1e-6);
-    const real factor = softening_list_factor(&l, wanted, 1);
+    const real factor = softening_list_factor_for_energy(&l, wanted, 1);
     assert_true(factor > 0 && factor < 1);
-    assert_close(softening_list_spent(&l, factor), wanted, 1e-9);
-    softening_list_store(&l, &s.c.bonds, factor);
+    assert_close(softening_list_dissipated_energy(&l, factor), wanted, 1e-9);
+    softening_list_store_largest_stretches(&l, &s.c.bonds, factor);
     assert_close(bonds_fracture_energy(&s.c.bonds), wanted, 1e-5);
     memory_free(l.bond);
     particle_cloud_free(&s.c);
@@ -130,7 +130,7 @@ static void test_undo(void **state)
     struct soft_body s;
     struct softening_list l = {0};
     body_soften(&s, &l);
-    softening_settle(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    softening_store_equilibrium_stretches(&s.c.bonds, &s.c.p, &s.c.source.limit);
     const real spent = bonds_fracture_energy(&s.c.bonds);
     forces(&s);
     const real force = s.c.p.f[0][0];
@@ -139,7 +139,7 @@ static void test_undo(void **state)
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     follow(&s, &l);
     assert_true(bonds_fracture_energy(&s.c.bonds) > 1.1 * spent);
-    softening_undo(&s.c.bonds);
+    softening_restore_equilibrium_stretches(&s.c.bonds);
     assert_exact(bonds_fracture_energy(&s.c.bonds), spent);
     body_move(&s.c, 11, 2e-3);
     forces(&s);
@@ -157,7 +157,7 @@ static void test_end(void **state)
     memset(&s, 0, sizeof s);
     particle_cloud_make(&s.c, &(struct cloud_plan){.space = SPACE_LINE, .count = {2}, .horizon = 1});
     soft_bonds(&s, SOFTENING_LINEAR, ONSET, CRITICAL);
-    softening_settle(&s.c.bonds, &s.c.p, &s.c.source.limit);
+    softening_store_equilibrium_stretches(&s.c.bonds, &s.c.p, &s.c.source.limit);
     s.c.p.x[0][1] += 5 * ONSET * CLOUD_SPACING;
     follow(&s, &l);
     forces(&s);

@@ -135,7 +135,7 @@ static void test_surface_of_a_plane_afar(void **state)
         real low[] = {-2, -2, -2}, high[] = {2, 3, 2};
         struct rigid_surface s;
         int on_face = 0;
-        assert_false(rigid_box_shown(&region, 3, low, high));
+        assert_false(rigid_compute_shown_box(&region, 3, low, high));
         if (k > 0) assert_near(low[2], -2.4, 1e-12);
         assert_near(high[1], 3.4, 1e-12);
         rigid_surface_make(&s, &region, 3, low, high);
@@ -310,10 +310,10 @@ static void test_record(void **state)
         real record[24], kinetic = 0, kick = 0;
         int wanted = 0;
         rigid.dim = body[0].dim = body[1].dim = dim;
-        const int n = rigids_list_columns(&e, NULL);
-        assert_int_equal(rigids_list_columns(&e, column), n);
+        const int n = rigids_list_history_columns(&e, NULL);
+        assert_int_equal(rigids_list_history_columns(&e, column), n);
         rigids_store_motion_for_sample(&rigid, 0);
-        rigids_write_record(&e, record);
+        rigids_write_history_values(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};
             for (int d = 0; d < dim; d++) {

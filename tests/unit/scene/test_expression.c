@@ -125,7 +125,7 @@ static void texts_read_back(void **state)
         assert_string_equal(a.text, b.text);
         assert_int_equal(a.n, b.n);
         for (int i = 0; i < a.n; i++)
-            assert_true(a.step[i].op == b.step[i].op && bits_equal(a.step[i].value, b.step[i].value));
+            assert_true(a.step[i].op == b.step[i].op && reals_are_bitwise_equal(a.step[i].value, b.step[i].value));
         expression_free(&a);
         expression_free(&b);
     }
@@ -139,7 +139,7 @@ static void constants_are_folded(void **state)
     assert_true(e.n == 1 && !e.in_space && !e.in_time);
     expression_free(&e);
     assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK); /* a number as every key reads it */
-    assert_true(e.n == 1 && bits_equal(expression_evaluate(&e, NULL, 0, 0), 1e-3 / 3));
+    assert_true(e.n == 1 && reals_are_bitwise_equal(expression_evaluate(&e, NULL, 0, 0), 1e-3 / 3));
     expression_free(&e);
     assert_int_equal(compile(&e, "2*pi*x + 0*t*m/s", UNIT_LENGTH), OK);
     assert_true(e.in_space && e.in_time);
@@ -269,7 +269,7 @@ static void any_text_is_read_or_refused(void **state)
         read++;
         const real X[] = {1e-3, 2e-3, 3e-3}, value = expression_evaluate(&e, X, 3, 1e-6);
         if (compile(&again, e.text, unit) != OK) fail_msg("%s", status_message());
-        assert_true(bits_equal(value, expression_evaluate(&again, X, 3, 1e-6)) || isnan(value));
+        assert_true(reals_are_bitwise_equal(value, expression_evaluate(&again, X, 3, 1e-6)) || isnan(value));
         expression_free(&e);
         expression_free(&again);
     }

@@ -205,7 +205,7 @@ static void test_names(void **state)
     assert_int_equal(s.regions, 2);
     assert_string_equal(s.named[1].name, "both");
     assert_int_equal(s.probe->region.n, 1);
-    assert_true(solid_is_unmoved_of_kind(s.probe->region.solid, SOLID_BOX) && s.probe->region.solid->to[0] == 1);
+    assert_true(solid_is_of_kind_and_not_moved(s.probe->region.solid, SOLID_BOX) && s.probe->region.solid->to[0] == 1);
     assert_true(region_contains(&s.boundary->region, (real[]){9.5, 1, 0}, 2, 0));
     assert_false(region_contains(&s.boundary->region, (real[]){11, 1, 0}, 2, 0));
     assert_false(region_contains(&s.initial->region, (real[]){0.5, 1, 0}, 2, 0));

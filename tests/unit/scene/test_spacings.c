@@ -70,7 +70,7 @@ static void each_length_has_a_few_spacings(void **state)
         struct scene s;
         snprintf(text, sizeof text, PLANE "method: mpm\nbody: %s\n%s", scene[k].body, scene[k].more);
         read_sound(&s, text);
-        const double h = spacing_that_resolves(&s), across = 20e-3 / h;
+        const double h = spacing_that_resolves_all_lengths(&s), across = 20e-3 / h;
         assert_true(h > scene[k].least && h < scene[k].most);
         if (k != 1) assert_true(fabs(across - round(across)) < 1e-6 * across);
         scene_free(&s);
@@ -87,7 +87,7 @@ static void there_may_be_no_length(void **state)
     for (size_t k = 0; k < COUNT_OF(from); k++) {
         struct scene s;
         if (scene_read_text(&s, from[k], strlen(from[k]), "spacings.yaml", NULL, 0) != OK) continue;
-        assert_true(spacing_that_resolves(&s) == 0);
+        assert_true(spacing_that_resolves_all_lengths(&s) == 0);
         scene_free(&s);
     }
 }

@@ -36,7 +36,7 @@ static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
     }
     struct state_modulus modulus[CLOUD_MATERIALS];
     for (int m = 0; m < CLOUD_MATERIALS; m++)
-        modulus[m] = state_modulus_of_material(&c.material[m], plan.space, model == PD_MOSPD);
+        modulus[m] = state_based_moduli_of_material(&c.material[m], plan.space, model == PD_MOSPD);
     if (model >= PD_OSPD) c.source.modulus = modulus, c.source.rotates = model == PD_MOSPD, c.source.local = true;
     family_make(&c.source.family, plan.space, size * CLOUD_SPACING, plan.horizon, 1);
     cloud_bonds(&c);
