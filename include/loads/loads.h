@@ -233,9 +233,8 @@ typedef void pressure_face_fn(void *context, int32_t particle, int axis, int sid
 
 /* Calls visit(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
  * boundary[number] acts. boundary: all `boundaries` of the scene; spacing: lattice spacing [m]; selected: [p->n]. */
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int boundary_number,
-                          const struct particles *p, real spacing, const uint8_t *selected, pressure_face_fn *visit,
-                          void *context);
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
+                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context);
 
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that depend
@@ -247,8 +246,7 @@ status load_prepare_varying_shares(struct load *l, const struct particles *p);
 status loads_check_finite(const struct loads *l, const struct particles *p, real t);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
- * over the velocity update of duration dt_velocity [s] that ends at time t [s]. loads_add_applied_forces then uses
- * them. */
+ * over the velocity update of duration dt_velocity [s] that ends at time t [s], for loads_add_applied_forces. */
 void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean

@@ -52,6 +52,10 @@ struct reference_frame {
     real speed; /* largest component of a nodal velocity [m/s] */
 };
 
+/* Warns of planes of symmetry that do not fit the nodes of a grid or mesh, and of those that bodies in the reference
+ * frame do not reach. */
+void frame_warn_of_mirrors(const struct run *e, struct warnings *to);
+
 /* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
  * the background grid (current frame), and stores the choice with its reason in r->choice. Sets FLAG_MESHED of the
  * particles in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a

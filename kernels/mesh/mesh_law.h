@@ -266,8 +266,8 @@ static ALWAYS_INLINE void cell_compute_stress(const struct elastic *m, struct me
  * [Pa], which exceeds m->trigger where points convert by their strength surface. P: stress [Pa]; further_stress: bound
  * of each component of further stresses that are added to P [Pa]; their sqrt(J2) is at most 2.2 `further_stress`, their
  * I1 at most 3 `further_stress`. */
-static ALWAYS_INLINE lanes cell_strength_surface_bound(const struct elastic *m, const lanes P[3][3],
-                                                       lanes further_stress, const int dim)
+static ALWAYS_INLINE lanes cell_strength_bound(const struct elastic *m, const lanes P[3][3], lanes further_stress,
+                                               const int dim)
 {
     const lanes zz = dim == 3 ? P[2][2] : (m->space == SPACE_PLANE_STRAIN ? m->poisson : 0) * (P[0][0] + P[1][1]);
     const lanes a = P[0][0] - P[1][1], b = P[1][1] - zz, c = zz - P[0][0];
@@ -280,7 +280,7 @@ static ALWAYS_INLINE lanes cell_strength_surface_bound(const struct elastic *m, 
 
 /* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: the
  * largest normal stress of P, plus the magnitudes of all its shear stresses (Gershgorin), plus a bound on the stress of
- * the bending modes in s. With a strength surface the larger of this and of cell_strength_surface_bound is returned. P:
+ * the bending modes in s. With a strength surface the larger of this and of cell_strength_bound is returned. P:
  * stress of the mean strain [Pa]; m: elastic constants. */
 static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, const struct mesh_cell *s,
                                                        const lanes P[3][3], const int dim)
@@ -293,7 +293,7 @@ static ALWAYS_INLINE lanes cell_principal_stress_bound(const struct elastic *m, 
         for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
     const lanes bending = largest * ((m->c11 + m->shear) * 0.25);
     if (dim == 1 || !(m->surface.g0 > 0)) return bound + bending;
-    return lanes_max(bound + bending, cell_strength_surface_bound(m, P, bending, dim));
+    return lanes_max(bound + bending, cell_strength_bound(m, P, bending, dim));
 }
 
 /* Returns the elastic energy of each of eight cells [J], from strain, stress, bending modes and their forces in s.

@@ -363,7 +363,7 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
 }
 
 /* Returns for each of eight cells an upper bound of the principal stresses at its points [Pa], or, if larger, its
- * cell_strength_surface_bound. It is found point by point, closer than in mesh_force. m: elastic constants; s: strain
+ * cell_strength_bound. It is found point by point, closer than in mesh_force. m: elastic constants; s: strain
  * of the cells; there[q]: mask of cells that have point number q, NULL if all cells have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
@@ -378,8 +378,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < a; b++) bound += lanes_max(P[a][b], -P[a][b]);
-        if (dim > 1 && m->surface.g0 > 0)
-            bound = lanes_max(bound, cell_strength_surface_bound(m, P, lanes_broadcast(0), dim));
+        if (dim > 1 && m->surface.g0 > 0) bound = lanes_max(bound, cell_strength_bound(m, P, lanes_broadcast(0), dim));
         most = lanes_max(most, there ? lanes_choose(there[q], bound, most) : bound);
     }
     return most;

@@ -15,25 +15,9 @@ static void grid_free_all(struct run *e)
     memory_free(g->field), grid_contact_free(&g->contact);
 }
 
-/* Warns of mirrors that are neither on a node nor midway between two. Measured with inputs/bar_converge.yaml:
- * displacements are 11 to 24 % off if mirrors are 0.15 and 0.25 of a cell from a node, with 50 to 200 points per metre;
- * half the spacing reduces the error by at most a third. */
-static void warn_of_mirrors(const struct run *e, struct warnings *to)
-{
-    const struct scene *s = e->scene;
-    for (int b = 0; b < s->boundaries; b++)
-        if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
-            !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
-            warnings_add(to,
-                         "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
-                         "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
-                         s->boundary[b].name);
-}
-
 static status grid_state(struct run *e, struct archive *a)
 {
     return e->grid->fields > 1 ? grid_contact_save_or_load(&e->grid->contact, a) : OK;
 }
 
-const struct part part_grid = {PART(grid, grid_method), .free = grid_free_all, .state = grid_state,
-                               .warn = warn_of_mirrors};
+const struct part part_grid = {PART(grid, grid_method), .free = grid_free_all, .state = grid_state};

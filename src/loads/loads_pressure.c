@@ -46,11 +46,10 @@ static void end_found(void *context, int32_t i, real area)
     if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-void pressure_visit_faces(const struct boundary *boundary, int boundaries, int boundary_number,
-                          const struct particles *p, real spacing, const uint8_t *selected, pressure_face_fn *visit,
-                          void *context)
+void pressure_visit_faces(const struct boundary *boundary, int boundaries, int number, const struct particles *p,
+                          real spacing, const uint8_t *selected, pressure_face_fn *visit, void *context)
 {
-    struct boundary one = boundary[boundary_number];
+    struct boundary one = boundary[number];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
             struct ends e = {&one, boundary, boundaries, p, spacing, visit, context};

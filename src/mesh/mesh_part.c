@@ -34,4 +34,4 @@ static status frame_state(struct run *e, struct archive *a)
 }
 
 const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all, .summary = put_levels,
-                                .state = frame_state};
+                                .state = frame_state, .warn = frame_warn_of_mirrors};

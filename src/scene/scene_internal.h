@@ -357,8 +357,7 @@ status fault_missing_key(struct reader *r, const struct yaml_node *map, const st
 
 /* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
  * that was set last: by an override, else in the scene file. */
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *first_key,
-                            const struct yaml_node *second_key);
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
  * which arena_free releases. */

@@ -178,7 +178,7 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
 {
     char other[256];
     real length;
-    if (k->unit != UNIT_NONE || !strstr(k->help, "in spacings")) return;
+    if (k->unit != UNIT_NONE || !k->help || !strstr(k->help, "in spacings")) return;
     if (!number_evaluate_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
     if (!(r->scene->spacing > 0)) {
         snprintf(message, capacity, "is a length; this key takes a number of spacings");

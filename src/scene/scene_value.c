@@ -90,11 +90,10 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
     return status_set(REFUSED, "%s%s", place, what);
 }
 
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *first_key,
-                            const struct yaml_node *second_key)
+status fault_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
 {
-    const struct yaml_node *late = first_key->origin > second_key->origin ? first_key : second_key;
-    return fault(r, late, "given beside %s; keep one of the two", late == first_key ? second_key->key : first_key->key);
+    const struct yaml_node *late = one->origin > other->origin ? one : other;
+    return fault(r, late, "given beside %s; keep one of the two", late == one ? other->key : one->key);
 }
 
 /* Returns, for a message, what values key k expects. The text is static or in the reader's arena. */

@@ -133,6 +133,19 @@ static void say_flow_error(const struct particles *p, const struct scene *s, rea
     warnings_add_and_print(to, text);
 }
 
+/* Warns of the energy balance error of load steps in which points flow: the external work of a load step is the mean
+ * force times the displacement, and force grows less than in proportion where a point flows. Bars of Voce's law to a
+ * strain of 0.03: 9.5 % in 4 steps, 7.3 % in 5, 0.9 % in 20. error: relative error [1]. */
+static void say_work_error(real error, struct warnings *to)
+{
+    char text[320];
+    snprintf(text, sizeof text,
+             "%.2g %% of the energy %s (energy.balance_error %.2g): the work of loads in a load step is the mean force "
+             "times the displacement, which errs where much flows in one step; use more load steps (steps.number)",
+             100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error);
+    warnings_add_and_print(to, text);
+}
+
 void warn_of_unconserved_quantities(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
@@ -147,6 +160,10 @@ void warn_of_unconserved_quantities(struct run *e)
     if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
     if (!round_off) say_flow_error(&e->part, e->scene, e->clock.dt, error, &e->warnings);
     if (scene_is_single_equilibrium(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
+    if (scene_has_load_steps(e->scene) && e->part.plastic_strain) {
+        say_work_error(error, &e->warnings);
+        return;
+    }
     snprintf(
         text, sizeof text,
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "
