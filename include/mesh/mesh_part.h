@@ -68,7 +68,7 @@ bool reference_frame_in_use(const struct reference_frame *r);
 
 /* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
  * cells of the background grid. */
-bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
+bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
 /* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. source: partial

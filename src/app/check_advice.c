@@ -413,7 +413,7 @@ static void hint_frame(const struct run *e, struct warnings *to)
             if (scene_body_has_material(&e->scene->body[b], m))
                 strain = real_max(strain, reached / e->scene->material[m].young);
         if (e->frame->choice[b].reference || scene_why_reference_frame_not_auto(e->scene, b)) continue;
-        if (!reference_frame_is_possible(e->frame, &e->part, e->grid)) continue;
+        if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add(
             to,

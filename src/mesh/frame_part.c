@@ -157,10 +157,10 @@ status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, st
     return OK;
 }
 
-bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p,
+bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm)
 {
-    return mesh_count_connected_parts(p, &mpm->field[0].grid, &r->hollow) == 1;
+    return frame_obstacle(p, s, mpm, &r->hollow) == NULL;
 }
 
 bool reference_frame_in_use(const struct reference_frame *r)

@@ -91,10 +91,11 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
 static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_scale *s, double x, double y, int length)
 {
     const char *unit = bar_second_line(s, length);
+    const char *second = unit ? unit + 1 : "";
     const size_t first = unit ? (size_t)(unit - s->label) : strlen(s->label);
     for (int line = 0; line < (unit ? 2 : 1); line++)
         fprintf(to, "set label '%.*s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
-                line ? (int)strlen(unit + 1) : (int)first, line ? unit + 1 : s->label,
+                line ? (int)strlen(second) : (int)first, line ? second : s->label,
                 (x + letter_wide() * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
 }
 

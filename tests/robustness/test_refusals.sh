@@ -181,6 +181,8 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is no point of a curve
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|the first point is the yield stress
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains in ascending order
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [1 mm, 2 GPa]]}}|6:76|a plain number is expected
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[1 GPa, 0], [2 GPa, 0.1]]}}|6:64|a plain number is expected
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two

@@ -136,6 +136,36 @@ between "25 particles between mirrors" "$(figure "$work/odd25" probes.exact.L2_d
 between "51 particles between mirrors" "$(figure "$work/odd51" probes.exact.L2_displacement)" 1e-10 8e-10
 between "51 particles between mirrors: momentum" "$(figure "$work/odd51" momentum_error)" 0 1e-13
 
+# ---- a body that no layer of nodes holds at a plane of symmetry ------------------------------------------------------
+
+# 12.4 mm are no whole number of spacings, so that the mesh has no nodes in the plane; 2 mm above the plane, the body meets the plane later.
+# Both bodies take the current frame by themselves, and the plane stops them: at 5 us more than a tenth of their energy is strain
+# energy. In the reference frame, the first is refused and the second warned of.
+scene wall <<'END'
+space: plane strain
+thickness: 2 mm
+duration: 5 us
+method: mpm
+material: {young: 117 GPa, density: 8930, poisson: 0.25}
+body: {box: {from: [0, 0], to: [4 mm, 12.4 mm]}}
+initial: [{velocity: [0, -200 m/s]}]
+boundary: [{name: wall, mirror: {axis: y, at: 0}}]
+particles: {spacing: 1 mm}
+output: {frames: 0}
+END
+above="-s body.box.from=[0,2mm] -s body.box.to=[4mm,14mm]"
+strained() { echo "$(f "$1" energy.strain) $(f "$1" energy.kinetic)" | awk '{ print $1 / ($1 + $2) }'; }
+go wall_misfit wall
+go wall_above wall $above
+landed
+between "a wall between two layers of nodes: share of strain energy" "$(strained wall_misfit)" 0.1 1
+between "a wall that a body meets: share of strain energy" "$(strained wall_above)" 0.1 1
+"$cleave" check --no-trial "$work/wall.yaml" -s mpm.frame=reference >"$work/said" 2>&1
+is "a wall between two layers of nodes: exit status" $? 2
+holds "a wall between two layers of nodes" grep -q 'no layer of particles at half a spacing from this plane' "$work/said"
+"$cleave" check --no-trial "$work/wall.yaml" $above -s mpm.frame=reference >"$work/said" 2>&1
+holds "a wall that a body meets" grep -q '^warning: boundary wall: body body does not touch this plane' "$work/said"
+
 # ---- uniform strain across an interface ------------------------------------------------------------------------------
 
 # With lattice constants the stresses of bonds and cells agree up to squares of the strain, 1e-6 here. With isotropic constants and uniform
