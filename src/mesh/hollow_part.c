@@ -12,8 +12,9 @@
 
 enum { PAYS = 400000 }; /* number of particles left out above which this saves time; measured */
 /* Ranges of cells around level 0 that have particles, as a margin for crack growth. MARGIN: around all of it; AHEAD:
- * around those cells of level 0 that had no particles before, as level 0 goes on growing there. Measured: fewer
- * particles and half as many replacements of the run as with one range of 8. */
+ * around those cells of level 0 that had no particles before, as level 0 goes on growing there. Measured on half of
+ * Kalthoff's plate in space at 0.5 mm, beside one range of 8: 3 replacements of the run instead of 4, and 381,504
+ * particles instead of 517,760. */
 enum { MARGIN = 4, AHEAD = 16 };
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
