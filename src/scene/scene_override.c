@@ -181,7 +181,8 @@ static bool is_new_item(const struct yaml_node *list, const char *key, size_t le
     char number[16];
     if (list->kind != NODE_LIST || !value) return false;
     snprintf(number, sizeof number, "%d", list->n);
-    const bool next = index == list->n || (index < 0 && key && strlen(number) == length && !memcmp(key, number, length));
+    const bool next =
+        index == list->n || (index < 0 && key && strlen(number) == length && !memcmp(key, number, length));
     return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
 }
 
