@@ -11,6 +11,9 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are eval
 #define EARLY 0.01 /* end of a function of time over the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
+#define HARDENING_LEAST                                                                                                \
+    1e-6 /* hardening modulus over Young's modulus below which stress hardly grows with strain [1] */
+
 enum { RULES = ACCEPT_TIMES + 1 };
 
 /* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
@@ -99,6 +102,29 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
+/* Adds a warning to *to if a constant by which material a hardens is so small that the material does not harden: a
+ * number without a unit is in Pa. */
+static void units_of_hardening(const struct scene *s, const char *subject, const struct material *a,
+                               struct warnings *to)
+{
+    const struct law *l = &a->law;
+    const struct {
+        const char *key;
+        real value; /* [Pa] */
+    } constant[] = {{"linear hardening", l->hardening},
+                    {"hardening.voce.saturation", l->voce.saturation},
+                    {"hardening.power.coefficient", l->power.coefficient},
+                    {"johnson_cook.B", l->johnson_cook.B},
+                    {"kinematic.modulus", l->kinematic.modulus}};
+    if (!l->given || scene_silences_warning(s, ACCEPT_YIELD)) return;
+    for (size_t k = 0; k < COUNT_OF(constant); k++)
+        if (constant[k].value > 0 && constant[k].value < HARDENING_LEAST * a->young)
+            warnings_add(to,
+                         "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so that it does not harden: "
+                         "check the unit (MPa?); if this is meant: accept: [yield]",
+                         subject, constant[k].key, constant[k].value);
+}
+
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
  * and critical stretches of the materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
@@ -115,6 +141,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         const real yield = material_initial_yield_stress(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
         if (material_yields(a)) units_judge(s, ACCEPT_YIELD, subject, yield / a->young, note, to);
+        units_of_hardening(s, subject, a, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
         if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[ACCEPT_STRETCH].least))
             units_judge(s, ACCEPT_STRETCH, subject, stretch, note, to);

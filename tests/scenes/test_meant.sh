@@ -57,6 +57,9 @@ says "a yield stress in MPa" '^warning: material material: its yield stress over
     -s material.yield_stress=300
 says "a yield stress in GPa" "its yield stress over Young.s modulus is 4.17 .*, above 0.3" "$glass" -s material.yield_stress=300GPa
 silent "a yield stress in Pa" "$units" "$glass" -s material.yield_stress=300MPa
+says "hardening in MPa" '^warning: material copper: its linear hardening of 100 Pa is below a millionth' inputs/taylor_bar.yaml \
+    -s material.hardening.linear.modulus=100
+silent "hardening that is meant" 'is below a millionth' inputs/taylor_bar.yaml -s material.hardening.linear.modulus=100 -s 'accept=[yield]'
 # 49 mm between the outermost particles, 5.76 mm/us: 0.04 s are 4700 passages and 286,000 steps.
 says "a duration in ms" '^warning: time: the number of times that waves cross the bodies in the duration is 4.7[0-9]*e+03 (0.04 s, 0.049 m at' "$glass" -s duration=40ms
 silent "a duration in ms that is meant" "$units" "$glass" -s duration=40ms -s 'accept=[passages]'
