@@ -33,16 +33,15 @@ static enum plane_fit plane_fit_of(const struct particles *p, int body, const st
     return nearest > 0.5 && nearest < INFINITY && !any_absent ? PLANE_APART : PLANE_FITS;
 }
 
-/* Returns the first boundary of the scene whose plane of symmetry does not fit body `body`, NULL if there is none.
- * *fit: receives how the body lies there. */
-static const struct boundary *plane_not_fitting(const struct particles *p, const struct scene *s, int body,
-                                                bool any_absent, enum plane_fit *fit)
+/* Returns the first boundary of the scene at whose plane of symmetry body `body` lies as `fit` says, NULL if there is
+ * none. any_absent: true if not all particles of the bodies exist. */
+static const struct boundary *plane_with_fit(const struct particles *p, const struct scene *s, int body,
+                                             bool any_absent, enum plane_fit fit)
 {
-    for (int b = 0; b < s->boundaries; b++) {
-        if (s->boundary[b].kind != BOUNDARY_MIRROR) continue;
-        *fit = plane_fit_of(p, body, &s->boundary[b], s->spacing, any_absent);
-        if (*fit != PLANE_FITS) return &s->boundary[b];
-    }
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR &&
+            plane_fit_of(p, body, &s->boundary[b], s->spacing, any_absent) == fit)
+            return &s->boundary[b];
     return NULL;
 }
 
@@ -53,10 +52,10 @@ static const struct boundary *plane_not_fitting(const struct particles *p, const
 static const char *frame_obstacle(const struct particles *p, const struct scene *s, const struct grid_method *mpm,
                                   const struct cells_without_particles *hollow)
 {
-    enum plane_fit fit = PLANE_FITS;
-    plane_not_fitting(p, s, 0, hollow->absent, &fit);
-    if (fit == PLANE_MISFIT) return "a plane of symmetry is not at half a spacing from a layer of its particles";
-    if (fit == PLANE_APART && scene_is_dynamic(s)) return "it starts apart from a plane of symmetry, which it may meet";
+    if (plane_with_fit(p, s, 0, hollow->absent, PLANE_MISFIT))
+        return "a plane of symmetry is not at half a spacing from a layer of its particles";
+    if (scene_is_dynamic(s) && plane_with_fit(p, s, 0, hollow->absent, PLANE_APART))
+        return "it starts apart from a plane of symmetry, which it may meet";
     const int64_t pieces = mesh_count_connected_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "mpm.origin or a mirror shifts the grid nodes, so that grid cells do not contain two particles in each "
@@ -69,10 +68,9 @@ static const char *frame_obstacle(const struct particles *p, const struct scene 
 static status planes_check(const struct reference_frame *r, const struct particles *p, const struct scene *s)
 {
     for (int body = 0; body < s->bodies; body++) {
-        enum plane_fit fit = PLANE_FITS;
-        const struct boundary *b = NULL;
-        if (r->choice[body].reference) b = plane_not_fitting(p, s, body, r->hollow.absent, &fit);
-        if (fit == PLANE_MISFIT)
+        const struct boundary *b =
+            r->choice[body].reference ? plane_with_fit(p, s, body, r->hollow.absent, PLANE_MISFIT) : NULL;
+        if (b)
             return status_set(REFUSED,
                               "boundary %s: body %s has no layer of particles at half a spacing from this plane of "
                               "symmetry, so that the reference frame has no nodes there; choose particles.spacing so "
@@ -87,8 +85,7 @@ static status planes_check(const struct reference_frame *r, const struct particl
 static void warn_of_plane_apart(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                 int body, struct warnings *to)
 {
-    enum plane_fit fit;
-    const struct boundary *b = plane_not_fitting(p, s, body, r->hollow.absent, &fit);
+    const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
     if (b)
         warnings_add(to,
                      "boundary %s: body %s does not touch this plane of symmetry at the start, and the reference frame "

@@ -276,7 +276,7 @@ struct key {
     size_t place, size; /* 1 + offset of the value in the struct of its group (0: not stored there); bytes */
     struct range range;
     const char *fallback; /* default as text; "required"; "-": none; "(..)": an explanation, set by code */
-    const char *help;     /* meaning of the key, for `cleave help` */
+    const char *help;     /* meaning, for `cleave help`; NULL: of no row of the table of keys */
     /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
     const char *words;
     const char *low; /* message for a value below the range */

@@ -165,6 +165,10 @@ is "a wall between two layers of nodes: exit status" $? 2
 holds "a wall between two layers of nodes" grep -q 'no layer of particles at half a spacing from this plane' "$work/said"
 "$cleave" check --no-trial "$work/wall.yaml" $above -s mpm.frame=reference >"$work/said" 2>&1
 holds "a wall that a body meets" grep -q '^warning: boundary wall: body body does not touch this plane' "$work/said"
+"$cleave" check --no-trial "$work/wall.yaml" -s body.box.from=[0,2mm] -s body.box.to=[4.4mm,14mm] -s mpm.frame=reference \
+    -s 'boundary[1]={name: side, mirror: {axis: x, at: 0}}' >"$work/said" 2>&1
+is "a wall between two layers after one that a body meets: exit status" $? 2
+holds "a wall between two layers after one that a body meets" grep -q 'boundary side: body body has no layer of particles' "$work/said"
 
 # ---- uniform strain across an interface ------------------------------------------------------------------------------
 

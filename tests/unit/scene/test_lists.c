@@ -73,66 +73,66 @@ static void bodies_share_a_list(void **state)
     remove(name);
 }
 
+/* Lists of particles in the CSV file bad.csv that are refused, with a part of the message. */
+static const struct {
+    const char *text, *message;
+} bad_list[] = {
+    {"", "bad.csv: empty"},
+    {"# nothing\n\n", "bad.csv: empty"},
+    {"x,y,volume\n", "body plate: its list holds no particle"},
+    {"x,y,weight,volume\n", "bad.csv:1:5: weight: a mass or a volume? its unit says it, as weight [kg]"},
+    {"x,y,weight [m],volume\n", "bad.csv:1:5: weight: a mass or a volume?"},
+    {"x,y,mass,density\n", "bad.csv:1:1: mass and density are both given"},
+    {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, as 0.5 mm"},
+    {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
+    {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; it has"},
+    {"x,y,mass\n0,0,0\n", "bad.csv:2:5: mass: 0 must be larger than 0"},
+    {"x,volume\n", "bad.csv:1:1: column y is missing"},
+    {"x,y,x,volume\n", "bad.csv:1:5: column x is named twice"},
+    {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values; the header names 3"},
+    {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: more values than the 3"},
+    {"x,y,volume\n0,0,1,\n", "bad.csv:2:7: more values than the 3"},
+    {"x,y,volume\n\n0,zero,1\n", "bad.csv:3:3: y: 'zero' is not a number"},
+    {"x,y,volume\n0,1 mm,1\n", "bad.csv:2:3: y: '1 mm' is not a number"},
+    {"x,y,volume\n0,,1\n", "bad.csv:2:3: y: '' is not a number"},
+    {"x,y,volume\n0,nan,1\n", "bad.csv:2:3: y: nan is not a finite number"},
+    {"x,y,volume\n1e999,0,1\n", "bad.csv:2:1: x: 1e999 is not a finite number"},
+    {"x,y,volume\n0,0,0\n", "bad.csv:2:5: volume: 0 must be larger than 0"},
+    {"x,y,volume\n0,0,-1\n", "bad.csv:2:5: volume: -1 must be larger than 0"},
+    {"x,y,volume,material\n0,0,1,0.5\n", "bad.csv:2:7: material: 0.5 must be a whole number"},
+    {"x,y,volume,material\n0,0,1,256\n", "bad.csv:2:7: material: 256 must be a whole number"},
+    {"x,y,volume,material\n0,0,1,2\n", "bad.csv:2:7: the scene has no material 2 (numbered from 0 in its order)"},
+    {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
+    {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number"},
+    {"'x','y','volume'\n", "names without quotes, or in double ones, are expected"},
+    {"\"x,y,volume\n", "names without quotes, or in double ones, are expected"},
+    {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; numbers have a point, not a comma"},
+    {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, and no line before them names the columns"},
+    {"0,0,0,1,1\n", "bad.csv:1:1: numbers, and no line before them names the columns"},
+    {"0 0 0 3 1.0\n", "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
+    {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
+    {"0 0 0 3.0 2\n", "bad.csv:1:7: 3.0: without names the fourth column is block_id, a whole number; "
+                      "if it is the volume, give the list as {file: .., columns: [x, y, z, volume, block]}, else"},
+    {"0 0 0 1 1\n1 0 0 1 2\n", "bad.csv:1:1: the fourth and the fifth column are whole numbers, and each may be the "
+                               "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
+    {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
+    {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
+    {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at one position: (0, 0, 0) m"},
+    {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles at one position"},
+    {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
+    {"x,y,volume\n0,0,1e308\n", "no finite mass"},
+};
+
 static void bad_lists_are_refused(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text, *message;
-    } c[] = {
-        {"", "bad.csv: empty"},
-        {"# nothing\n\n", "bad.csv: empty"},
-        {"x,y,volume\n", "body plate: its list holds no particle"},
-        {"x,y,weight,volume\n", "bad.csv:1:5: weight: a mass or a volume? its unit says it, as weight [kg]"},
-        {"x,y,weight [m],volume\n", "bad.csv:1:5: weight: a mass or a volume?"},
-        {"x,y,mass,density\n", "bad.csv:1:1: mass and density are both given"},
-        {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, as 0.5 mm"},
-        {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
-        {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; it has"},
-        {"x,y,mass\n0,0,0\n", "bad.csv:2:5: mass: 0 must be larger than 0"},
-        {"x,volume\n", "bad.csv:1:1: column y is missing"},
-        {"x,y,x,volume\n", "bad.csv:1:5: column x is named twice"},
-        {"x,y,volume\n0,0,1\n1,1\n", "bad.csv:3:1: 2 values; the header names 3"},
-        {"x,y,volume\n0,0,1,5\n", "bad.csv:2:7: more values than the 3"},
-        {"x,y,volume\n0,0,1,\n", "bad.csv:2:7: more values than the 3"},
-        {"x,y,volume\n\n0,zero,1\n", "bad.csv:3:3: y: 'zero' is not a number"},
-        {"x,y,volume\n0,1 mm,1\n", "bad.csv:2:3: y: '1 mm' is not a number"},
-        {"x,y,volume\n0,,1\n", "bad.csv:2:3: y: '' is not a number"},
-        {"x,y,volume\n0,nan,1\n", "bad.csv:2:3: y: nan is not a finite number"},
-        {"x,y,volume\n1e999,0,1\n", "bad.csv:2:1: x: 1e999 is not a finite number"},
-        {"x,y,volume\n0,0,0\n", "bad.csv:2:5: volume: 0 must be larger than 0"},
-        {"x,y,volume\n0,0,-1\n", "bad.csv:2:5: volume: -1 must be larger than 0"},
-        {"x,y,volume,material\n0,0,1,0.5\n", "bad.csv:2:7: material: 0.5 must be a whole number"},
-        {"x,y,volume,material\n0,0,1,256\n", "bad.csv:2:7: material: 256 must be a whole number"},
-        {"x,y,volume,material\n0,0,1,2\n", "bad.csv:2:7: the scene has no material 2 (numbered from 0 in its order)"},
-        {"x,y,volume,body\n0,0,1,1\n", "bad.csv:2: this file is not that of body 1"},
-        {"x,y,volume\n0x1p-9,0,1\n", "bad.csv:2:1: x: '0x1p-9' is not a number"},
-        {"'x','y','volume'\n", "names without quotes, or in double ones, are expected"},
-        {"\"x,y,volume\n", "names without quotes, or in double ones, are expected"},
-        {"x;y;volume\n0,5;0;1\n", "bad.csv:2:1: x: '0,5' is not a number; numbers have a point, not a comma"},
-        {"# x and places\n0 0 0 1\n", "bad.csv:2:1: numbers, and no line before them names the columns"},
-        {"0,0,0,1,1\n", "bad.csv:1:1: numbers, and no line before them names the columns"},
-        {"0 0 0 3 1.0\n",
-         "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
-        {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
-        {"0 0 0 3.0 2\n", "bad.csv:1:7: 3.0: without names the fourth column is block_id, a whole number; "
-                          "if it is the volume, give the list as {file: .., columns: [x, y, z, volume, block]}, else"},
-        {"0 0 0 1 1\n1 0 0 1 2\n",
-         "bad.csv:1:1: the fourth and the fifth column are whole numbers, and each may be the "
-         "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
-        {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
-        {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
-        {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at one position: (0, 0, 0) m"},
-        {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles at one position"},
-        {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
-        {"x,y,volume\n0,0,1e308\n", "no finite mass"},
-    };
     struct setting s;
     struct particles p;
     char name[] = "bad.csv";
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
-    for (size_t k = 0; k < COUNT_OF(c); k++) {
-        list_of(&s, name, c[k].text);
-        assert_refused(fill_particles(&p, &s.scene, NULL, 0), c[k].message);
+    for (size_t k = 0; k < COUNT_OF(bad_list); k++) {
+        list_of(&s, name, bad_list[k].text);
+        assert_refused(fill_particles(&p, &s.scene, NULL, 0), bad_list[k].message);
         assert_null(p.X[0]);
     }
     char *text = memory_new("text", 10001, 1);
