@@ -242,6 +242,15 @@ static inline bool scene_is_single_equilibrium(const struct scene *s)
 /* Returns true if the run solves a sequence of load steps. */
 static inline bool scene_has_load_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
+/* Returns true if a rigid body of the scene has a velocity, from the start or prescribed. */
+static inline bool scene_has_moving_rigid_body(const struct scene *s)
+{
+    bool moves = false;
+    for (int k = s->bodies; k < s->bodies + s->rigids; k++)
+        moves |= dot(s->body[k].velocity, s->body[k].velocity, DIM_MAX) > 0;
+    return moves;
+}
+
 /* Returns true if the bonds of a material or of an interface have a critical stretch. */
 static inline bool scene_bonds_break(const struct scene *s)
 {

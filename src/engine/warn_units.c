@@ -341,14 +341,6 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
 }
 
-static bool rigid_body_moves(const struct scene *s)
-{
-    bool moves = false;
-    for (int k = s->bodies; k < s->bodies + s->rigids; k++)
-        moves = moves || dot(s->body[k].velocity, s->body[k].velocity, s->dim) > 0;
-    return moves;
-}
-
 /* Warns if the largest stress of the run cannot break any material, or is far above the strength. The stress is
  * estimated from tractions, from rho c v of speeds v and from E u/L of displacements u of bodies of length L. In a body
  * in motion displacements may grow after the first bonds have broken, so they are not reported as too large. */
@@ -375,7 +367,7 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     stress = real_max(stress, impedance * real_max(f.speed, scene_is_dynamic(s) ? units_speed_at_start(s, p) : 0));
     const real largest = real_max(stress, stretched);
     stress = real_max(stress, scene_is_dynamic(s) ? real_min(stretched, enough) : stretched);
-    if (stress == 0 && rigid_body_moves(s)) return; /* in load steps; its displacement loads by contact alone */
+    if (stress == 0 && scene_has_moving_rigid_body(s)) return; /* it loads by contact alone */
     if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
         warnings_add(to,
                      "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "

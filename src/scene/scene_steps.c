@@ -91,9 +91,7 @@ static status check_steps_loaded(struct reader *r, const struct yaml_node *root)
         const bool varies = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0 || load->rotates;
         loaded |= load->kind != BOUNDARY_MIRROR && (varies || dot(load->value, load->value, DIM_MAX) > 0);
     }
-    for (int k = s->bodies; k < s->bodies + s->rigids; k++)
-        loaded |= dot(s->body[k].velocity, s->body[k].velocity, DIM_MAX) > 0;
-    if (loaded) return OK;
+    if (loaded || scene_has_moving_rigid_body(s)) return OK;
     return fault(
         r, yaml_node_find(root, "solver"),
         "nothing loads the body: a boundary with a displacement, velocity, traction, pressure or body force, or a "
