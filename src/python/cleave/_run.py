@@ -230,8 +230,8 @@ class Run:
         time        frame nearest to this time [s]; default: the last one
         ax          axes to draw into; default: new ones
         magnify     factor on displacements [1]
-        limits      lowest and highest value of the colour bar [SI unit of the field]; default: all values but the extreme
-                    0.2 % at either end; symmetric about 0 if the smaller sign reaches 20 % of the larger
+        limits      lowest and highest value of the colour bar [SI unit of the field]; default: those of `cleave plot`: from 0, or
+                    symmetric about 0 for fields with a sign, to all values but the extreme 0.2 %
         colours     name of a colour map of matplotlib; default: that of `cleave plot` for the field
         colour_bar  False: draws none
         slice       plane of the section of a solid: {"z": 4e-3} [m]; default: normal to the shortest side of the body, through
