@@ -74,9 +74,10 @@ static void print_surface(const struct scene *s, const struct material *m)
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
     printf("; the surface needs less than %.4g m", scene_strength_surface_horizon(s, m));
-    if (surface.tension > unit) printf("; in tension bonds begin to soften by themselves at about %.4g Pa", unit);
+    if (surface.tension > unit)
+        printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);
     if (surface.shear > own_shear)
-        printf("; shear falls short: bonds soften by themselves at about %.4g Pa", own_shear);
+        printf("; in shear bonds soften at about %.4g Pa already, before the surface is reached", own_shear);
     printf("\n");
 }
 

@@ -202,8 +202,9 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     }
     struct difference start = field_difference(a->X, b->X, a->dim, a->n);
     if (start.largest > 1e-4 * p->spacing)
-        printf("equal particles start at positions up to %.4g m apart (%.3g spacings)\n", start.largest,
-               start.largest / p->spacing);
+        printf("particles of the same number have initial positions in the two runs that are up to %.4g m (%.3g "
+               "spacings) apart\n",
+               start.largest, start.largest / p->spacing);
     print_fields(a, b);
 }
 

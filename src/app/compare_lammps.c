@@ -73,9 +73,10 @@ static status check_sort(struct check *c, int64_t n, const char *path)
     for (int64_t k = 0; k < n && whole; k++) whole = (int64_t)sorted[k * columns + id] == k + 1;
     memory_free(whole ? c->h.value : sorted);
     if (whole) c->h.value = sorted;
-    return whole ? OK
-                 : status_set(FAILED, "%s is not from the LAMMPS run in this folder: it must have each particle once",
-                              printable_name(path).text);
+    if (whole) return OK;
+    return status_set(FAILED,
+                      "%s does not list each of the scene's %lld particles once: repeat the LAMMPS run in this folder",
+                      printable_name(path).text, (long long)n);
 }
 
 static status check_read(struct check *c, const char *folder, int64_t n)

@@ -292,7 +292,8 @@ static status check_growth_probes(struct reader *r, const struct yaml_node *root
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)
-            return fault(r, yaml_node_find(n->first, "of"), "there is no growth %s; the first is %s", s->probe[k].of,
+            return fault(r, yaml_node_find(n->first, "of"),
+                         "the scene has no crack growth named %s; the first in its key growth is %s", s->probe[k].of,
                          s->growth[0].name);
     }
     return OK;
