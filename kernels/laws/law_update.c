@@ -38,9 +38,9 @@ static ALWAYS_INLINE int tensor_components(const enum space space)
     return space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
 }
 
-/* Computes the independent components xi[] of the relative stress s - g X of eight points [Pa], with their trial stress
- * s and back stress X. 3D and plane strain: components of its deviator; plane stress: xx + yy, xx - yy and xy; 1D: the
- * uniaxial stress. g: factor of the back stress [1]. */
+/* Computes the independent components xi[] of the relative stress s - g X of eight points [Pa], with the trial stress s
+ * and the back stress X of the points p. In 3D and plane strain these are the components of the deviator of s - g X; in
+ * plane stress xx + yy, xx - yy and xy; in 1D the uniaxial stress. g: factor on the back stress [1]. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
 {
     if (space == SPACE_LINE) {
@@ -57,9 +57,10 @@ static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, l
     for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_broadcast(0)) - g * p->back[c];
 }
 
-/* Computes the products 3/2 x:y of two relative stresses x, y of eight points, in two parts [Pa^2]: *even, the part of
- * the sum xi_xx + xi_yy in plane stress, in 1D the whole product, else 0; *odd, the part of all other components. x, y:
- * components as from relative_stress. */
+/* Computes 3/2 x:y [Pa^2] for two relative stresses (stress less back stress) x, y of eight points, as the sum of two
+ * parts, which plastic flow reduces at different rates in plane stress. *even: in plane stress the part of the
+ * component xx + yy, in 1D the whole product, else 0; *odd: the part of all other components. x[], y[]: components in
+ * the order of relative_stress. */
 static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
                                            const enum space space)
 {
@@ -79,9 +80,10 @@ struct flow_equation {
     lanes even, odd, A, B, q;
 };
 
-/* Returns the equation for t = da/q of eight points, where da is the increment of plastic strain and q the equivalent
- * relative stress. Stores their relative stress, with the back stress multiplied by the factor g [1], in xi[] [Pa].
- * stiffness: kinematic hardening modulus that acts over the step [Pa]. */
+/* Returns the coefficients of the yield equation of eight points. Its unknown is t = da/q, the increment da of plastic
+ * strain over the equivalent relative stress q; it states how q falls with t (struct flow_equation). Stores the
+ * relative stress s - g X, with the back stress X, in xi[] [Pa]. g: factor on the back stress [1]; stiffness: kinematic
+ * hardening modulus that acts over the step [Pa]. */
 static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
                                                       lanes stiffness, lanes *xi, const enum space space)
 {
@@ -94,16 +96,18 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     return e;
 }
 
-/* Returns the rate r [Pa] by which plastic flow reduces the relative stress, xi/(1 + r t) with t = da/q (da: increment
- * of plastic strain, q: equivalent relative stress). It is e->A in 1D and e->B in 3D and plane strain. Not for plane
- * stress, which has both rates. */
+/* Returns the stiffness r [Pa] in the law by which plastic flow reduces the relative stress xi of eight points: xi/(1 +
+ * r t) with t = da/q [1/Pa], the increment da of plastic strain over the equivalent relative stress q. In 1D r is
+ * Young's modulus (e->A), in 3D and plane strain three times the shear modulus (e->B), plus the kinematic hardening
+ * modulus. Not for plane stress, where two parts of xi fall at different rates. */
 static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
     return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns the equivalent relative stress q(t) of the equation *e [Pa] for eight points. t: increment of plastic strain
- * over q [1/Pa]; *fall: receives -q dq/dt [Pa^3], in plane stress only. */
+/* Returns for eight points the equivalent relative stress q [Pa] that remains after plastic flow, from the yield
+ * equation *e. t: increment of plastic strain over q [1/Pa]; *fall: in plane stress receives -q dq/dt [Pa^3], else is
+ * not set. */
 static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
 {
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
@@ -131,9 +135,9 @@ static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes b
     return t;
 }
 
-/* Returns the effective kinematic modulus of a small step, C - gamma (3/2) xi:X/q [Pa], with the modulus C and the
- * recall gamma of the law and the back stress X: the recall of the back stress moves the yield surface back. xi: trial
- * relative stress [Pa]; q: its equivalent stress [Pa]. */
+/* Returns for eight points the kinematic hardening modulus [Pa] that acts over a small step: C - gamma (3/2) xi:X/q. C
+ * and gamma are modulus and recall constant of the Armstrong-Frederick law; the recall of the back stress X moves the
+ * yield surface back. xi[]: trial relative stress [Pa]; q: its equivalent stress [Pa]. */
 static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
                                              lanes q, const enum space space)
 {
@@ -152,9 +156,10 @@ struct flow_recall {
     lanes left, added;
 };
 
-/* Returns the recall of the back stress of eight points after an increment `more` of plastic strain [1]: left = exp(-x)
- * and added = (1 - exp(-x))/x with x = recall more; below x = 1e-4 `added` is computed by its series. recall: gamma, >
- * 0 [1]. */
+/* Returns for eight points how the back stress changes over an increment `more` of plastic strain [1] by the
+ * Armstrong-Frederick law: left = exp(-x), the factor on the previous back stress, and added = (1 - exp(-x))/x, the
+ * factor on the new part, with x = recall more. Below x = 1e-4 `added` is computed by its series. recall: constant
+ * gamma of the law, > 0 [1]. */
 static ALWAYS_INLINE struct flow_recall recall_after(real recall, lanes more)
 {
     const lanes x = recall * more, left = lanes_exp(-x), least = lanes_max(x, lanes_broadcast(1e-4));
@@ -201,9 +206,9 @@ static ALWAYS_INLINE void linearise_rate(const struct law *law, const struct law
 }
 
 /* Returns t = da/q of eight points for a small step, by one linearised evaluation (da: increment of plastic strain, q:
- * equivalent relative stress). trial, xi: equation for t and relative stress [Pa], both with the whole back stress
- * (factor 1); bound: yield stress at the start of the step [Pa]; slope: its derivative by the plastic strain [Pa];
- * *back: receives the recall of the back stress in the step. */
+ * equivalent relative stress). trial, xi[]: yield equation and relative stress [Pa] of the trial state; bound: yield
+ * stress at the start of the step [Pa]; slope: its derivative by the plastic strain [Pa]. *back: receives the factors
+ * by which the back stress changes in the step (recall_after). */
 static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
                                           const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           struct flow_recall *back, const enum space space)
@@ -221,8 +226,8 @@ static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct la
 }
 
 /* Returns t = da/q of eight points for a step of any size, to round-off (da: increment of plastic strain, q: equivalent
- * relative stress). bound: yield stress at the start of the step [Pa]; *back: receives the recall of the back stress in
- * the step. */
+ * relative stress). bound: yield stress at the start of the step [Pa]. *back: receives the factors by which the back
+ * stress changes in the step (recall_after). */
 static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound,
                                            struct flow_recall *back, const enum space space)
 {
@@ -246,9 +251,9 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
 }
 
 /* Computes the increments of plastic strain of eight points, strain[] = 3/2 t xi [1] (components xx yy zz xy yz zx),
- * and updates their stress p->s and back stress p->back by them. xi: relative stress at the end of the step [Pa],
- * components as from relative_stress; t: increment of equivalent plastic strain over equivalent relative stress [1/Pa];
- * back: recall of the back stress in the step. */
+ * and updates their stress p->s and back stress p->back by them. xi[]: relative stress at the end of the step [Pa],
+ * components in the order of relative_stress; t: increment of equivalent plastic strain over equivalent relative stress
+ * [1/Pa]; back: factors by which the back stress changes in the step (recall_after). */
 static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t,
                                      const struct flow_recall *back, lanes *strain, const enum space space)
 {

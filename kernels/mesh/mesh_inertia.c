@@ -27,8 +27,9 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns one velocity component of node I [m/s]. w: the same component of momentum over mass of all nodes [m/s]. For
- * nodes of which some cells, but not all, have the blended (lumped and consistent) mass matrix of mesh_inertia.h. */
+/* Returns one velocity component of node I [m/s], for a node between cells with the blended (lumped and consistent)
+ * mass matrix of mesh_inertia.h and cells with the lumped one. w: the same component of momentum over lumped mass of
+ * all nodes [m/s]. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;

@@ -112,8 +112,8 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
-/* Computes the rotations of eight cells from their strain s, in the layout of particles.end_rotation. rotates: true for
- * the finite rotation s->R, false for the antisymmetric part of the displacement gradient. */
+/* Computes the rotations of eight cells from their strain s, in 2D as cos - 1 and sin, in 3D as quaternions. rotates:
+ * true for the finite rotation s->R, false for that of the antisymmetric part of the displacement gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_broadcast(0);
@@ -139,8 +139,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Computes end_strain and (models with rotations) end_rotation in p from the deformation of the cells, for the points
- * with state-based bonds in group number `group` of eight partial cells. finite: true for finite strain. */
+/* Computes p->end_strain and, in models with rotations, p->end_rotation of the material points with state-based bonds
+ * in group `group` of eight partial cells, from the strain of these cells. finite: true for finite strain. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -350,7 +350,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
-/* Marks the points of cell I that must convert (cell_points_mark), in a function for `dim` that is not inlined. */
+/* Sets FLAG_STRESSED of points of cell I, by a function for one `dim` that is not inlined (cell_points_mark). */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -362,9 +362,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns for each of eight cells an upper bound of the principal stresses at its points [Pa], or, if larger, its
- * cell_strength_bound. It is found point by point, closer than in mesh_force. m: elastic constants; s: strain
- * of the cells; there[q]: mask of cells that have point number q, NULL if all cells have all points. */
+/* Returns for each of eight cells the largest, over its points, of a bound of the principal stresses [Pa] and, with a
+ * strength surface, of cell_strength_bound. This is closer than the bound of mesh_force. m: elastic constants; s:
+ * strain of the cells; there[q]: mask of cells with point number q, NULL if all have all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -392,7 +392,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
-/* Calls places_tension [Pa] by one function per dimension, which is not inlined. */
+/* Returns places_tension of eight cells [Pa], by a function for one `dim` that is not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -450,9 +450,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Sets FLAG_STRESSED of points in group number `group` of eight partial cells whose principal stress exceeds their
- * conversion stress. Examined point by point are cells in which a bound (places_tension) exceeds it, and cells for
- * which the bound does not hold: those with several materials and those with mean dilatation. */
+/* Sets FLAG_STRESSED of the points in group `group` of eight partial cells whose principal stress exceeds their
+ * conversion stress. Examines only cells in which the bound places_tension exceeds the conversion stress, and cells for
+ * which it is no bound: those with several materials and those with mean dilatation. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {

@@ -228,9 +228,9 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Recomputes g->absorbed, the energy absorbed by dashpots, with the nodal velocities of the second map (g->momentum):
- * in MUSL, the velocities of the points are mapped to the nodes again after their update. In FLIP the points receive
- * these velocities, not those on which the dashpots acted. */
+/* Corrects g->absorbed, the energy absorbed by dashpots, for MUSL, where the velocities of the points are mapped to the
+ * nodes a second time after their update. In FLIP the points receive the velocities of this second map (g->momentum),
+ * not those on which the dashpots acted (g->velocity). */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

@@ -40,8 +40,9 @@ static ALWAYS_INLINE void spin_add(const lanes *moment, const lanes *v, lanes *s
     sum[c] += moment[(c + 1) % 3] * v[(c + 2) % 3] - moment[(c + 2) % 3] * v[(c + 1) % 3];
 }
 
-/* Sums mass, first and second moments, momentum and angular momentum of the points of group g about g->about, the
- * position of one of its particles, and stores them in *g. */
+/* Sums mass, first and second moments, momentum and angular momentum of the points of group g, and stores them in *g. A
+ * group consists of neighbouring material points that rotate together. Moments are about g->about, the position of one
+ * of its particles. */
 static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -76,9 +77,9 @@ static ALWAYS_INLINE void sum_moments(const struct rotation_groups *t, struct tu
     FOR_SPINS(c, dim) g->sum[c] = run_total(spin[c]);
 }
 
-/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn) into
- * g->sum [kg m^2/s]. Sums their angular momentum about the centre of mass of its root into g->angular. The root of a
- * group is the group that it has joined, or the group itself. */
+/* Sums over the points of group g (neighbouring points that rotate together) the angular momentum that they have lost
+ * in the transfer to nodes and back, t->turn, into g->sum [kg m^2/s]. Sums their angular momentum about the centre of
+ * mass of the root of g into g->angular. The root of a group is the group that it has joined, or the group itself. */
 static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turning_group *g, const struct particles *p,
                                    const int dim)
 {
@@ -101,8 +102,8 @@ static ALWAYS_INLINE void sum_lack(const struct rotation_groups *t, struct turni
     FOR_SPINS(c, dim) g->sum[c] = run_total(lack[c]), g->angular[c] = run_total(spin[c]);
 }
 
-/* Stores in t->turn, for all points of group g, the spin of the root of the group: of the group that it has joined, or
- * its own if it has joined none. */
+/* Stores in t->turn, for all points of group g (neighbouring points that rotate together), the spin with which they
+ * rotate [1/s]: that of the group that g has joined, or its own if it has joined none. */
 static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct turning_group *g,
                                       const struct particles *p, const int dim)
 {
@@ -115,8 +116,8 @@ static ALWAYS_INLINE void spins_store(struct rotation_groups *t, const struct tu
     }
 }
 
-/* Adds the rotation by the gain of spin of the root of group g, the group that it has joined, to the velocities of the
- * points of group g, and stores its spin in t->turn for them. */
+/* Adds to the velocities of the points of group g the rotation by a gain of spin, and stores their spin in t->turn
+ * [1/s]. Gain and spin are those of the root of g: of the group that it has joined, or of g itself. */
 static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct turning_group *g, struct particles *p,
                                      const int dim)
 {
@@ -146,11 +147,13 @@ static int32_t group_root(const struct rotation_groups *t, int32_t g)
     return g;
 }
 
-/* Returns the number of axes along which neighbour k of a group is displaced. */
+/* Returns the number of axes, 1 to 3, along which neighbour k of a group of points is offset from it. The list of
+ * neighbours has first those across a face, then those across an edge, then those across a corner. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins each group of fewer than TURNING_FEW points to the neighbour with the most points. Among neighbours with
- * equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. */
+/* Joins each group of fewer than TURNING_FEW points to the neighbouring group with the most points, so that both rotate
+ * together. Among neighbours with equally many points, those across a face precede those across an edge or a corner;
+ * among these, the one nearest to the middle of the body is chosen. */
 static void few_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
@@ -192,7 +195,7 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Adds g->sum of all groups to those of their roots, the groups that they have joined. */
+/* Adds the angular momentum g->sum of each group of points to that of its root, the group that it has joined. */
 static void sums_join(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -201,15 +204,15 @@ static void sums_join(struct rotation_groups *t)
     }
 }
 
-/* Returns true if the points of group g turn with its own spin: it is a root with mass, and no support constrains
- * it. */
+/* Returns true if the points of group g rotate with a spin of this group: g has mass, has not joined another group, and
+ * no support constrains its body. */
 static bool group_turns(const struct rotation_groups *t, int32_t g)
 {
     return t->group[g].root == g && t->group[g].joined > 0 && !t->group[g].held;
 }
 
-/* Computes the spin of each root from the angular momentum of its groups, g->sum. It is 0 without mass and in bodies
- * that a support constrains. */
+/* Computes the spin of each root (a group of points that has joined no other group) from the angular momentum g->sum of
+ * all groups that have joined it. The spin is 0 for a root without mass and in bodies that a support constrains. */
 static void spins_find(struct rotation_groups *t, int dim)
 {
     sums_join(t);
@@ -220,10 +223,10 @@ static void spins_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Computes for each root (a group that has joined no other) the gain of spin by which its points get the angular
- * momentum g->sum that they have not received: J gain = g->sum, with the inertia J = g->inertia. Then computes its spin
- * after that: J spin = g->angular + (J - g->added) gain, where g->added is the part of J that was added to a thin group
- * to keep it regular. */
+/* Computes for each root (a group of points that has joined no other group) the gain of spin that restores the angular
+ * momentum g->sum, which its points have lost: J gain = g->sum, with the inertia J = g->inertia. Then computes its spin
+ * with this gain: J spin = g->angular + (J - g->added) gain. g->added is the part of J that was added to a thin group
+ * to keep J regular. */
 static void gains_find(struct rotation_groups *t, int dim)
 {
     spins_find(t, dim);
@@ -242,8 +245,8 @@ static void gains_find(struct rotation_groups *t, int dim)
     }
 }
 
-/* Adds mass and first moment of all groups to those of their roots, the groups that they have joined, and divides the
- * first moments by the masses: `moment` is then the centre of mass. */
+/* Computes mass and centre of mass of each root (a group of points that has joined no other group), from masses and
+ * first moments of all groups that have joined it. The centre replaces its first moment in `moment`. */
 static void centres_find(struct rotation_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -262,8 +265,8 @@ static void centres_find(struct rotation_groups *t)
         for (int d = 0; d < DIM_MAX && t->group[g].joined > 0; d++) t->group[g].moment[d] /= t->group[g].joined;
 }
 
-/* Moves angular momentum g->sum and second moments of all groups from g->about to the centres of mass of their roots,
- * the groups that they have joined, and computes their inertia there. */
+/* Converts the angular momentum g->sum and the second moments of each group of points from the position g->about to the
+ * centre of mass of its root, the group that it has joined. Computes the inertia g->inertia about this centre. */
 static void moments_shift(struct rotation_groups *t)
 {
     for (int32_t k = 0; k < t->groups; k++) {
@@ -283,8 +286,8 @@ static void moments_shift(struct rotation_groups *t)
     }
 }
 
-/* Adds the inertia of all groups to that of their roots, the groups that they have joined. If the sum nearly vanishes
- * about some axis, it is increased by the inertia of its mass at a radius of LEAST_ARM spacings. */
+/* Adds the inertia of each group of points to that of its root, the group that it has joined. If the inertia of a root
+ * nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM spacings. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {

@@ -54,9 +54,9 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
            (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
 }
 
-/* Returns the row from which the dilatation at particle j is taken: its own, or for a mirror image that of the particle
- * that it mirrors. Returns -1 if this row holds only some of the bonds to the neighbours, as that of a material point
- * does. */
+/* Returns the row (bonds of one particle) from which the dilatation at particle j is computed: its own row, or for a
+ * mirror image the row of the particle that it mirrors. Returns -1 if this row has bonds to only some of the
+ * neighbours, as the row of a material point does. */
 static int64_t row_of_dilatation(const struct bonds *b, const struct particles *p, int32_t j)
 {
     const int64_t row = b->row_of[image_source_particle(p, b->soft.image, j)];
@@ -84,8 +84,8 @@ struct strain_fit {
     real A[SYM_MAX][SYM_MAX], b[SYM_MAX], all, sum;
 };
 
-/* Adds a bond of reference direction e, with the stretch `stretch` and the weight w, to the normal equations of a
- * family. */
+/* Adds a bond to the least-squares fit of a strain to the stretches of a family: to the normal equations in *fit.
+ * e[dim]: direction of the bond in the reference configuration; stretch: its stretch [1]; w: its weight [1]. */
 static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real stretch, real w)
 {
     real product[SYM_MAX];
@@ -101,8 +101,9 @@ static void strain_fit_add(struct strain_fit *fit, const real *e, int dim, real 
     fit->all += w, fit->sum += w * stretch;
 }
 
-/* Solves the normal equations of a family by elimination and returns the trace of its strain [1]. If its bonds have too
- * few directions (a pivot below PIVOT times the sum of weights), returns dim times its mean stretch instead. */
+/* Solves the least-squares fit of a strain to the bonds of a family and returns the trace of this strain [1]. If the
+ * bonds have too few directions (a pivot below PIVOT times the sum of weights), returns dim times their mean stretch
+ * instead. The equations in *fit are overwritten. */
 static real fit_trace(struct strain_fit *fit, int dim)
 {
     real trace = 0;
@@ -127,8 +128,8 @@ static real lame_ratio(const struct bonds *b, const struct particles *p, int32_t
     return b->state.rotation[0] ? 2 * m.A / (D * m.B) : 1 + (D + 2) * m.A / (D * m.B);
 }
 
-/* Computes the dilatation of the family of one row times lambda/G [1]: the trace of the strain that fits the stretches
- * of its bonds best, weighted by the stiffness that they keep. */
+/* Returns the dilatation of the family of one row times lambda/G [1]. The dilatation is the trace of the strain that
+ * fits the stretches of the bonds best, with the remaining stiffness of each bond as its weight. */
 static real row_dilatation(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -145,10 +146,10 @@ static real row_dilatation(const struct bonds *b, const struct particles *p, int
     return fit_trace(&fit, p->dim) * lame_ratio(b, p, i);
 }
 
-/* Updates the strain rate of a row in b->soft.rate [1/s]: the mean rate at which the largest stretch of its bonds grows
- * from half its onset of softening to the onset. It then stays until the stretch is below half the onset again. Until
- * the onset is reached, the entry holds minus the stretch of the first step beyond half the onset [1]. dt: time step
- * [s]. */
+/* Updates the strain rate b->soft.rate of a row [1/s]: the mean rate at which the largest stretch of its bonds grows
+ * from half its onset of softening to the onset. The rate is kept until the stretch is below half the onset again.
+ * Between half the onset and the onset, the entry holds the negative of the stretch at the first step beyond half the
+ * onset [1]. dt: time step [s]. */
 static void row_measure_rate(struct bonds *b, const struct particles *p, int64_t row, real dt)
 {
     const real from = b->trigger[row], onset = from / RATE_FROM;
@@ -182,9 +183,10 @@ static void measure_rates(struct bonds *b, const struct particles *p, real dt)
     b->soft.rates_kept = any;
 }
 
-/* Returns true if the stress across the bond of candidate c allows it to soften. The dilatation at the bond is the mean
- * of its two particles; where one of them has only a part of its bonds in its row, as a material point has, it is that
- * of the other. Both rows of a bond thus get one answer. */
+/* Returns true if the stress across the bond of candidate c is tensile enough for the bond to soften. The stress
+ * follows from the stretch of the bond and from the dilatation at the bond, the mean of the dilatations of its two
+ * particles. If the row of one of them has only a part of its bonds, as that of a material point, the dilatation of the
+ * other particle is used. Both rows of a bond thus give the same answer. */
 static bool is_pulled(const struct bonds *b, const struct particles *p, const struct candidate *c)
 {
     const int64_t one = row_of_dilatation(b, p, c->i), two = row_of_dilatation(b, p, c->j);
@@ -194,9 +196,10 @@ static bool is_pulled(const struct bonds *b, const struct particles *p, const st
     return 0.5 * sum + PULL * c->stretch > 0;
 }
 
-/* Moves the stretches c->range between which candidate c softens to those at the strain rate of its bond. This is the
- * mean rate of both rows, or that of one row if the other does not hold the bonds to all neighbours. Returns true if
- * the bond is beyond its onset at this rate. */
+/* Recomputes the softening range of candidate c, a bond that may begin to soften, for the strain rate of the bond:
+ * c->range, the stretches of onset and end. The strain rate is the mean of the rates of both rows, or the rate of one
+ * row if the other does not have bonds to all neighbours. Returns true if the stretch of the bond is above the onset at
+ * this rate. */
 static bool is_beyond_at_rate(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               struct candidate *c)
 {
@@ -252,9 +255,9 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
     if (denied) __atomic_fetch_or(&b->soft.due[g], DUE_DENIED, __ATOMIC_RELAXED);
 }
 
-/* Returns true if the last computation of forces has marked a row block (bonds of eight particles) anew, in which a
- * bond went beyond its onset of softening. Then all marked row blocks are examined, so that both rows of a bond are
- * examined in one step. */
+/* Returns true if, in the last computation of forces, a bond of a row block that was not yet marked in b->soft.due went
+ * beyond its onset of softening. Then the bonds of all marked row blocks must be examined, so that both rows of a bond
+ * are examined in one step. A row block has the bonds of eight particles. */
 static bool any_new(const struct bonds *b)
 {
     bool found = false;

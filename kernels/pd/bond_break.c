@@ -58,9 +58,9 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Corrects p->f for a bond of particle i that breaks in this step. Subtracts the force that the force kernel has added
- * for it, and adds `share` times its force with the states that both families had before bonds broke. share: fraction
- * of the force that acts in this step [1]. */
+/* Corrects p->f for a bond of particle i that breaks in this step. Subtracts the whole force that the force kernel has
+ * added for this bond, and adds `share` times the force that follows from the states of both families before bonds
+ * broke. share: fraction of the force that acts in this step [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -112,8 +112,9 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
-/* Sets the weight of bond q of row `row` to w [1], and adds half of the elastic energy lost to the fracture energy of
- * the row. The other half is lost in the step to the next positions (kernels.h). */
+/* Sets the weight of the bond with index q in row `row` to w [1]; w = 0 breaks the bond. Adds half of the elastic
+ * energy that is lost to the fracture energy of the row. The other half appears in the step to the next positions,
+ * because a leap-frog velocity update is centred on the change of weights. */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];

@@ -26,8 +26,8 @@ struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
 };
 
-/* Computes vector, lengths and stretch of the eight bonds k to k + 7 in the list c of bonds to mirror images in clamped
- * planes. */
+/* Returns vector, length, weight and stretch of the eight bonds k to k + 7 in the list c of bonds that cross clamped
+ * planes. A clamped plane has mirror images beyond it, which are the neighbours in these bonds. */
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
 {
@@ -42,8 +42,9 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
     return a;
 }
 
-/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], for bond-based
- * models: minus half of the force that the force kernel gave the particle of the row. */
+/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
+ * the image, into the member `reaction` [N]. For bond-based models: the force kernel adds the force from both ends of a
+ * bond to the particle of the row, and the reaction is minus half of it. */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -58,8 +59,9 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
-/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], for state-based
- * models: minus the force that follows from the state of the particle of the row (state_laws.h). */
+/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
+ * the image, into the member `reaction` [N]. For state-based models: minus the force that follows from the state of the
+ * row's particle alone (state_laws.h). rotates: true in models with rotations. */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
                                           const bool rotates)
 {
@@ -80,7 +82,8 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
-/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], in any model. */
+/* Computes for bonds k to k + 7 in b->clamped (bonds to mirror images beyond clamped planes) the reaction, the force on
+ * the image, into the member `reaction` [N]. Chooses the function for the model. */
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {
@@ -92,9 +95,8 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds the reactions of bonds across clamped planes to the force p->f on one particle: number h of c->particle, the
- * list of particles that receive such reactions. Each reaction acts on a mirror image and is reflected to its
- * source. */
+/* Adds to the force p->f on one particle the reactions of bonds across clamped planes that it receives. h: number of
+ * the particle in c->particle. A reaction acts on a mirror image of the particle and is reflected back to it. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -113,9 +115,10 @@ static void weights_follow(struct bonds *b)
     for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
 }
 
-/* Replaces the reactions of those bonds in b->clamped that the force kernel has broken in this step: by the share of
- * their force that acts in this step, with the states before they broke (bond_last.h). These bonds are recognised by
- * their weights: the weight copied to c->w before the step is not 0, the present one is 0. */
+/* Recomputes the reactions of those bonds in b->clamped (bonds to mirror images beyond clamped planes) that the force
+ * kernel has broken in this step. Their reaction is the share that acts until the bond breaks, with the states before
+ * bonds broke (bond_last.h). These bonds are recognised by their weights: c->w, copied before the step, is not 0, but
+ * the present weight is 0. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

@@ -129,10 +129,11 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
         rotation[c] = (c < 3 ? axis : scale) * lanes_load_or_gather(p->end_rotation[c], own, row);
 }
 
-/* Stores in particles.end_moment the moment of the bonds about those of eight material points that are set in the mask
- * `end` [N m], 0 for the others. It is the axial vector of g R^T M with M = sum w Y (x) xi: component k is entry ji
- * less entry ij. row: numbers of the points; own: the first of them if they are consecutive, else -1; rows: number of
- * points that exist; sum: sums over the bonds of the points; spring: spring stiffness g [N/m]. */
+/* Stores in particles.end_moment the moments that bonds exert on eight material points [N m], for the points in the
+ * mask `end`; 0 for the others. The moment is the axial vector of g R^T M, with M = sum w Y (x) xi over the bonds of
+ * the point and the rotation R of its cell: component k is entry ji less entry ij. row: numbers of the points, of which
+ * the first `rows` exist; own: number of the first point if they are consecutive, else -1; sum: sums over the bonds;
+ * spring: spring stiffness g [N/m]. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
@@ -154,9 +155,9 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Updates the states *k of those particles of row block g (bonds of eight particles) that are material points: their
- * cells add a part of the mean strain, which changes the pressure, and determine the rotation. Stores the reactions of
- * the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes of the eight families;
+/* Updates the states *k of those particles of row block g (bonds of eight particles) that are material points. Adds to
+ * the pressure of each the mean strain of its cell, and replaces its rotation by that of the cell. Stores the reactions
+ * of the bonds on the cells in particles.end_pull and end_moment. f: moduli and weighted volumes of the eight families;
  * sum: sums over their bonds. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
@@ -178,8 +179,9 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes pressure, spring stiffness and rotation of the families of row block g from `sum`, the sums over their
- * bonds, and stores them in b->state; for material points with bonds, too. */
+/* Computes pressure, spring stiffness and rotation of the families of row block g (bonds of eight particles) and stores
+ * them in b->state. Families of material points include the contribution of their cell. sum: sums over the bonds of
+ * each family. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -251,10 +253,10 @@ struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of the eight bonds of a column to the sums of a row block. Ordinary model: with q = e/|Y|, r/|Y| = 1
- * - q, so w (r P + e g)/|Y| = w [P + (g - P) q], two products fewer than with the stretch. Modified model: the
- * effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, exactly 0 where nothing has moved; the
- * rotations of the row block's own particles are applied in force_row_block. */
+/* Adds the forces of the eight bonds of a column to the sums of a row block. In models without rotations the force of a
+ * bond is w [P + (g - P) q] times Y, with q = (|Y| - r)/|Y|: two products fewer than with the stretch. In models with
+ * rotations the effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, which is exactly 0 where nothing
+ * has moved; the part of the rotations of the row block's own particles is added in force_row_block. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {

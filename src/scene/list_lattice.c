@@ -30,8 +30,8 @@ static int site_order(const void *a, const void *b)
 
 static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
 
-/* Sorts site[n] by body and position. Returns true if at least the share NEIGHBOURS_LEAST of the sites has a
- * neighbour along x. */
+/* Sorts site[n], the lattice sites of the particles of a list, by body and position. Returns true if at least the share
+ * NEIGHBOURS_LEAST of the particles has a neighbour one spacing away along x, so that the sites form a lattice. */
 static bool sites_dense(struct site *site, int64_t n)
 {
     int64_t beside = 0;

@@ -358,10 +358,10 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
     return any && scene_is_dynamic(s) && s->method == METHOD_MPM;
 }
 
-/* Chooses the frame `current` for bodies whose frame is `auto` if the keys of the scene require it. If no body then has
- * the frame `auto`, marks the keys that have a meaning in the current frame only (mpm.shape, mpm.transfer,
- * interface_damping) as given, so that scene_echo.c writes them. They must not be written while a body has the frame
- * `auto`, since a scene that gives these keys requires the current frame. */
+/* Sets the frame of bodies with `frame: auto` to `current` if keys of the scene require the current frame. If no body
+ * then has the frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that
+ * scene_echo.c writes them. While a body has the frame `auto` they must not be written: these keys have a meaning in
+ * the current frame only, and a scene that gives them requires it. */
 void resolve_reference_frames(struct scene *s)
 {
     bool open = false;

@@ -192,7 +192,8 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Writes the list output.regions: the regions of the scene that have frames of their own. */
+/* Writes the list output.regions: the regions for which the run writes additional output frames, at intervals of their
+ * own. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;

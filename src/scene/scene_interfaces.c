@@ -51,10 +51,10 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
     return OK;
 }
 
-/* If the interface `face` has an energy release rate, computes face->critical_stretch, the critical stretch of bonds
- * across it. Such a bond counts as one of a material with the harmonic mean of both Young's moduli, and else with
- * the properties of the softer body. n: node of the interface. Returns REFUSED for bodies of several materials or
- * with softening bonds. */
+/* Computes face->critical_stretch, the critical stretch of bonds across the interface `face`, if the interface has an
+ * energy release rate. It is the critical stretch of a material with the harmonic mean of both Young's moduli, this
+ * energy release rate, and the other properties of the softer body. n: node of the interface. Returns REFUSED for
+ * bodies of several materials or with softening bonds. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

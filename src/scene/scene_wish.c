@@ -50,9 +50,9 @@ struct provisional_method {
     bool soft_states;
 };
 
-/* Reads the scene in text[length] into s with the method `with`, and with provisional values, which contradict no
- * key of the scene, for the other choices of the pilot runs. spacing: used if the scene has none [m]. Returns
- * REFUSED, with s freed, if the scene is invalid. */
+/* Reads the scene in text[length], which has `method: auto`, into s with the method `with` instead. Pilot runs choose
+ * method, solver, model and spacing later; here they get provisional values that do not contradict the other keys of
+ * the scene. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if the scene is invalid. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s,
                                const struct provisional_method *with, real spacing)
 {
@@ -81,9 +81,10 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     return read;
 }
 
-/* Reads the scene in text[length] into s with method adaptive. If that is refused, as for joined bodies, reads it
- * with method pd; if that is refused, as for some Poisson's ratios, with method pd and softening bonds of a
- * state-based model. spacing: used if the scene has none [m]. Returns REFUSED, with s freed, if all are refused. */
+/* Reads the scene in text[length], which has `method: auto`, into s with a provisional method: the first of three that
+ * the scene allows. Tries method adaptive, which is refused for joined bodies; then method pd, which is refused for
+ * some Poisson's ratios; then method pd with softening bonds of a state-based model. spacing: used if the scene has
+ * none [m]. Returns REFUSED, with s freed, if all are refused. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     static const struct provisional_method with[] = {{"adaptive", false}, {"pd", false}, {"pd", true}};
@@ -93,10 +94,10 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
     return read;
 }
 
-/* Reads the scene in text[length] into s with a provisional method. given: true if the scene has a spacing; else it
- * is read with 1 m, and then again with a coarse spacing that resolves its lengths. *most: receives the largest
- * spacing that suits the strengths of all materials [m], or INFINITY without strengths or if the scene has a
- * spacing. Returns REFUSED if the scene is invalid. */
+/* Reads the scene in text[length], which has `method: auto`, into s with a provisional method. If the scene has no
+ * spacing (`given` is false), reads it with 1 m, computes from it a coarse spacing that resolves all its lengths, and
+ * reads it again with that. *most: receives the largest spacing that suits the strengths of all materials [m]; INFINITY
+ * without strengths or if the scene has a spacing. Returns REFUSED if the scene is invalid. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given,
                                 real *most)
 {
