@@ -87,8 +87,8 @@ struct pair_table material_pair_table_make(const struct bond_source *s)
     return t;
 }
 
-/* Returns an array [n] of -1, for the index of each particle's row; takes the spare array of the previous rows if they
- * have one. The caller owns it. */
+/* Returns an array [n] of row indices, one for each particle, with all entries -1 (no row). If the previous bonds `old`
+ * have a spare array of this kind, it is taken from them instead of allocating one. The caller owns it. */
 static int32_t *row_of_make(struct bonds *old, int64_t n)
 {
     int32_t *row_of = old ? old->no_rows : NULL;
@@ -151,8 +151,8 @@ struct rows_pass {
     bool count;                     /* first pass: columns are only counted */
 };
 
-/* Returns true if one of the particles particle[rows] had its row in a row block (bonds of eight particles) of the
- * previous bonds `old` in which weights have changed since it was made, because a bond broke or softened. */
+/* Returns true if the new rows of the particles particle[rows] inherit changed weights: one of these particles had its
+ * row in a row block (bonds of eight particles) of the previous bonds `old` in which a bond has broken or softened. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -194,8 +194,9 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the columns of row block g (rows of eight particles) if pass->count, else fills them. room: working memory of
- * the thread. Returns the number of bonds of the row block. */
+/* Makes row block g (rows of eight particles): in the first pass (pass->count) counts its columns, in the second fills
+ * them. Column k of a row block contains the k-th bonds of its eight particles. room: working memory of the thread.
+ * Returns the number of bonds of the row block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -227,9 +228,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Finds for each row block of the new rows the unchanged one of the previous rows whose contents are copied
- * (pass->kept, -1: none). Lists the other row blocks, which must be made, in pass->list. Threads then share the list
- * evenly. */
+/* Compares the new rows with the previous ones. pass->kept[g] receives the previous row block (rows of eight particles)
+ * that is equal to new row block g, so that its contents can be copied, or -1. pass->list receives the row blocks
+ * without an equal one, which must be made. */
 static void rows_pass_begin(struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -245,8 +246,9 @@ static void rows_pass_begin(struct rows_pass *pass)
         if (pass->kept[g] < 0) pass->list[pass->n++] = g;
 }
 
-/* Counts the columns of all row blocks (rows of eight particles each) that are made, or fills them. Called twice, so
- * that a list of all bonds never exists twice. Updates b->reach. */
+/* Makes all row blocks in pass->list (rows of eight particles each) in parallel: counts their columns in the first
+ * pass, fills them in the second. In two passes the memory is known before it is filled, and bonds are not stored
+ * twice. Raises b->reach to the distance of the farthest bonded particle [row blocks]. */
 static void rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -265,8 +267,8 @@ static void rows_pass(const struct rows_pass *pass)
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
 }
 
-/* Copies the row blocks that are taken over from the previous rows, and sets b->n to the number of directed bonds of
- * all row blocks. */
+/* Copies the row blocks (rows of eight particles) that are equal to previous ones from the previous rows, and sets b->n
+ * to the number of directed bonds of all row blocks. */
 static void rows_pass_end(const struct rows_pass *pass)
 {
     struct bonds *b = pass->b;
@@ -279,9 +281,9 @@ static void rows_pass_end(const struct rows_pass *pass)
     b->n = made;
 }
 
-/* Makes all row blocks (rows of eight particles each) of b in two passes: one counts columns, one fills them. If
- * previous rows exist, few row blocks change, and the neighbours found in the first pass are stored for the second
- * one. */
+/* Makes all row blocks (rows of eight particles each) of b in two passes: the first counts their columns, the second
+ * fills them. If previous rows exist, few row blocks change; the neighbours that the first pass finds for these are
+ * then kept for the second pass. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = material_pair_table_make(maker.source);

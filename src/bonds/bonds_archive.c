@@ -5,10 +5,10 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Copies the weights of changed row blocks (those with a bond that broke or softened) to w if `saving`, else from w
- * into the row blocks. Other row blocks have the weights with which they are made. After restoring, bonds of weight
- * 0 are marked as broken, and changed row blocks store their columns instead of using a stencil. w[8 columns of the
- * changed row blocks]. */
+/* Copies the weights of the bonds in changed row blocks (those with a bond that broke or softened) to w if `saving`,
+ * else from w into the row blocks. After restoring, bonds of weight 0 are marked as broken, and the changed row blocks
+ * use their stored columns instead of a stencil. w: eight weights for each column of the changed row blocks, in their
+ * order. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {
@@ -25,8 +25,9 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
-/* Saves the marks and weights of changed row blocks to the archive a if a->saving, else restores them from it.
- * Returns FAILED if the archive does not have them. */
+/* Saves to the archive a, if a->saving, which row blocks (bonds of eight particles each) have a broken or softened
+ * bond, and the weights of all bonds in these. Else restores both from the archive: the weights of all other bonds
+ * follow from the scene. Returns FAILED if the archive does not contain them. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

@@ -87,10 +87,11 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Lists the reactions of bonds across clamped planes on particles. Bond-based: a row contains the force of both rows of
- * a bond; half of it belongs to the row of the image, is subtracted and acts on the particle of which it is an image.
- * State-based: the row contains its own half only (clamped images have no state), and the reaction is added to that
- * particle. */
+/* Makes the list c->end of reactions of bonds across clamped planes, with the particle on which each acts. State-based
+ * models: a row contains its own half of the bond force, as clamped images have no state; the other half is the
+ * reaction, which is added to the source of the image (the particle that it mirrors). Bond-based models: a row contains
+ * both halves; one half is subtracted from the particle of the row and added to the source of the image, as two
+ * reactions. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -126,9 +126,9 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Assigns to each row block g of b its first column in the arrays of the previous rows `old`: that of row block kept[g]
- * of `old` if g keeps its columns, else that of a range of unused columns (hole), else the end of the arrays, which are
- * extended if necessary. kept[g]: -1 if row block g is rebuilt. */
+/* Chooses the position of each row block g (rows of eight particles) of b in the column arrays of the previous rows
+ * `old`. If it is equal to the previous row block kept[g], it stays at the columns of that. If kept[g] is -1, it gets a
+ * range of unused columns (hole) that is large enough, or else columns at the end of the arrays, which are extended. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);

@@ -79,10 +79,9 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if column k of a row block contains the next bond of row l that has no column yet. used: index of this
- * bond in the row, and number of its bonds that already have a column; l: 0 to 7; particle[8]: particles of the rows.
- * by_offset: true if all bonds of a column must have its index distance (neighbour minus particle), room->offset[k];
- * false if a column takes any bond. */
+/* Returns true if column k of a row block must contain the bond number `used` of row l (0 to 7), the first bond of this
+ * row that has no column yet. by_offset: true if all bonds of column k have the index distance room->offset[k]
+ * (neighbour minus particle), false if a column takes any bond. particle[8]: particles of the rows. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {

@@ -90,9 +90,9 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the coordinates of all particles along axis d are multiples of one step. Both are taken as whole
- * numbers of units in the last place of the largest coordinate. Equal lattice distances then are equal to the last bit
- * everywhere. */
+/* Returns true if the coordinates of all particles along axis d differ from the lowest one by exact multiples of one
+ * step, without round-off; equal distances on the lattice are then equal to the last bit. Coordinates are compared as
+ * whole numbers of units in the last place of the largest coordinate. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
@@ -180,10 +180,10 @@ int site_map_find_neighbours(const struct site_map *map, const struct particles 
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 to their neighbours on one lattice row along x to *to. l: map of lattice
- * sites; site: index in the map of the site of particle i; row: the lattice row, as a segment relative to that site;
- * number: number of neighbours in a full family on the lattice rows before this one. Returns false if the particles on
- * the lattice row do not have consecutive indices. */
+/* Appends to *to the bonds from particles i .. i + 7 to their neighbours on one line of the lattice parallel to x. l:
+ * map of lattice sites to particles; site: index in the map of the site of particle i; row: the sites of the line
+ * within the cutoff, relative to that site; number: number of neighbours in a full family on all lines before this one.
+ * Returns false if the particles on the line do not have consecutive indices. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {

@@ -6,9 +6,10 @@
 #include "base/team.h"
 #include "bonds_parts.h"
 
-/* Allocates b->soft.near, marks of row blocks (bonds of eight particles) that may be near a strength surface, if a
- * material has such a surface. Sets b->soft.gate, the stretch from which on a row block is marked [1]. Rows that are
- * rebuilt from `previous` (or NULL) keep their mark; new ones are marked. */
+/* Allocates b->soft.near if a material has a strength surface: a mark for each row block (bonds of eight particles) in
+ * which a particle may have nearly reached its strength surface. Sets b->soft.gate, the stretch beyond which a row
+ * block is marked [1]. A new row block is marked if one of its rows had no previous row, or one in a marked row block.
+ * previous: previous bonds or NULL. */
 static void rows_watch(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                        const struct particles *p)
 {

@@ -168,8 +168,9 @@ void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row
         to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-/* Images follow all particles, and the columns of a stencil ascend by their neighbours, up to the padding of less than
- * eight lanes: none has an image if the last one ends two row blocks before the images. */
+/* Returns false only if no bond of the row block leads to an image. Images follow all particles, and the columns of a
+ * stencil ascend by their neighbours, up to the padding of less than eight lanes: no column leads to an image if the
+ * last one ends two row blocks before the images. */
 bool row_block_may_meet_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     const int64_t columns = row_block_column_count(b, row_block);

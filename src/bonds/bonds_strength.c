@@ -85,8 +85,9 @@ static ALWAYS_INLINE void moment_add(matrix m, real weight, const real *a, const
         for (int j = 0; j < dim; j++) m[i * dim + j] += weight * a[i] * b[j];
 }
 
-/* Computes the sums *sum over the bonds of a row, without bonds that a pre-crack cuts. Bonds broken by load count as
- * lost stiffness. */
+/* Computes *sum, the moment matrices of the bonds of a row with their reference and present vectors, from which the
+ * strain of its particle follows (struct moments). Bonds that a pre-crack cuts are left out; bonds broken by load count
+ * as lost stiffness. */
 static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -112,8 +113,9 @@ static ALWAYS_INLINE void row_moments(const struct evaluation *e, int64_t row, s
     }
 }
 
-/* Computes sum[8], the sums over the bonds of the eight rows of row block g, which has a stencil: its bonds are
- * intact, have not begun to soften, and each column of them has one index distance. */
+/* Computes sum[8], the moment matrices of the bonds of each of the eight rows of row block g with their reference and
+ * present vectors (struct moments). The row block must have a stencil: its bonds are intact and have not begun to
+ * soften, and all bonds of a column have one index distance. */
 static ALWAYS_INLINE void stencil_moments(const struct evaluation *e, int64_t g, struct moments *sum, const int dim)
 {
     const struct particles *p = e->p;
@@ -204,9 +206,9 @@ static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
     return row >= 0 && e->b->whole[row] ? row : -1;
 }
 
-/* Marks the rows of all neighbours to which intact bonds of a row lead: sets their e->distance to `distance` where it
- * is still 0. distance: number of bonds between a marked row and the nearest row to be evaluated, plus 1. Several
- * threads may mark one row. */
+/* Marks the rows of the neighbours to which the intact bonds of a row lead, because their strains are needed for means:
+ * sets their e->distance to `distance` where it is still 0. distance: 1 for a row whose strength surface is evaluated,
+ * one more for each bond further away. Several threads may mark one row. */
 static void mark_family_rows(struct evaluation *e, int64_t row, uint16_t distance)
 {
     for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);) {
@@ -380,9 +382,9 @@ static real start_of(const struct evaluation *e, int32_t j)
     return LEAST_ONSET * row_strength(e, row) * m->tensile_strength / m->young;
 }
 
-/* Returns the softening state with which a bond of particle i begins to soften when a strength surface is reached. The
- * softening begins at its present stretch; if that is smaller than `least` and than the stretch at which the material
- * softens, at the smaller of these two [1]. */
+/* Returns the softening state of a bond of particle i whose softening begins because the stress has reached a strength
+ * surface. The onset is the larger of its present stretch and s, where s is the smaller of `least` [1] and of the
+ * stretch at which the bond would begin to soften by itself. */
 static struct bond_softness bond_started(const struct evaluation *e, const struct bond *bond, int32_t i, real least)
 {
     const struct particles *p = e->p;

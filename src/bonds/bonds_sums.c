@@ -27,8 +27,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Computes volume[i .. i + 7]: for each of these particles the sum of the volumes of its neighbours times the common
- * `weight` [m^3]. bonds: the neighbours, from the map of lattice sites. */
+/* Computes volume[i .. i + 7]: for each of these eight particles the sum of the volumes of its neighbours, times
+ * `weight`, the weight of every neighbour [m^3]. bonds: the neighbours, from the map of lattice sites. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {

@@ -48,11 +48,10 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, for the
- * critical stretch 1: the integral of dW over the opening of the plane, with the energy density W of a particle. The
- * sum runs from the last bond that breaks back to the first. f: family; m: constants of the state-based law; local:
- * true if the weighted volume Q is summed over the intact bonds only; c: working memory for the bonds that cross the
- * plane. */
+/* Returns the work per volume that separates all bonds of a layer of particles at `height` [m] above a plane, if the
+ * critical stretch is 1. It is the integral of the energy density of a particle over the opening of the plane, summed
+ * from the last bond that breaks back to the first. f: family; m: constants of the state-based law; local: true if the
+ * weighted volume Q is summed over the intact bonds only; c: working memory for the bonds that cross the plane. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -83,11 +82,11 @@ real family_separation_work_over_stretch_squared(const struct family *f, const s
 
 enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give 1e-5 less */
 
-/* Returns the work per volume that separates the bonds of a layer of particles at `height` [m] above a plane, if bonds
- * soften: the integral of dW/dD, at constant damage, over the opening D of the plane. W = D^2/2 [A (sum q w z/Q)^2 +
- * B/Q sum q w |e/D|^2] is the energy density of a particle. A bond that crosses the plane has the stretch D z/r^2, and
- * q is the share of its stiffness that it then keeps. m: constants of the state-based law; rotates: true for a model
- * with particle rotations; curve, range: softening curve and the stretches between which bonds soften; c: working
+/* Returns the work per volume that separates all bonds of a layer of particles at `height` [m] above a plane, if bonds
+ * soften: the integral of dW/dD at constant damage over the opening D of the plane. The energy density of a particle is
+ * W = D^2/2 [A (sum q w z/Q)^2 + B/Q sum q w |e/D|^2]. A bond across the plane has the stretch D z/r^2, and q is the
+ * share of its stiffness that remains at this stretch. m: constants A, B of the state-based law; rotates: true for a
+ * model with particle rotations; curve, range: softening curve and the stretches between which bonds soften; c: working
  * memory for the bonds that cross the plane. */
 static real layer_softening_work(const struct family *f, real height, const struct state_modulus *m, bool rotates,
                                  const struct softening_curve *curve, struct softening_range range, struct crossing *c)

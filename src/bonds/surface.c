@@ -6,10 +6,10 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-/* Fills two tables of `to` for classes of particles with equal surroundings: factor[classes, offsets], the factor on
- * the weight of the bond at each offset of a class, and weighted[classes], the weighted volume sum w r^2 of a class
- * [m^2]. b: particles near faces; a: their classes; f: family. factor[groups]: factor of each group of bonds that share
- * one; bonds in no group have factor 1. */
+/* Computes two tables of `to` for particles near faces, by classes: the particles of a class have equal surroundings.
+ * factor[classes, offsets]: surface correction of the bond at each offset, a factor on its weight. weighted[classes]:
+ * weighted volume sum w r^2 with these factors [m^2]. b: particles near faces; a: their classes; f: family;
+ * factor[groups]: factor of each group of bonds that share one; bonds in no group have the factor 1. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {

@@ -47,9 +47,9 @@ static void kinds_start(struct kinds *s, const struct near_faces *b)
     for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
 }
 
-/* Returns a hash of the kinds of particle t and of its neighbours (particles of one kind have equal surroundings): a
- * sum with one term for each neighbour, its kind and mirrors times the random word factor[k] of its offset k. t: index
- * among the particles near faces. */
+/* Returns a hash of the kind of particle t and of the kinds of its neighbours (particles of one kind have equal
+ * surroundings). It is a sum with one term for each neighbour: its kind and mirrors times factor[k], a random word for
+ * its offset k. t: index among the particles near faces. */
 static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
 {
     uint64_t sum = (uint64_t)s->of[t] + 1;
@@ -76,9 +76,9 @@ static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, i
     return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Returns the hash of the surroundings of particle t (its colour), reflected by the axes in `mirrors`. It is computed
- * from the present colours s->colour of the particle and its neighbours, and covers one family more than these do. t:
- * index among the particles near faces. */
+/* Returns a hash (colour) of the surroundings of particle t, reflected by the axes in `mirrors` (bit d: axis d). It
+ * combines the present colours s->colour of the particle and its neighbours, and so describes surroundings that are
+ * larger by one family. t: index among the particles near faces. */
 static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
@@ -132,8 +132,9 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 
 /* ---- classes ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the first set of mirrors >= `from` (bit d: mirrored across axis d) for which the colour of a kind, the
- * hash of its mirrored surroundings, is smallest; -1 if there is none. kind: particles with equal surroundings. */
+/* Returns a reflection under which the surroundings of the particles of one kind have the smallest hash (colour) of all
+ * reflections: the first such set of axes >= `from`, with bit d for axis d; -1 if there is none. The particles of a
+ * kind have equal surroundings. */
 static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
 {
     const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
@@ -162,8 +163,9 @@ static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b,
     memory_free(least.first);
 }
 
-/* Numbers the classes (particles with equal surroundings up to mirrors) in the order of their first particle, from 1,
- * and finds the sets of mirrors under which each class is its own image. */
+/* Divides the particles near faces into classes: surroundings of particles in one class are equal or mirror images of
+ * each other. Numbers the classes from 1 in the order of their first particle. Finds for each particle the mirrors that
+ * map it to its class, and for each class the mirrors under which its surroundings do not change. */
 static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
 {
     int32_t *of = NEW("surface.class", s->n, int32_t);
@@ -206,17 +208,18 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the index of bond k of particle t (an index among those near faces) in tables [classes, offsets]. The
- * offset of the bond is reflected by the mirrors that map the particle to its class, i.e. to particles with equal
- * surroundings. */
+/* Returns the index of the bond from particle t (an index among those near faces) at offset k in tables [classes,
+ * offsets] with one entry for equal bonds. The particles of a class have equal surroundings up to mirrors; the offset
+ * of the bond is reflected by the mirrors that map the particle to its class. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the table entries of both directions of every bond whose factor may change, so that they get one factor.
- * first[n]: first particles of the kinds (particles with equal surroundings), whose neighbours represent those of
- * all others. parent: union-find forest of the table entries [classes, offsets]. */
+/* Joins the table entries of both directions of every bond whose factor may change, so that i-j and j-i get one factor.
+ * The entries are [classes, offsets]; a class has particles with equal surroundings. first[n]: first particle of each
+ * kind (particles with equal, not mirrored surroundings), which represents the others. parent: union-find forest of the
+ * table entries. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
                        int64_t *parent)
 {

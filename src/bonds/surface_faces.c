@@ -40,8 +40,8 @@ static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
     return near_faces_neighbour_at_offset(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle or image j (its position and area vector, reflected by the mirrors of an image). The
- * area is 0 if the particle is near no face. */
+/* Returns the face of particle j: its position and its area vector. For an image it is the face of the particle that is
+ * mirrored, reflected. The size of the face is 0 if the particle is near no face. */
 static struct exposed_face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -81,8 +81,9 @@ static void mean_add(const struct exposed_face *f, const real *from, real weight
     }
 }
 
-/* Returns the mean normal of the faces around particle t whose normals are less than 90 degrees from its own, and the
- * variance of their positions along it [spacings^2]. */
+/* Returns the mean over the faces near particle t whose normals are less than 90 degrees from its own: their normal,
+ * and the variance of their positions along this normal [spacings^2], 0 for a plane face. raw: faces on the lattice; t:
+ * index among the particles near faces. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
@@ -113,9 +114,10 @@ struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes, for particle t, the matrix that projects the areas of its lattice faces onto the mean face nearby, and the
- * contribution of the particle to N (x) N, where N is the mean normal of the faces nearby. Without a face they are the
- * identity and 0. */
+/* Computes how the lattice face of particle t is smoothed: the matrix that projects its area onto the mean normal N of
+ * the faces nearby, and its contribution to the mean of N (x) N. Without a face the matrix is the identity and the
+ * contribution 0. On the lattice faces are steps; where these scatter too much about a plane, they are smoothed
+ * less. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -169,9 +171,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
-/* Computes f->normal2[t]: the mean of N (x) N, the product of unit normals, over the faces near particle t, weighted
- * by nearness. It is reduced where fewer faces are near than at a plane face. plane: sum of weights at a plane face;
- * rotates: true for a model with rotations, which has no such reduction. */
+/* Computes f->normal2[t]: the mean of N (x) N over the faces near particle t with unit normals N, weighted by nearness.
+ * Where fewer faces are near than at a plane face, the mean is reduced, except in models with rotations (`rotates`).
+ * plane: sum of the weights at a plane face. t: index among the particles near faces. */
 static void normals_gather(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth_faces *s,
                            real plane, bool rotates, int64_t t)
 {
@@ -194,10 +196,11 @@ static void normals_gather(struct surface_fit_targets *f, const struct near_face
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Distributes the face of particle t at one end of an axis over the layers of particles behind it, as area (to
- * f->area) and as dipole (to f->dipole). The area is extrapolated from the middles of the layers to the face. The
- * weights of the dipole have sum 0: 1, -1 on the first two layers; with rotations (`rotates`) 2, -3, 1, a one-sided
- * first derivative of second order at the face. up: 1 for the end in positive direction, else 0. */
+/* Distributes the face of particle t at one end of an axis over the layers of particles behind it, as targets for the
+ * moments of their bonds. f->area receives the area, extrapolated from the middles of the layers to the face. f->dipole
+ * receives weights of sum 0 that describe the change from layer to layer: 1, -1 on the first two layers, or with
+ * rotations (`rotates`) 2, -3, 1 on three, a one-sided first derivative of second order at the face. up: 1 for the end
+ * in positive direction, else 0. */
 static void face_spread(struct surface_fit_targets *f, const struct near_faces *b, const struct smooth *smooth,
                         int64_t t, int axis, int up, bool rotates)
 {

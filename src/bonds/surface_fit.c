@@ -135,10 +135,10 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns alpha, a constant of models without particle rotations: near a face the fourth moments of the bonds shall be
- * (1 + alpha dipole) M, where M is the moment of a full family, and the dipole is 1 in the first layer of particles and
- * -1 in the second. alpha is the value for a plane face along which the body is stretched; in an isotropic family it is
- * the same for shear along the face. */
+/* Returns the constant alpha [1] of models without particle rotations: near a face the fourth moments of the bonds are
+ * to be (1 + alpha dipole) M. M is the fourth moment of a full family; the dipole is 1 in the first layer of particles
+ * and -1 in the second. alpha is the value for a plane face along which the body is stretched; in an isotropic family
+ * the value for shear along the face is equal. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -173,9 +173,10 @@ static void invert(real *a, int n, int capacity)
     }
 }
 
-/* Computes P = (1 + STIFF Q)^-1, the weights of the basis strains B_k. Q_kl = (M:B_k) : N (x) N : (M:B_l) is the
- * product of the tractions that two strains cause on faces nearby, M the fourth moment of a full family, STIFF a
- * constant. normal2: mean of N (x) N over the faces nearby, with unit normals N. */
+/* Computes the weights P = (1 + STIFF Q)^-1 of the basis strains B_k in the least-squares fit of bonds near faces. Q_kl
+ * = (M:B_k) : N (x) N : (M:B_l) is the product of the tractions that two strains cause on faces nearby; strains without
+ * such tractions have the weight 1. M: fourth moment of a full family; STIFF: a constant; normal2: mean of N (x) N over
+ * the faces nearby, with unit normals N. */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -190,8 +191,9 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(&P[0][0], m->strains, STRAINS);
 }
 
-/* Adds the matrix sum_k by_k^T P by_k to `to` [n][capacity], with the symmetric matrix P of weights of strains. by:
- * `rows` matrices by_k with STRAINS rows, of which `strains` are used, and n columns, `capacity` apart. */
+/* Adds the matrix sum_k A_k^T P A_k to the matrix `to` of n rows. by: the matrices A_k, k = 0 .. rows - 1, each of
+ * STRAINS rows, of which the first `strains` are used, and n columns; capacity: numbers from the start of one row to
+ * the next, in A_k and `to`; P: symmetric matrix. */
 static void quadratic(const real *by, int rows, int strains, int n, int capacity, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -238,9 +240,10 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Computes, for a class (particles with equal surroundings), the quadratic form of the least-squares problem and the
- * target of its moments, less the moments of bonds whose factors are fixed. goal: means over the particles of the
- * class; alpha: coefficient by which the dipole raises the target of the fourth moments. */
+/* Prepares the least-squares fit of the bonds of one class (particles with equal surroundings): the quadratic form that
+ * weighs deviations of their third and fourth moments, and the target of these moments, less the moments of bonds whose
+ * factors are fixed. goal: means of the face properties over the particles of the class; alpha: coefficient by which
+ * the dipole raises the target of the fourth moments. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -266,8 +269,9 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Returns the sum of m . Q m over the bonds of a class (particles with equal surroundings) whose factors may change:
- * m are the moments of the bond, Q is the quadratic form of the class in the least-squares problem. */
+/* Returns the sum of m . Q m over those bonds of a class (particles with equal surroundings) whose factors on their
+ * weights are fitted. m: third and fourth moments of a bond; Q: quadratic form that weighs deviations of the moments of
+ * the class. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];
@@ -285,8 +289,9 @@ static real class_squares(const struct surface_fit_problem *q, const struct mome
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* Sorts the entries of the tables by class and offset, one per bond, into the groups of bonds that share one factor.
- * bonds[groups]: receives the number of bonds of each group, half of the members of its entries. */
+/* Lists for each group of bonds that share one factor its entries in tables [classes, offsets] (q->first, q->entry).
+ * bonds[groups]: receives the number of bonds of each group. An entry stands for one bond of each particle of its
+ * class, and a bond has two entries, one for each of its particles. */
 static void group_entries(struct surface_fit_problem *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
@@ -306,8 +311,8 @@ static void group_entries(struct surface_fit_problem *q, real *bonds)
     memory_free(next);
 }
 
-/* Computes q->prior, the weight of (f - 1)^2 in the least-squares problem for each group of bonds that share the
- * factor f, and inverts the quadratic forms of the classes (particles with equal surroundings). */
+/* Computes q->prior, the weight in the least-squares fit with which the factor f of each group of bonds is held near 1,
+ * as prior (f - 1)^2. Then inverts the quadratic forms of all classes (particles with equal surroundings). */
 static void prior_make(struct surface_fit_problem *q, const struct moments *m)
 {
     const struct bond_classes *a = q->alike;
@@ -370,8 +375,8 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of the bonds of a class (particles with equal surroundings) by equal lower and upper bounds: at 1
- * if `one`, else at the factor of the volume method (Le & Bobaru 2018). */
+/* Fixes the factors on the weights of the bonds of a class (particles with equal surroundings), by equal lower and
+ * upper bounds: at 1 if `one`, else at the factor of the volume method (Le & Bobaru 2018). */
 static void class_fix(struct surface_fit_problem *q, const struct near_faces *b, int32_t class, bool one)
 {
     const struct bond_classes *a = q->alike;

@@ -60,8 +60,8 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: for each bond of a class (particles with equal surroundings) the scalar product of its
- * moments and the vector by[thirds + fourths]. thirds, fourths: numbers of third and fourth moments of a bond,
+/* Computes value[offsets]: the scalar product of the third and fourth moments of each bond of a class (particles with
+ * equal surroundings) and the vector by[thirds + fourths]. thirds, fourths: numbers of components of the moments,
  * compile-time constants. changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
@@ -79,10 +79,10 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts from the vector to[thirds + fourths] of a class (particles with equal surroundings) the sum over its
- * bonds of their moments times x[group] of the bond. group[offsets]: group of each bond (bonds with one factor), -1:
- * none. changes[offsets/2]: pairs of opposite bonds whose mark is 0 are skipped, since their x is 0; NULL: none is.
- * thirds, fourths: numbers of moments of third and fourth rank, constants of the compiler. */
+/* Subtracts from to[thirds + fourths] the sum of x times the third and fourth moments over the bonds of a class
+ * (particles with equal surroundings). x[groups]: a number for each group of bonds that share a factor; group[offsets]:
+ * group of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x
+ * is 0; NULL if none is. thirds, fourths: numbers of components of the moments, compile-time constants. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -98,8 +98,9 @@ static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const u
     for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
 }
 
-/* Computes the vector to = Q^-1 `of` of a class (particles with equal surroundings). c: holds the inverse of its
- * quadratic form Q. thirds, fourths: numbers of moments of third and fourth rank, constants of the compiler. */
+/* Computes the vector to = Q^-1 `of` of a class (particles with equal surroundings). Q is the quadratic form that
+ * weighs deviations of the moments of its bonds; c holds its inverse. thirds, fourths: numbers of components of the
+ * third and fourth moments, compile-time constants. */
 static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
                                       const int fourths)
 {
@@ -117,8 +118,9 @@ static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_
     return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
 }
 
-/* Computes d->value[classes, offsets]: the scalar products of the moments of each bond with its class's part of the
- * vector x[classes, moments]. changes: pairs of opposite bonds whose mark is 0 are skipped; NULL: none is. */
+/* Computes d->value[classes, offsets]: for each bond of each class (particles with equal surroundings) the scalar
+ * product of its third and fourth moments and the part of the vector x[classes, moments] that belongs to the class.
+ * changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -135,10 +137,10 @@ static void all_back(struct descent *d, const uint8_t *changes, const real *x)
     }
 }
 
-/* Computes the vector to[classes, moments] of all classes (particles with equal surroundings): Q^-1 by - sum m
- * x[group], plus the targets of the moments if `goals`. The sum is over the bonds of a class, m are the moments of a
- * bond, Q is the quadratic form of the class. changes: pairs of opposite bonds whose mark is 0 are skipped, since
- * their x is 0; NULL: none is. */
+/* Computes the vector to[classes, moments] = Q^-1 by - sum m x, plus the targets of the moments if `goals`. For each
+ * class (particles with equal surroundings) the sum is over its bonds: m are the moments of a bond, x[groups] is a
+ * number for each group of bonds with one factor, Q is the quadratic form of the class. by: [classes, moments];
+ * changes: pairs of opposite bonds with the mark 0 are skipped, since their x is 0; NULL if none is. */
 static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
                     real *to)
 {
@@ -160,8 +162,8 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of d->value over all table entries (class and offset) of bonds in group g. The bonds of a group share
- * one factor. */
+/* Returns the sum of d->value over all entries (class, offset) that belong to group g, a group of bonds that share one
+ * factor. */
 static real group_sum(const struct descent *d, int64_t g)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -170,8 +172,10 @@ static real group_sum(const struct descent *d, int64_t g)
     return sum;
 }
 
-/* Computes d->factor, the factors of the bonds that belong to the multipliers x[classes, moments] of the dual problem,
- * and residual[classes, moments], the residual of the least-squares problem, from x and these factors. */
+/* Evaluates the dual of the least-squares problem that fits the weights of bonds near faces. x[classes, moments]: its
+ * unknowns, one multiplier for each bond moment of a class of particles with equal surroundings. d->factor[groups]
+ * receives the factors on the weights of the bonds that follow from x, within their bounds. residual[classes, moments]
+ * receives the residual, which is 0 at the solution. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -183,7 +187,9 @@ static void residual_make(struct descent *d, const real *x, real *residual)
     d->products++;
 }
 
-/* Computes d->image = A d->direction, where A is the matrix of the linear system of a Newton step. */
+/* Computes d->image = A d->direction, where A is the matrix of the linear system for one Newton step of the
+ * multipliers. A contains only bonds whose factors are between their bounds (d->between); the matrix itself is not
+ * stored. */
 static void image_make(struct descent *d)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -233,8 +239,8 @@ static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER]
     }
 }
 
-/* Counts for each bond of a class (particles with equal surroundings) the bonds of the class that share its factor, the
- * bond and its mirror images, and stores the numbers in d->images. */
+/* Stores in d->images, for each bond of a class (particles with equal surroundings), how many bonds of the class share
+ * its factor: the bond itself and its mirror images. */
 static void images_count(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -244,9 +250,9 @@ static void images_count(const struct descent *d, int32_t class)
         for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
 }
 
-/* Returns the weight of bond k of a class in the diagonal block that the class has in the preconditioner: n/prior, or 0
- * if the factor of the bond is at a bound. A class consists of particles with equal surroundings. n: number of bonds of
- * the class that share the factor, mirror images of each other. This weight is exact for multipliers that have the
+/* Returns the weight of the bond at offset k in the diagonal block that the preconditioner has for a class (particles
+ * with equal surroundings): n/prior, or 0 if the factor of the bond is at a bound or fixed. n: number of bonds of the
+ * class that share this factor, which are mirror images of each other. The weight is exact for multipliers with the
  * symmetry of the class. */
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
@@ -283,8 +289,8 @@ static void block_make(const struct descent *d, int32_t class)
     for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
 }
 
-/* Returns true if the factor of a bond of a class (particles with equal surroundings) has reached or left a bound since
- * the last linear system. */
+/* Returns true if, for a bond of a class (particles with equal surroundings), the factor on its weight has reached or
+ * left one of its bounds since the last linear system was set up. */
 static bool class_turned(const struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -294,8 +300,8 @@ static bool class_turned(const struct descent *d, int32_t class)
     return false;
 }
 
-/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) in which the factor
- * of a bond is between its bounds. */
+/* Marks in d->changes the pairs of opposite bonds of a class (particles with equal surroundings) that the linear system
+ * contains: the factor of one of both is between its bounds. */
 static void class_mark(struct descent *d, int32_t class)
 {
     const int n = d->fit->offsets;
@@ -306,9 +312,9 @@ static void class_mark(struct descent *d, int32_t class)
     }
 }
 
-/* Sets the matrix of the linear system for the present factors of bonds. Marks the factors that are between their
- * bounds. Computes the preconditioner's block of a class (particles with equal surroundings) again if such a mark
- * has changed since the last linear system. */
+/* Sets up the linear system of a Newton step for the present factors of bonds: marks the factors that are between their
+ * bounds, and computes the preconditioner. Its block of a class (particles with equal surroundings) is kept if no mark
+ * of a bond of this class has changed since the last linear system. */
 static void system_make(struct descent *d)
 {
 #pragma omp parallel for schedule(static)
@@ -347,8 +353,9 @@ static void left_weigh(struct descent *d)
 
 /* ---- Newton's method --------------------------------------------------------------------------------------------- */
 
-/* Computes d->step, the Newton step of the multipliers, by preconditioned conjugate gradients until the residual of
- * its linear system is `share` [1] of the residual R of the least-squares problem. */
+/* Computes d->step, the Newton step of the multipliers of the dual problem, by preconditioned conjugate gradients.
+ * Stops when the residual of the linear system is `share` [1] times the residual d->residual of the dual problem, or
+ * when d->most products with the matrix are used up. */
 static void step_solve(struct descent *d, real share)
 {
     real before = 0;
@@ -368,9 +375,9 @@ static void step_solve(struct descent *d, real share)
     }
 }
 
-/* Moves the multipliers along d->step, and updates factors and residual R. R is the gradient of a convex function:
- * while its slope along the step, at the end of the step, is positive and more than STEEP times the negative slope
- * at the start, the step is shortened. */
+/* Moves the multipliers of the dual problem along d->step, and updates the factors of bonds and the residual. The
+ * residual is the gradient of a convex function. If the slope of this function at the end of the step is positive and
+ * more than STEEP times the negative slope at the start, the step is shortened and tried again. */
 static void step_take(struct descent *d)
 {
     const real slope = inner(d->n, d->residual, d->step);
@@ -386,8 +393,8 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-/* Makes Newton steps until the residual R of the least-squares problem is below CLOSE times its first value, or
- * until d->most products with the matrix are used up. Returns |R| over its first value [1]. */
+/* Makes Newton steps until the residual d->residual is below CLOSE times its first value, or until d->most products
+ * with the matrix are used up. Returns the norm of the residual over that of the first one [1]. */
 static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);
