@@ -30,9 +30,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Activates the blocks of nodes (eight along x) that contain extra nodes at the positions of nodes of block `near`.
- * Extra nodes are made where slits divide a node; they are neighbours of the nodes there. moves: true if nodes of
- * `near` move; if these are extra nodes themselves, the blocks at their positions are activated, too. */
+/* Activates the blocks of nodes (eight along x) with the extra nodes that slits have made at the positions of nodes of
+ * block `near`, since motion spreads to them. moves: true if nodes of `near` move; if `near` itself contains extra
+ * nodes, the blocks of the nodes at their positions are then activated, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;

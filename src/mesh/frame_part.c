@@ -18,8 +18,10 @@
  * so that the mesh has no nodes there; APART: its nearest layer is farther than half a spacing. */
 enum plane_fit { PLANE_FITS, PLANE_MISFIT, PLANE_APART };
 
-/* Returns how the particles of body `body` lie at the plane of symmetry of the boundary b. any_absent: true if not all
- * particles of the bodies exist, so that the nearest layer is not known. */
+/* Returns whether the nodes of the mesh of body `body` fit the plane of symmetry of boundary b: PLANE_MISFIT if the
+ * layers of particles are not at half spacings from the plane; PLANE_APART if the nearest layer is farther than half a
+ * spacing, so that the body does not reach the plane; else PLANE_FITS. any_absent: true if not all particles of the
+ * bodies exist, so that the nearest layer is not known. */
 static enum plane_fit plane_fit_of(const struct particles *p, int body, const struct boundary *b, real spacing,
                                    bool any_absent)
 {
@@ -33,8 +35,8 @@ static enum plane_fit plane_fit_of(const struct particles *p, int body, const st
     return nearest > 0.5 && nearest < INFINITY && !any_absent ? PLANE_APART : PLANE_FITS;
 }
 
-/* Returns the first boundary of the scene at whose plane of symmetry body `body` lies as `fit` says, NULL if there is
- * none. any_absent: true if not all particles of the bodies exist. */
+/* Returns the first boundary of the scene that is a plane of symmetry for which plane_fit_of body `body` is `fit`; NULL
+ * if there is none. any_absent: true if not all particles of the bodies exist. */
 static const struct boundary *plane_with_fit(const struct particles *p, const struct scene *s, int body,
                                              bool any_absent, enum plane_fit fit)
 {
@@ -80,8 +82,9 @@ static status planes_check(const struct reference_frame *r, const struct particl
     return OK;
 }
 
-/* Warns of a plane of symmetry that body `body` in the reference frame does not reach at the start: the nodes of this
- * frame are those of the undeformed body, so that such a plane never acts on it. */
+/* Warns if body `body`, which is in the reference frame, does not reach a plane of symmetry at the start. In this frame
+ * only nodes of the undeformed body on the plane are constrained, so that the plane never acts on such a body, even if
+ * the body later moves through it. */
 static void warn_of_plane_apart(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                 int body, struct warnings *to)
 {
@@ -169,9 +172,9 @@ bool reference_frame_in_use(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Returns an array with the elastic constants of the cells, one entry per material: own[materials], those of the
- * material, or, if mpm.constants requests it, those of a lattice of its bonds. family: neighbours in this lattice.
- * Release the array with memory_free. */
+/* Returns an array with the elastic constants of the cells, one entry for each material. They are those of the
+ * material, own[materials], or, if the scene requests it by mpm.constants, those of a full lattice of peridynamic
+ * bonds. family: neighbours in this lattice. Release the array with memory_free. */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -216,9 +219,9 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
     return OK;
 }
 
-/* Returns the critical time step of the mesh [s]; INFINITY if it has no points. Conversion to peridynamics may leave
- * any subset of points in a cell: with partial stress no such cell has a smaller critical step than the initial cells,
- * with hand-shake coupling a cell with a single point has. */
+/* Returns the critical time step of the mesh [s]; INFINITY if it has no points. Conversion to peridynamics may later
+ * leave any subset of points in a cell. With partial stress, no such cell has a smaller critical step than the initial
+ * cells. With hand-shake coupling, a cell with a single point has one, which is then included. */
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;

@@ -93,9 +93,9 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Returns true if a load acts at cell I through a face of the body. A face is where the next cell along the axis of the
- * load is not completely inside the body; prescribed displacements act on all cells within their depth of it. h: grid
- * of cells; X[dim]: a point of cell I, tested against the region of the load [m]. */
+/* Returns true if a load on a face of the body acts at cell I. For a traction or pressure, cell I is at the face if the
+ * next cell along the axis of the load is not completely inside the body; for a prescribed displacement, if the face is
+ * within its depth. h: grid of cells; X[dim]: a point of cell I, which must be in the region of the load [m]. */
 static bool face_loaded(const struct scene *s, const struct cells_without_particles *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -188,9 +188,9 @@ bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-/* Returns flags [box.n] that are 1 for the cells that need no particles: those farther than `margin` cells from cells
- * of level 0, the finest, and farther than `ahead` cells from those cells of level 0 that have no particles at present.
- * A coarse cell has all of its particles or none. level: levels of the cells of the mesh. Release the flags with
+/* Returns flags [box.n] that are 1 for the cells whose particles need not be created. Particles are created near cells
+ * of level 0, the finest: within `margin` cells, and within `ahead` cells of those that have no particles at present. A
+ * coarse cell has all of its particles or none. level: levels of the cells of the mesh. Release the flags with
  * memory_free. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int margin, int ahead)
 {

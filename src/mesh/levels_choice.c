@@ -19,9 +19,9 @@ enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the rise time of the boundary b [s]: its largest value over its largest rate of change, as for a ramp;
- * INFINITY for a table whose value does not change, 0 for a jump. For prescribed displacements it is the rise time of
- * their velocity, which is a pulse or jumps (0). */
+/* Returns the rise time of boundary b [s], in which its value grows from 0 to the largest: the largest value over the
+ * largest rate of change, as for a ramp; 0 for a jump, INFINITY for a table whose value does not change. For prescribed
+ * displacements it is the rise time of their velocity, which is a pulse or jumps (0). */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -37,9 +37,9 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells that represent the waves of the load *r in a body of thickness `across`, all
- * lengths in spacings. It is r->waves/RISES (waves: distance that waves travel while the load rises), or across/edges
- * if that is larger and the load is no pulse. edges: smallest number of cell edges across the body. */
+/* Returns the largest edge of cells that resolve the waves of the load *r in a body of thickness `across`, all lengths
+ * in spacings. It is r->waves/RISES, where r->waves is the distance that waves travel while the load rises. If the load
+ * is no pulse, it may also be across/edges, if that is larger: then `edges` cells fit across the body. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
@@ -61,8 +61,9 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* Returns the load, initial state or moving body of the scene that requires the smallest cells in a body of thickness
- * `across` [spacings], with its rise time; kind RISE_NONE if there is none. */
+/* Returns the load that requires the smallest cells in a body of thickness `across` [spacings], with its rise time.
+ * Initial states and moving or rigid bodies count as loads that rise at once, an initial pulse by its width. Returns
+ * the kind RISE_NONE if the scene has no load. */
 static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
     const real c = slowest_waves(s), D = s->spacing;
@@ -172,9 +173,9 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
                  r->waves);
 }
 
-/* Writes to text[capacity] what cells with an edge of `edge` spacings require of the loads: a pulse of some length, or
- * either a rise over some distance or a body of some thickness. c: choice of levels with the decisive load; edges:
- * smallest number of cell edges across the body. */
+/* Writes to text[capacity] the condition under which cells with an edge of `edge` spacings would be used, for a
+ * message: pulses of some length, or else loads that rise over some distance or a body of some thickness. c: choice of
+ * levels, with the load that determined it; edges: smallest number of cells across the body. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t capacity)
 {
     if (c->rise.pulse)

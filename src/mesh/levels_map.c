@@ -18,9 +18,9 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises *to, the map of which cells of level 0 (the finest) may become part of coarser cells. Only cells with all
- * points may. demand: 1 for cells that must be of level 0; limit: largest level allowed for each cell, NULL if all
- * levels are. */
+/* Initialises *to, a map for the cells of level 0 (the finest): which of them may become parts of coarser cells, and up
+ * to which level. Only cells with all points may. demand: 1 for cells that must remain at level 0; limit: highest level
+ * for each cell; NULL: no limit. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {

@@ -24,9 +24,9 @@ enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the edge h of a lumped cell whose waves along an axis have the same dispersion as bonds of the lattice [m]:
- * h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds, with xi their component along the axis. Without bonds, returns
- * the edge of cells of level 0 (the finest). */
+/* Returns the edge h of a cell with lumped mass whose waves along an axis have the same dispersion as those in a
+ * lattice of bonds [m]: h^2 = (sum xi^6/r^3)/(sum xi^4/r^3) over the bonds of length r, with their component xi along
+ * the axis. Without bonds, returns the edge of cells of level 0 (the finest). */
 static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
@@ -124,11 +124,11 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Returns flags [fine->grid.n] of the cells that must be of level 0 (the finest). These are the cells within
- * l->roomy_cells + more cells of peridynamic particles and of the cells requested in l->wanted; within FLANK_MORE
- * further cells of slits if there are several, within one cell of a single slit; and within one cell of loaded
- * particles and of planes of symmetry that are not on nodes. more: additional distance [cells]. Release the flags with
- * memory_free. */
+/* Returns flags [fine->grid.n] that are 1 for the cells that must be of level 0 (the finest). With R = l->roomy_cells +
+ * more, these are the cells within R cells of peridynamic particles and of the cells requested in l->wanted; within R +
+ * FLANK_MORE cells of slits if there are several, within one cell of a single slit; and within one cell of loaded
+ * particles, of probes of stress-intensity factors and of planes of symmetry that are not on nodes. Release the flags
+ * with memory_free. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {

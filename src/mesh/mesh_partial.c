@@ -106,9 +106,10 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* Computes sum[S] for each set S of axes (a bit set): the sum over the points of cell I of D times the signs of the
- * point's coordinates along the axes of S, divided by the number of corners [Pa]. D is the matrix of stress by strain
- * of a point. The sums of all S are formed together, along one axis after the other (butterflies). */
+/* Computes sum[S] [Pa] for each set S of axes, one bit per axis: the mean over the points of cell I of D times s_S. D
+ * is the matrix of stress by strain of a point, 0 for a missing point; s_S is the product of the signs of the point's
+ * coordinates, relative to the middle of the cell, along the axes in S. All sums are formed together, along one axis
+ * after the other (butterflies). */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -227,10 +228,10 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* Computes share[modes]: the derivative of the mean strain of the family of a point with PD-MPM bonds by the amplitude
- * of each deformation mode of its cell [1]. local: derivative of this mean strain by the strain of the cell (struct
- * partial_stress); place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the points by the modes, from
- * averaged_strains, NULL if each point has its own dilatation. */
+/* Computes share[modes]: how much a unit amplitude of each deformation mode of a cell changes the mean strain of the
+ * family of one of its points, which has PD-MPM bonds [1]. local: derivative of this mean strain by the strain of the
+ * cell at the point (struct partial_stress); place: number of the point in the cell, 0 .. 2^dim - 1; B: strains of the
+ * points by the modes, from averaged_strains, or NULL if each point has its own dilatation. */
 static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {

@@ -37,7 +37,8 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
 /* Returns the number of nodes in the cells around a node, including the node: 3^dim. */
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
-/* Returns the index, among the 3^dim nodes around a node, of corner k of a cell of which the node is corner c. */
+/* Returns the index, from 0 to 3^dim - 1, of corner k of a cell in the list of the nodes around a node. c: number of
+ * the corner of this cell at which the node is. */
 static int node_around(int dim, int c, int k)
 {
     int at = 0;

@@ -125,9 +125,9 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Returns true if point q of one cell and point r of another are opposite each other across the face or edge that the
- * cells share. q, r: numbers 0 .. 2^dim - 1 of the points in their cells; c, k: numbers of the corner of the first and
- * of the second cell at a node that both share. */
+/* Returns true if two points of adjacent cells are opposite each other across the face or edge that the cells share. q,
+ * r: numbers 0 .. 2^dim - 1 of the points in the first and in the second cell; c, k: number of the corner that a common
+ * node of both cells has in the first and in the second cell. */
 static bool quarter_points_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k; /* directions in which the cells follow each other */
@@ -143,10 +143,10 @@ static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if two pieces around node I are connected. A piece is a set of points of a cell that no slit separates.
- * one, other: numbers of the pieces, 8 c + g for piece g of the cell of which the node is corner c. Two pieces are
- * connected if no slit passes between a point of one and a point of the other. Only pairs of points that are opposite
- * each other across the boundary of the cells are tested; if there are no such pairs, all pairs. */
+/* Returns true if no slit separates two pieces of the body around node I: pieces `one` and `other` are then connected.
+ * A piece is a set of points of a cell that no slit divides; 8 c + g is the number of piece g of the cell of which the
+ * node is corner c. Points that are opposite each other across the boundary of the two cells are tested, or all pairs
+ * of points if there are none; one pair without a slit between its points suffices. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -190,10 +190,10 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if a connected set of pieces around node I is connected with its mirror image at the plane of symmetry
- * `plane`, which contains the node. A piece is a set of points of a cell that no slit separates; group: the pieces, bit
- * 8 c + g for piece g of the cell of which the node is corner c. Points next to the plane are tested, or all points if
- * there are none. */
+/* Returns true if no slit separates a connected set of pieces around node I from its mirror image at the plane of
+ * symmetry `plane`, which contains the node. A piece is a set of points of a cell that no slit divides. group: the set,
+ * where bit 8 c + g is piece g of the cell of which the node is corner c. Points next to the plane are tested, or all
+ * points if there are none. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -210,9 +210,9 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Returns as bits the axes of those planes of symmetry through node I at which slits separate a connected set of pieces
- * from its mirror image. A piece is a set of points of a cell that no slit separates; group: the pieces, bit 8 c + g
- * for piece g of the cell of which the node is corner c. */
+/* Finds the planes of symmetry through node I at which the node is free, because slits separate the body there from its
+ * mirror image. Returns their axes as bits. group: the pieces of the body that move with the node, where bit 8 c + g is
+ * piece g of the cell of which the node is corner c. A piece is a set of points of a cell that no slit divides. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;

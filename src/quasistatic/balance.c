@@ -22,9 +22,10 @@ enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
 /* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s]: the
- * projection of their growth on their values at the last equilibrium, over the square of these [1]; 0 if these are 0.
- * before[dim]: applied forces of the last equilibrium, a value for each particle [N]. */
+/* Returns by which fraction of their present values the loads grow from the last equilibrium to pseudo-time t [s] [1].
+ * Prescribed displacements are compared if there are any, else applied forces: the scalar product of values at t and
+ * present values, over the square of the present ones, less 1. Returns 0 if the present values are 0. before[dim]:
+ * applied forces at the last equilibrium, a value for each particle [N]. */
 static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
     real now = 0, initial = 0;
@@ -78,11 +79,12 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
 
 /* ---- losses ------------------------------------------------------------------------------------------------------ */
 
-/* Corrects q->lost, the energy that the solver has lost; it was `lost` before this solution [J]. If points yield or
- * faces come into contact, forces do not change linearly over the increment, and the work of loads is known up to
- * +-`range` only [J]. A loss within this range is then moved to the work of loads. in_contact: true if anything is in
- * contact at the start or the end of the increment; yields: true if points or bonds may yield. Returns true if more
- * than GAIN_MOST times `range` was gained in contact: faces have then passed through each other. */
+/* Corrects q->lost, the energy that the solver has lost in all solutions; before this solution it was `lost` [J]. If
+ * points yield or faces come into contact, forces do not change linearly over the increment, and the work of loads is
+ * known up to +-`range` only [J]. A loss within this range is an error of the work, and is subtracted from the work.
+ * in_contact: true if anything is in contact at the start or the end of the increment; yields: true if points or bonds
+ * may yield. Returns true if the solution gained more than GAIN_MOST times `range` in contact: faces have then passed
+ * through each other. */
 static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {

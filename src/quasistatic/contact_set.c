@@ -81,9 +81,9 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
     return s->in_contact || c->touching > 0;
 }
 
-/* Prepares contact for the solution at pseudo-time t [s]: stores the energy before it, moves rigid bodies, and searches
- * for contacts. The stored energy includes contact energy only if anything was in contact. If anything is in contact
- * now, also finds the unconstrained fragments again, which contact may constrain. */
+/* Prepares contact for the solution at pseudo-time t [s]: stores the energy before the solution, moves rigid bodies and
+ * searches for contacts. The stored energy includes contact energy only if anything was in contact before. If anything
+ * is in contact now, finds the unconstrained fragments again, since contact may constrain them. */
 void statics_contact_begin_solution(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -103,10 +103,10 @@ void statics_contact_begin_solution(struct run *e, real t)
     q->reach = contact_pair_list_safe_displacement(e->contact);
 }
 
-/* Updates contact at the end of a solution: searches for pairs if particles have moved far, else selects the active
- * contacts by their overlap. Recomputes the norm of the loads with the final contact forces, not with those of
- * intermediate states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run
- * (struct run). */
+/* Updates the set of active contacts at the end of a solution, by a new search for pairs if particles have moved far,
+ * else by the overlap of the known pairs. Returns true if the set has not changed, so that the equilibrium is valid.
+ * Also recomputes the norm of the loads, by which residuals are measured, with the present contact forces. engine: the
+ * run (struct run). */
 bool statics_contact_update_active_set(void *engine)
 {
     struct run *e = engine;

@@ -92,10 +92,10 @@ static int64_t breaks_most(const struct scene *s, real front)
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
 /* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
- * and appends them to s->next, the list of bonds of the next increment. *a: receives the energy cost of the bonds and
- * the energy release over the squared load size. In space, the remnant of the body behind SIF-driven crack fronts
- * breaks in larger groups, because no load depends on the path there. Returns FAILED, with a message, if an equilibrium
- * is not found. */
+ * and appends these bonds to s->next. *a: receives the energy that the bonds cost and the energy released by the body,
+ * the latter divided by the square of the load size (norm of prescribed displacements or forces). In 3D the part of the
+ * body that SIF-driven crack fronts have left intact breaks in larger groups, because no load depends on the path
+ * there. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -129,10 +129,10 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment under the present loads. SIF-driven tips (growth direction from stress-intensity
- * factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical stretch, it is found
- * by a trial in which bonds break and which is undone. Returns FAILED, with a message, if a trial equilibrium is not
- * found. */
+/* Finds the bonds of the next crack increment and the load size s->due at which it is made, from the equilibrium at the
+ * present loads. SIF-driven tips (growth direction from stress-intensity factors) determine it, if there are any.
+ * Otherwise, or if bonds elsewhere exceed their critical stretch, bonds break in a trial, which is undone. Returns
+ * FAILED, with a message, if a trial equilibrium is not found. */
 static status increment_find_now(struct run *e)
 {
     struct statics *s = e->statics;
@@ -157,11 +157,11 @@ static status increment_find_now(struct run *e)
     return tried;
 }
 
-/* Determines the next crack increment at the load size at which it is due, by the secant method. The energy release
- * grows with the square of the strain, and the strain is not proportional to the load size if supports or rigid bodies
- * move before anything is in contact. Then restores the present equilibrium or, if material points have been converted,
- * finds the equilibrium of the initial pseudo-time again. Returns FAILED, with a message, if an equilibrium is not
- * found. */
+/* Finds the next crack increment from an equilibrium at the load size at which it is made, instead of the present one,
+ * by the secant method. With contact these differ: the energy release grows with the square of the strain, and the
+ * strain is not proportional to the load size if supports or rigid bodies move before anything is in contact.
+ * Afterwards restores the present equilibrium; if material points have been converted, which cannot be undone, finds it
+ * again. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_find_at_due(struct run *e)
 {
     struct statics *s = e->statics;
@@ -188,9 +188,10 @@ static status increment_find_at_due(struct run *e)
     return found == OK ? equilibrium_find_at_time(e, from) : found;
 }
 
-/* Determines the next crack increment and the load size at which it is due. If anything is in contact, the increment is
- * evaluated a second time at that load size, because the energy release is then not proportional to the square of the
- * load size. Returns FAILED, with a message, if a trial equilibrium is not found. */
+/* Finds the bonds of the next crack increment and the load size (norm of prescribed displacements or forces) at which
+ * it is made. If anything is in contact, the increment is evaluated again at that load size, because the energy release
+ * is then not proportional to the square of the load size. Returns FAILED, with a message, if a trial equilibrium is
+ * not found. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e));

@@ -36,9 +36,10 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
-/* Returns the load size at which the next crack increment is made while loads grow. For the first increment it is
- * s->due, the load of the pre-crack. For later ones it is at least the load at which the increment alone releases the
- * energy that it costs: loads then oscillate about those of a crack that grows continuously. */
+/* Returns the load size (norm of prescribed displacements [m] or of applied forces [N]) at which the next crack
+ * increment is made if loads can only grow. For the first increment it is s->due, at which the pre-crack is in balance
+ * with the loads. For a later one it is the larger of s->due and the load size at which the body releases the energy
+ * that this increment alone costs; loads then oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
     return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load(&s->ahead)) : s->due;
@@ -61,9 +62,9 @@ static status go_to_size(struct run *e, real size, real least, real most)
 }
 
 /* Finds the equilibrium at pseudo-time t [s], then determines the next crack increment. If bonds are far beyond their
- * critical stretch at t, an earlier equilibrium is used, at which they come near it. The body would have broken before:
- * energies of the equilibrium at t would hide the energy that an increment releases, and bonds would yield that
- * otherwise do not. Returns FAILED, with a message, if an equilibrium is not found. */
+ * critical stretch at t, uses an earlier pseudo-time at which they come near it, because the body would have broken
+ * before t. In the equilibrium at t, bonds would yield that otherwise do not, and large energies would hide the energy
+ * that an increment releases. Returns FAILED, with a message, if an equilibrium is not found. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -87,10 +88,10 @@ static status approach_loads(struct run *e, real t)
     return crack_increment_find(e);
 }
 
-/* Makes the next crack increment and determines the one after it. The load size is that at which the increment is due
- * or, if it was due at smaller loads, that of the previous increment. *size: load size of the previous increment,
- * replaced by that of this one. The largest forces of the rigid bodies are updated at this load size. from, t: range of
- * the pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Makes the next crack increment while loads can only grow, and determines the one after it. The increment is made at
+ * the load size at which it is due; if this is smaller than the load size *size of the previous increment, at *size.
+ * *size receives the load size of this increment ([m] or [N]). Updates the largest forces of the rigid bodies there.
+ * from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
@@ -130,9 +131,9 @@ static status step_by_load(struct run *e, real t)
     }
 }
 
-/* Makes one crack increment, then finds the equilibrium at the pseudo-time at which the next one is due. If none is
- * due, the pseudo-time grows by at most `most` [s], one step of the duration. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+/* Makes a load step under energy control, where loads may fall: makes one crack increment, then finds the equilibrium
+ * at the pseudo-time at which the next increment is due. If no increment is due within `most` [s] from now, ends at
+ * that pseudo-time. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
@@ -276,9 +277,9 @@ static status check_opening(const struct scene *scene, const struct particles *p
         "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
 }
 
-/* Returns REFUSED, with a message, if loads and supports do not depend on the pseudo-time although the control of load
- * steps (energy or opening) scales them by it. quarter, half, whole: load sizes at a quarter, at half and at the end of
- * the duration. */
+/* Returns REFUSED, with a message, if the control of load steps is energy or opening, which scale the loads by the
+ * pseudo-time, but loads and supports are constant. quarter, half, whole: load sizes at a quarter, at half and at the
+ * end of the duration, [m] or [N]. */
 static status check_loads_grow(const struct scene *s, real quarter, real half, real whole)
 {
     if (s->steps.control == CONTROL_LOAD || half != whole || quarter != whole) return OK;
@@ -343,9 +344,9 @@ static void warn_at_end(struct run *e)
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
-/* Checks that the loads on fragments that nothing constrains are balanced. Returns FAILED, with a message, if those on
- * one are not. Under energy control such a fragment means, once bonds have broken, that the crack has severed the body:
- * then *apart is set to true, a warning is printed, and OK is returned. */
+/* Checks the loads on fragments that nothing constrains. Returns FAILED, with a message, if they are not in balance.
+ * Under energy control, once bonds have broken, such a fragment means that the crack has severed the body: then sets
+ * *apart to true, prints a warning, and returns OK. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -123,8 +123,8 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip that has grown most, the first one of several with equal growth; NULL if there is none. on: true to
- * consider only tips that can still grow, false for all. */
+/* Returns the tip with the largest growth, the first one of several with equal growth; NULL if there is no tip. on:
+ * true to consider only tips that can grow further, false for all tips. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
     const struct sif_crack_tip *first = NULL;
@@ -201,8 +201,9 @@ real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, co
     return toughness_of_material(&l->source->family, l->scene->model, material_at(l, p, tip));
 }
 
-/* Returns true if the body continues ahead of the tip: if at least two particles whose motion is not prescribed are
- * there, in space two per spacing of the width of the body along the front. */
+/* Returns true if the body continues ahead of the tip: if enough particles whose motion is not prescribed are near the
+ * point one spacing ahead. Enough are two in 2D, in 3D two for each spacing of the width of the body along the crack
+ * front. */
 static bool body_continues(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
     const real h = l->plane.spacing;

@@ -57,10 +57,10 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                               ON_SURFACE * l->plane.spacing);
 }
 
-/* Sets the energy costs of the bonds that the next segment of a tip cuts, the members `held` of the records in `list`
- * [J], such that their sum is crack area times crack energy per area. State-based bonds have no energy of their own. In
- * space the energies of bonds at the sides of the body contain surface weights, and some bonds at a pre-crack are
- * already broken. */
+/* Sets the energy cost of each bond in `list`, the bonds that the next segment of the path of `tip` cuts: the member
+ * `held` of its record [J]. The costs are scaled such that their sum is the area of the segment times the crack energy
+ * per area; in 3D, energies of bonds at the sides of the body contain surface weights, and some bonds at a pre-crack
+ * are already broken. In state-based models, where bonds have no energy of their own, all costs are equal. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -143,8 +143,9 @@ static status tips_turn_all(struct run *e)
     return OK;
 }
 
-/* Breaks the bonds of list l and finds the equilibrium at the present pseudo-time. Stores the energy released by that,
- * divided by the square of the load size, in a->release. Returns FAILED, with a message, if there is no equilibrium. */
+/* Breaks the bonds of list l and finds the equilibrium at the present pseudo-time. Stores in a->release the energy that
+ * the body releases, divided by the square of the load size (norm of prescribed displacements or forces). Returns
+ * FAILED, with a message, if there is no equilibrium. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
     const real before = statics_energy_released(e->statics, &e->bonds);
@@ -155,9 +156,10 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Stores in tip->behind a fictitious increment before the first one, for a tip at the end of a pre-crack. It is
- * extrapolated from the first increment, whose bonds must be broken already, and from a trial of a second one straight
- * ahead. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Estimates tip->behind, cost and energy release of the increment that would have led to the present position of a tip,
+ * for a tip at the end of a pre-crack, which has not grown. It is extrapolated backwards from the first increment,
+ * whose bonds must be broken already, and from a trial of a second one straight ahead. Returns FAILED, with a message,
+ * if an equilibrium is not found. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -175,9 +177,10 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Determines tip->ahead.release, the energy release of the next increment of a tip, by a trial in which the bonds in
- * list l break and which is then undone. If it is the first increment of the tip, also sets tip->behind, a fictitious
- * increment before it. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Computes tip->ahead.release, the energy that the next increment of a tip releases over the square of the load size,
+ * by a trial in which the bonds in list l break and which is then undone. For the first increment of the tip also
+ * estimates tip->behind, a fictitious increment before it. Returns FAILED, with a message, if an equilibrium is not
+ * found. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -196,9 +199,10 @@ static bool list_has(const struct break_list *l, const struct broken_bond *recor
     return false;
 }
 
-/* Selects the tips that make the next crack increment: the one whose increment is due at the smallest load size, and
- * those whose increments are due at nearly the same. Combines their bonds in s->next, their energies in s->ahead and
- * s->behind, and computes the common load size s->due. list[k]: bonds of the next segment of tip k. */
+/* Selects the tips that grow in the next crack increment: the one that is due at the smallest load size (norm of
+ * prescribed displacements or forces), and those that are due at nearly the same. Combines their bonds in s->next, and
+ * the costs and energy releases of their increments in s->ahead and s->behind. Computes s->due, the load size of the
+ * combined increment. list[k]: bonds of the next segment of tip k. */
 static void increment_choose(struct statics *s, struct break_list *list)
 {
     struct sif_cracks *l = &s->sif;
@@ -217,11 +221,11 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = increments_energy_balance_load(&s->ahead, &s->behind);
 }
 
-/* If several tips are selected, recomputes their energy release by breaking their bonds together, which releases more
- * energy than one tip after the other. The sum s->ahead.release is divided among the tips in proportion to their
- * separate values. Also updates the load size s->due of the increment, unless a tip makes its first increment: the
- * fictitious increments before the first ones were not divided in this way. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+/* If several tips are selected for the next crack increment, recomputes its energy release s->ahead.release by a trial
+ * in which all their bonds break together, which releases more energy than one tip after the other. Divides the result
+ * among the tips in proportion to their separate values, and updates s->due, the load size of the increment. If a tip
+ * makes its first increment, s->due is not updated, since the fictitious previous increments were not computed in this
+ * way. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_try_together(struct run *e)
 {
     struct statics *s = e->statics;
@@ -241,9 +245,10 @@ static status increment_try_together(struct run *e)
     return tried;
 }
 
-/* Determines the bonds and the energies of the next increment of a tip, and tip->due, the load size at which it is
- * made; INFINITY if the tip does not grow. A tip under compression (K_I < 0) does not grow, and a tip without bonds
- * ahead has ended. list: receives the bonds. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Computes the next increment of a tip: its bonds, which are appended to `list`, cost and energy release in tip->ahead,
+ * and in tip->due the load size at which it is made. tip->due is INFINITY if the tip does not grow: under compression
+ * (K_I < 0), or if there are no bonds ahead of it, so that it has ended. Returns FAILED, with a message, if an
+ * equilibrium is not found. */
 static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct crack_increment){0}, tip->due = INFINITY;

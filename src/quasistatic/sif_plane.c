@@ -27,9 +27,10 @@ static void make_unit(real *a)
     for (int d = 0; d < 3; d++) a[d] /= length;
 }
 
-/* Sets the two axes of the plane perpendicular to plane->front, the direction of the crack fronts. Axes of space that
- * are perpendicular to the front are used, so that planes of symmetry are perpendicular to an axis of the plane. A
- * front nearly parallel to an axis of space is set exactly to it. */
+/* Sets the two axes of the plane in which crack tips move, which is perpendicular to plane->front, the direction of the
+ * crack fronts. Coordinate axes that are perpendicular to the fronts are preferred, so that planes of symmetry are
+ * perpendicular to an axis of the plane. If the front is nearly parallel to a coordinate axis, it is set exactly to
+ * that axis. */
 static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;
@@ -103,9 +104,9 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Computes the segment in which the plane of the tips cuts pre-crack c, and stores its ends in segment_end[0] and
- * segment_end[1] [m]. Their order is such that the normal of the segment is on the side of the normal of the polygon.
- * Returns false if the pre-crack is not parallel to the crack fronts. */
+/* Intersects pre-crack c, a polygon, with the plane in which crack tips move, and stores the ends of the common segment
+ * in segment_end[0] and segment_end[1] [m]. Their order is such that the normal of the segment points to the same side
+ * as the normal of the polygon. Returns false if the pre-crack is not parallel to the crack fronts. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real segment_end[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;

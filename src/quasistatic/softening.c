@@ -54,8 +54,9 @@ real softening_list_dissipated_energy(const struct softening_list *l, real facto
     return sum;
 }
 
-/* Returns the smallest factor between 0 and `max_factor` at which the listed bonds have dissipated the energy `energy`
- * [J], by the false position method with the Illinois rule (Dowell & Jarratt 1971). */
+/* Returns the smallest factor between 0 and `max_factor` by which the stretches of the listed bonds must be multiplied
+ * so that the bonds have dissipated `energy` [J]; `max_factor` if they dissipate less. Uses the false position method
+ * with the Illinois rule (Dowell & Jarratt 1971). */
 real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor)
 {
     real low = 0, at_low = -energy, at_high = softening_list_dissipated_energy(l, max_factor) - energy;

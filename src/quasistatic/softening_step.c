@@ -56,10 +56,11 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Returns the factor on the displacements of the last solution at which bonds dissipate the energy f->spent, but at
- * most `most`. Sets the largest stretches of the bonds to those at this factor. most: ratio of the loads at the end to
- * the present ones [1]. If f->spent is INFINITY (the loads are given), the factor is `most`. f->at_end: set to true if
- * the factor is `most`. */
+/* Chooses the next displacements of a search for equilibrium with softening bonds: those of the last solution times a
+ * factor, which it returns [1]. At this factor the bonds dissipate the energy f->spent, but it is at most `most`, the
+ * ratio of the loads at the end of the step to the present ones. If f->spent is INFINITY (the loads are given), the
+ * factor is `most`. Sets the largest stretches of the bonds to those at this factor, and f->at_end to true if the
+ * factor is limited by `most`. */
 static real secants_choose(struct search *f, real most)
 {
     const bool given = !isfinite(f->spent);
@@ -90,9 +91,9 @@ static real residual_now(struct newton_solver *q)
     return sum > 0 ? sqrt(sum) / q->scale : 0;
 }
 
-/* Finds the next equilibrium by iteration: solves with the largest stretches k of the bonds fixed, then chooses k anew.
- * Solutions with fixed k are not computed more exactly than k is known. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+/* Finds the equilibrium of a load step with softening bonds by iteration: solves with the largest stretches of the
+ * bonds, and thus their stiffnesses, fixed, then chooses these stretches anew from the solution. The tolerance of a
+ * solution is reduced as these stretches converge. Returns FAILED, with a message, if no equilibrium is found. */
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
@@ -124,10 +125,10 @@ static status search_run(struct run *e, struct search *f)
         isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
 }
 
-/* Searches for the equilibrium that ends a load step. spent: energy that bonds shall dissipate in the step [J];
- * INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
- * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns its
- * status. */
+/* Searches for the equilibrium that ends a load step. Either the dissipated energy is given, or the loads. spent:
+ * energy that bonds dissipate in the step [J], or INFINITY if the loads are those of pseudo-time t [s]. With given
+ * loads the work of loads may exceed the growth of energies; the difference is counted as lost, as energy of a motion
+ * that is not resolved. If the search fails, restores the state before it and returns its status. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
@@ -164,10 +165,11 @@ real softening_least_toughness(const struct scene *s, const struct bond_source *
     return least;
 }
 
-/* Makes one load step of a body whose bonds soften. If bonds shall dissipate a given energy (control `energy`), the
- * first step ends where they begin to soften: on a coarse lattice that may be the largest load, and the work over a
- * step is computed from both its ends. If no equilibrium is found, the search is repeated with a half, a quarter .. of
- * the energy. t: pseudo-time at the end of a step with given loads [s]. */
+/* Makes one load step of a body whose bonds soften. Under energy control, bonds dissipate a given energy in each step.
+ * If no equilibrium is found, the search is repeated with a half, a quarter .. of this energy. The first step under
+ * energy control dissipates the share FIRST_SHARE of it only: on a coarse lattice loads may be largest where bonds
+ * begin to soften, and the work over a step is computed from both its ends. t: pseudo-time at the end of the step under
+ * other controls [s]. */
 status softening_step(struct run *e, real t)
 {
     struct statics *s = e->statics;

@@ -66,8 +66,9 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Returns the crack area along the paths of the SIF-driven tips, summed over the segments: the area that belongs to the
- * body, and the area of the whole faces, of which planes of symmetry cut off half [m^2]. */
+/* Returns the crack area along the paths of the SIF-driven tips, summed over the segments [m^2]. own: the area in the
+ * body; face: the area of the whole crack faces, twice as large for segments on planes of symmetry, which cut off
+ * half. */
 static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     struct crack_area area = {0};
@@ -79,11 +80,11 @@ static struct crack_area sif_paths_area(const struct sif_cracks *l, const struct
     return area;
 }
 
-/* Updates crack area, energy released and release rate in e->statics->record; the rate is that over the last two
- * growths of the crack. The crack area is that of the paths of SIF-driven tips, unless damaged particles indicate more
- * than another spacing of growth. Without such tips it is that of the damaged particles, in space that of the broken
- * bonds. An area by damaged particles changes in steps of one spacing, so its growth counts only after several
- * spacings. A load step without growth leaves the rate unchanged. */
+/* Updates in e->statics->record the crack area, the energy released and the release rate, which is computed over the
+ * last two growths of the crack. The crack area follows from the paths of SIF-driven tips, unless damaged particles
+ * indicate more than 1.5 spacings of further growth. Without such tips it follows from the damaged particles, in 3D
+ * from the broken bonds. Damaged particles change the area in steps of one spacing, so that growth counts only after
+ * GROWTH spacings. A load step without growth leaves the rate unchanged. */
 static void measure(struct run *e)
 {
     const struct statics *s = e->statics;

@@ -101,7 +101,8 @@ struct overstretched {
     struct broken_bond *record; /* [n] */
 };
 
-/* Appends a bond, given by its record, with the stretch ratio `over` to o. */
+/* Appends a bond to the list o of bonds whose stretch may exceed the critical one. over: its ratio of stretch to
+ * critical stretch [1]; record: its row and entry in the bond arrays, its particles and its energy (copied). */
 static void overstretched_add(struct overstretched *o, real over, const struct broken_bond *record)
 {
     GROW("statics.overloads", o->ratio, o->n + 1);
@@ -124,8 +125,9 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         }
 }
 
-/* Returns the ratio of stretch to critical stretch above which bonds break [1]: just below that of pair number `most`
- * in descending order, but at least `least`. ratio[n]: ratios of directed bonds, two for each pair. */
+/* Returns the ratio of stretch to critical stretch above which bonds break [1], so that about `most` pairs of bonds do:
+ * just below the `most`-th largest ratio, but at least `least`. ratio[n]: ratios of directed bonds, two for each
+ * pair. */
 static real stretch_ratio_to_break(const real *ratio, int64_t n, real least, int64_t most)
 {
     if (n <= 2 * most) return least;
@@ -155,8 +157,9 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the directed bond of *record. Half of its energy becomes fracture energy of its row. limit: critical
- * stretches; its rule for the force of a bond in the step in which it breaks is not used. */
+/* Breaks the directed bond of *record, in the row of one of its two particles only, and adds half of its energy to the
+ * fracture energy of this row. limit: critical stretches; its rule for the force of a bond in the step in which it
+ * breaks is not used. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {
@@ -164,11 +167,11 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Breaks the bonds whose ratio of stretch to critical stretch is at most the fraction `tolerance` below the largest
- * one, at most max_pairs pairs, and appends them to the list of the next increment. Adds their energy to *cost [J] and
- * their crack area to *area [m^2]. State-based bonds have no energy of their own. Their cost follows from the energy
- * that is lost as they break, which in a linear body is that at the critical stretch times the square of the ratio.
- * Returns the number of directed bonds broken. */
+/* Breaks the bonds with the largest ratios of stretch to critical stretch, and appends them to the list of the next
+ * crack increment: those whose ratio is within the fraction `tolerance` of the largest one, at most about max_pairs
+ * pairs. Adds their energy at the critical stretch to *cost [J] and their crack area to *area [m^2]. Returns the number
+ * of directed bonds broken. State-based bonds have no energy of their own: the energy that is lost as they break is
+ * divided among them, after division by the mean square of their ratios, as in a linear body. */
 int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -196,9 +199,10 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
     return l->n - had;
 }
 
-/* Breaks all bonds of list l at once, although the last ones would reach their critical stretch only after the first
- * have broken. Each bond therefore adds the member `held` of its record, its energy at the critical stretch, to the
- * fracture energy. The difference from its present energy is counted as lost, in the solver and in the run. */
+/* Breaks all bonds of list l at once. The stretches of the last of these bonds may still be below their critical
+ * stretch; each bond therefore adds its energy at the critical stretch, the member `held` of its record, to the
+ * fracture energy. The difference from its present energy is counted as lost by the solver (s->balance.lost) and the
+ * run (e->damped). */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

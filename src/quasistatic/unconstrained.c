@@ -166,15 +166,15 @@ static void node_now(const struct search *s, int64_t k, real *x)
     for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
 }
 
-/* Adds the constraint of one displacement component to c->resistance, the resistance of the m rigid motions. along[m]:
- * that component of each motion. */
+/* Adds a constrained displacement component of a node to fragment c, as a a^T to the matrix c->resistance[m][m].
+ * along[m]: the components a of the m rigid motions of the fragment in this direction. */
 static void resist(struct candidate *c, int m, const real *along)
 {
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
-/* Adds the constraints of supports and planes of symmetry on unknowns to their fragments. */
+/* Adds the constraints by supports and planes of symmetry to the fragments of the body on which they act. */
 static void supports_resist(const struct search *s)
 {
     const struct newton_solver *q = &s->statics->balance;
@@ -212,7 +212,7 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
     resist(c, m, along);
 }
 
-/* Adds the constraints of all bonds between particles and mirror images to their fragments. */
+/* Adds the constraints by all bonds between particles and mirror images to the fragments of these particles. */
 static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
@@ -294,8 +294,8 @@ static void contact_resists(void *context, const struct contact_term *t)
     }
 }
 
-/* Finds the motions of c without resistance by Gaussian elimination with full pivoting. free[][m]: receives each as a
- * linear combination of the m rigid motions. Returns their number. */
+/* Finds the rigid motions of fragment c that no constraint resists, the null space of c->resistance, by elimination
+ * with full pivoting. free[][m]: receives each as combination of the m rigid motions. Returns their number. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
     real R[MODES_MOST][MODES_MOST], most = 0;
@@ -453,9 +453,9 @@ void field_remove_free_rigid_motion(const struct statics *s, struct field *v)
 
 /* ---- unbalanced loads -------------------------------------------------------------------------------------------- */
 
-/* Returns the largest unbalanced share of the loads on a fragment along its free motions: |sum| of the loads along a
- * motion over the sum of their absolute values [1], which *size receives. Motions along which loads are much smaller
- * than along another one are ignored. */
+/* Returns how far the applied forces on a fragment are from balance along its free motions: the largest |sum| of their
+ * components along a motion over the sum of the absolute values [1]; *size receives the latter. Motions along which the
+ * forces are much smaller than along another one are ignored. */
 static real unbalanced_share(const struct statics *s, const struct particles *part,
                              const struct unconstrained_fragment *f, real *size)
 {
@@ -474,8 +474,8 @@ static real unbalanced_share(const struct statics *s, const struct particles *pa
     return most;
 }
 
-/* Returns the sum of |f| over the components f of all applied forces over the root of the number of nodes of a
- * fragment, comparable to *size of unbalanced_share. */
+/* Returns the sum of the absolute values of all components of the applied forces, over the square root of `nodes`, the
+ * number of nodes of a fragment. It is comparable to *size of unbalanced_share. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;
@@ -484,9 +484,9 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-/* Returns the unbalanced share of loads on a fragment with nodes of the mesh: the component of all forces in
- * equilibrium along a free motion, to which internal forces do not contribute, over applied_sum [1]. 0 without such
- * nodes. */
+/* Returns how far the forces on a fragment with nodes of the mesh are from balance: the largest component of all its
+ * forces along a free motion, over applied_sum [1]. In equilibrium internal forces do not contribute. Returns 0 for a
+ * fragment without such nodes. */
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {

@@ -67,9 +67,9 @@ static void largest_update(real t, real own, struct worst *worst, struct found *
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Sets worst->back, the time at which the loads point most against the largest ones, to t [s] if those at t do so more
- * than all before; likewise worst->beside, the time at which they are most perpendicular to the largest ones. own,
- * with: scalar products of the loads at t with themselves and with the largest loads; found: products so far,
+/* Compares the loads at time t [s] with the largest loads. Sets worst->back to t if they point against the largest ones
+ * more than the loads at all earlier times; sets worst->beside to t if they are larger perpendicular to these. own,
+ * with: scalar products of the loads at t with themselves and with the largest loads; found: largest values so far,
  * updated. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
