@@ -104,10 +104,10 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
-/* Returns the principal stress at which material points of material m convert to peridynamic particles [Pa]: alpha *
- * conversion.stress. By default conversion.stress is the uniaxial stress at the stretch at which bonds break or, if
- * they soften, begin to soften. With a larger stress points may exceed the strain at which bonds break. Returns
- * INFINITY if points do not convert by stress. */
+/* Returns the principal stress at which material points of material m convert to peridynamic particles [Pa]: the key
+ * conversion.stress times the factor conversion.alpha of the scene. By default conversion.stress is the uniaxial stress
+ * at the stretch at which bonds break or, if they soften, begin to soften; with a larger stress, points may exceed the
+ * strain at which bonds break. Returns INFINITY if points do not convert by stress. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;

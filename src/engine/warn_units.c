@@ -16,15 +16,18 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are eval
 
 enum { RULES = ACCEPT_TIMES + 1 };
 
-/* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
- * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
- * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
- * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
- * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. Energy:
- * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Heat: at 293 K, uranium 116 J/(kg K),
- * hydrogen 14,300. Growth: the energy release rate of a crack as long as the body, over that of the material
- * (units_of_growth). Mass: foams have 50 kg/m^3, and more than osmium's has none. Brittleness: E G_c/strength^2 is
- * below 1 m but for concrete with fibres. Times: largest load of the run over the largest of all times. */
+/* Range of plausible values of each quantity that is checked: smallest and largest value, the beginning of the message,
+ * the unit, and the input that the user should check.
+ *
+ * Reasons for the ranges. Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch at which bonds break: a tenth is
+ * the strength of crystals without flaws. Stress over the strength E s_c: cracks raise it tenfold. Strain: the load
+ * over Young's modulus. Reach: distance of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more,
+ * osmium 22,600. Yield stress over Young's modulus: 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves
+ * across all bodies in the duration. Energy release rate: twice the surface energy of waxes is 0.04 J/m^2, tough steels
+ * have 0.2 MJ/m^2. Specific heat at 293 K: uranium 116 J/(kg K), hydrogen 14,300. Growth: energy release rate of a
+ * crack as long as the body, over that of the material (units_of_growth). Mass over volume: foams have 50 kg/m^3, no
+ * material more than osmium. Brittleness: E G_c/strength^2 is below 1 m, except for concrete with fibres. Times:
+ * largest load of the run over the largest at any time. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -102,8 +105,9 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
                      subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
-/* Adds a warning to *to if a constant by which material a hardens is so small that the material does not harden: a
- * number without a unit is in Pa. */
+/* Adds a warning to *to if a hardening constant of material a is so small, relative to Young's modulus, that the
+ * material does not harden. The usual reason is a value without unit, which is read in Pa, where MPa was meant.
+ * subject: name of the material in messages. */
 static void units_of_hardening(const struct scene *s, const char *subject, const struct material *a,
                                struct warnings *to)
 {
@@ -319,10 +323,10 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Adds a warning to *to if the largest stress of the run is too small to make a crack grow. It is so if a crack as long
- * as the longest edge a of the body would release less energy in Griffith's plate (1921), G = pi sigma^2 a/E, than the
- * smallest energy release rate of a material. The stress is raised by the slenderness of the body, because bending is
- * not computed. stress: stress that the loads cause [Pa]. */
+/* Adds a warning to *to if the largest stress of the run is too small to make a crack grow. This is estimated from
+ * Griffith's plate (1921): a crack as long as the longest edge a of the body would have the energy release rate pi
+ * sigma^2 a/E, which is compared with the smallest one of a material. As bending is not computed, sigma is the stress
+ * times the slenderness of the body. stress: stress that the loads cause [Pa]. */
 static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
 {
     real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;

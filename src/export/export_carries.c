@@ -62,11 +62,8 @@ static status carries_materials(const struct scene *s, bool bond_style)
     return OK;
 }
 
-/* Appends to the list a key of the scene that the export must change, if `differs` is true. value: new value of the
- * key; effect: how this changes results, in words. The texts are kept by reference. */
-
-/* Appends a key that the export has to change, if `differs` is true. value: new value of the key; effect: how results
- * change, as a text. The texts are kept by reference. */
+/* Appends to the list `to` a key of the scene that the export must change, if `differs` is true. value: new value of
+ * the key; effect: how this changes results, in words. The texts are kept by reference. */
 static void settings_add(struct lammps_settings *to, bool differs, const char *key, const char *value,
                          const char *effect)
 {

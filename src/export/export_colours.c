@@ -32,9 +32,10 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Returns true if the k-th listed particle can have colour c. Every pair of colours is reserved for one kind of
- * particle pairs, bonded or cut. The pairs of c with the colours of the particle's neighbours must be unused so far, or
- * be reserved for the kind that is needed here. */
+/* Returns true if the k-th listed particle can have colour c. LAMMPS excludes bonds by pairs of particle types, and
+ * colours become types: all particle pairs with the same two colours must be of one kind, bonded or cut. For each
+ * neighbour of the particle, the pair of c and the neighbour's colour must be unused so far, or already have the kind
+ * of this pair. */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {

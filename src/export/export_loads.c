@@ -240,8 +240,8 @@ static void put_function(FILE *to, const struct time_function *f, const char *t)
 
 /* ---- commands ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the command that defines the LAMMPS group of load k, which contains all types of particles on which the load
- * acts. t: types of the particles. */
+/* Writes the LAMMPS command that defines the group of the particles on which load k acts, by their types. t: types of
+ * the particles. */
 static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
 {
     fprintf(to, "group load%d type", k + 1);
@@ -272,9 +272,9 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes the commands for the force of load k. LAMMPS applies it in a velocity update that extends from half a step
- * before to half a step after the time of a step. The time function is therefore taken as the mean of its values at the
- * beginning and at the end of the update. */
+/* Writes the LAMMPS commands that apply the force of load k to its particles. LAMMPS uses a force in a velocity update
+ * that extends from half a step before to half a step after the time of a step. The time function is therefore replaced
+ * by the mean of its values at the beginning and at the end of the update. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -290,9 +290,9 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes the definition of a variable: component d of the force on the particles of load k, which have a prescribed
- * displacement. This force changes their velocity such that they reach the prescribed position at the end of the
- * step. */
+/* Writes the definition of a LAMMPS variable for particles with a prescribed displacement: component d of the force by
+ * which they reach the prescribed position at the end of a step. k: number of the load that prescribes the
+ * displacement. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -303,9 +303,9 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the commands for the particles of load k, whose velocity or displacement is prescribed. A force on them
- * changes their velocity, from its value in the middle of the previous step to the prescribed one in the middle of this
- * step. */
+/* Writes the LAMMPS commands that make the particles of load k follow its prescribed velocity or displacement. LAMMPS
+ * cannot prescribe these; a force replaces the one on the particles in each step. It changes their velocity from the
+ * value in the middle of the previous step to the prescribed one in the middle of this step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

@@ -123,9 +123,9 @@ static void particles_write(FILE *to, const struct exported *x)
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
-/* Writes the commands that follow the creation of bonds: two runs of zero steps, the end of the exclusion of pairs of
- * types, initial displacements, and time integration. The exclusion is ended because excluded pairs cannot come into
- * contact. */
+/* Writes the LAMMPS commands between the creation of bonds and the run: two runs of zero steps, then initial
+ * displacements and time integration. Pairs of types that were excluded while bonds were created are no longer
+ * excluded, since excluded pairs cannot come into contact. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);

@@ -27,9 +27,10 @@ void growing_crack_free(struct growing_crack *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Updates g->target_speed, the target speed of the tip, by one secant step of the crack-tip equation of motion K = k(v)
- * K_c, smoothed in time. K: stress-intensity factor g->intensity; k(v): factor of a crack at speed v; K_c: toughness.
- * control: elastic constants and time of the new factors; settling: time constant T of the smoothing [s]. */
+/* Updates g->target_speed, the speed that the tip should have so that K = k(v) K_c (crack-tip equation of motion), by
+ * one secant step towards its solution v, smoothed in time. K: measured stress-intensity factor g->intensity; k(v):
+ * factor by which a speed v reduces the factor of a crack at rest; K_c: toughness. control: elastic constants and time
+ * of the new stress-intensity factors; settling: time constant of the smoothing [s]. */
 static void target_speed_find(struct growing_crack *g, const struct growth_control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -44,9 +45,10 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates g->filtered_speed by the speed of the tip in the last step of length dt [s], and g->target_speed from
- * stress-intensity factors at time t [s]. control: these factors; if it is NULL, the target speed becomes 0. horizon:
- * horizon of the bonds [m]. Must be called before g->speed is overwritten. */
+/* Updates the speeds that control a crack by its stress-intensity factors: g->filtered_speed, the speed of the tip
+ * smoothed in time, by the last step of length dt [s], and the target speed g->target_speed, by new factors at time t
+ * [s]. control: these factors; NULL: not known, the target speed becomes 0. horizon: horizon of the bonds [m]. Must be
+ * called before g->speed is overwritten. */
 static void target_speed_update(struct growing_crack *g, const struct growth_control *control, real horizon, real t,
                                 real dt)
 {
@@ -197,8 +199,9 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Sets the weights of the fading bonds (g->fading) back to those of the previous step, so that fade can book losses
- * from there. Bonds that load has broken since then are removed from the list. */
+/* Resets the weights of the bonds in g->fading, which lose their weights gradually behind the tip, to those of the
+ * previous step. `fade` then reduces them again, and books the lost energy. Bonds that load has broken since then are
+ * removed from the list. */
 static void step_back(struct growing_crack *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -213,11 +216,11 @@ static void step_back(struct growing_crack *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading bonds (g->fading) to w0 (1 - grown/damping)^exponent, with `grown` the growth of
- * the crack since its tip crossed the bond and w0 the weight then. The energy lost is booked at the present positions:
- * half of the loss of the previous step and half of that of this step. Bonds change one after the other, each from its
- * weight of the previous step, so that the losses sum to the whole energy. f: family, with the default of `damping`,
- * half the horizon. Returns the number of directed bonds whose weight becomes 0. */
+/* Reduces the weights of the bonds in g->fading, which the tip has crossed, to w0 (1 - grown/damping)^exponent. `grown`
+ * is the growth of the crack since its tip crossed the bond, w0 the weight of the bond at that time. The energy lost is
+ * booked at the present positions: half of the loss of the previous step and half of that of this step. Bonds change
+ * one after the other, each from its weight of the previous step, so that the losses sum to the whole energy. f:
+ * family; half its horizon is the default of `damping`. Returns the number of directed bonds whose weight becomes 0. */
 static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;

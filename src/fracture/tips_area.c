@@ -55,10 +55,11 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
     return found;
 }
 
-/* Sets cell[] = 1 for the cells that contain a particle with more damage than `least`. The fronts of pre-cracks are
- * divided into strips about one spacing wide, and a strip ahead of the front into `deepest` cells of one spacing.
- * first[k]: number of the first strip of tip k; strip s has the cells from cell[s * deepest] on. cell = NULL: no cell
- * is marked. Returns the largest distance of such a particle from its front [cells]. */
+/* Marks the part of the area ahead of all pre-cracks that is damaged. The fronts of pre-cracks are divided into strips
+ * about one spacing wide, and the strip ahead of a front into `deepest` cells of one spacing. cell[] is set to 1 for
+ * cells that contain a particle with more damage than `least`; cell = NULL: no cell is marked. first[k]: number of the
+ * first strip of tip k; strip s has the cells from cell[s * deepest] on. Returns the largest distance of such a
+ * particle from its front [cells]. */
 static int64_t strips_mark(const struct crack_tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {

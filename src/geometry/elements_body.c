@@ -44,11 +44,10 @@ static void builder_list_edges(struct surface_builder *b)
     memory_free(label);
 }
 
-/* Adds a side of an element to the faces. node[n]: its corners, n = 3 or 4. A quadrilateral becomes two triangles.
- * Their common diagonal begins at the corner that is first by position, so that two elements that share the side but
- * not its nodes have the same diagonal. If only the other diagonal is an edge of an element, as where two tetrahedra
- * adjoin the side, that one is used. Otherwise there would be a gap between the tetrahedra and a side that is not
- * plane. */
+/* Adds a side of an element to the faces. node[n]: its corners, n = 3 or 4. A quadrilateral is divided into two
+ * triangles by the diagonal from the corner that is first by position: two elements that share the side but not its
+ * nodes then have the same diagonal. The other diagonal is used if it alone is an edge of an element, as where two
+ * tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a side that is not plane. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
 {
     int low = 0;

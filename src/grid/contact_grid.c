@@ -214,9 +214,10 @@ void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_co
  * step, which always dissipates. */
 #define PARTING_SHARE 1.6
 
-/* Returns the speed of approach along the unit vector along[dim] that the contact impulse removes [m/s]: now . along +
- * PARTING_SHARE min(0, before . along), at least 0. before, now: relative velocity before and after the forces of the
- * step [m/s]. strict: true to return 0 unless the bodies approach each other already before the step. */
+/* Returns how much of the relative velocity of two bodies along the unit vector along[dim] a contact impulse removes
+ * [m/s]: their speed of approach after the forces of the step, now . along. If they separated before the step, this is
+ * reduced by PARTING_SHARE times the speed of separation, to at least 0. before, now: relative velocity before and
+ * after the forces of the step [m/s]. strict: true to return 0 for bodies that separated before the step. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
     const real parting = dot(before, along, dim);
@@ -254,9 +255,9 @@ static void walls_mark(const struct grid_contact_side *side, int sides, uint8_t 
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the mass of node I in contact [kg], or INFINITY if its velocity mainly along `normal` is prescribed by walls.
- * before, now: its velocities before and after the forces of the step [dim] [m/s]; prescribed components are replaced
- * by the velocities of the walls. */
+/* Returns the mass with which node I takes part in a contact [kg], INFINITY if walls prescribe its velocity mainly
+ * along `normal`. before[dim], now[dim]: its velocities before and after the forces of the step [m/s]; prescribed
+ * components are replaced by the velocities of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

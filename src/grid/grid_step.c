@@ -92,8 +92,8 @@ status grid_sort_points_into_cells(struct run *e, bool *not_finite)
     return OK;
 }
 
-/* Returns the parameters of transfers between grid-coupled peridynamic particles and the grid (coupling pm .. pgg):
- * only momentum is transferred. */
+/* Returns the parameters of transfers between the grid and those peridynamic particles that the grid moves (couplings
+ * pm .. pgg). They differ from those of material points in that no stress is transferred or updated. */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;

@@ -195,8 +195,6 @@ void probes_sample_end(struct probes *s, const struct observed_run *o, const str
     }
 }
 
-/* ---- other particles --------------------------------------------------------------------------------------------- */
-
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
 /* Saves the state of all probes (their memories and the values of the last sample) to the archive a if a->saving,

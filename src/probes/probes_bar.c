@@ -202,10 +202,11 @@ static void errors(const struct bar *b, const struct observed_run *o, real *valu
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the coordinate at which factor * field passes the mean of the exact stresses before and behind the front f
- * [m], interpolated between particles; NAN if there is none. Of several such coordinates, returns the one nearest to
- * the exact front. field[b->n]: stress or strain of each particle from left to right. The outermost particles are left
- * out: the load acts on them, and their bonds transmit only half of it. */
+/* Returns the measured position of the front f in a bar [m]: the coordinate at which factor * field passes the mean of
+ * the exact stresses before and behind the front, interpolated between particles. If there are several, returns the one
+ * nearest to the exact front; NAN if there is none. field[b->n]: stress or strain of the particles from left to right;
+ * factor: 1 for a stress, or the modulus that makes it of a strain [Pa]. The outermost particles are left out: the load
+ * acts on them, and their bonds transmit only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {

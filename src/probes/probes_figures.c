@@ -286,8 +286,9 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Reports residual_max of a PATCH probe [1]: the largest nodal force of the first step, divided by the force of the
- * probe's stress on one face of a grid cell. */
+/* Reports residual_max of a PATCH probe, a patch test under uniform initial stress [1]: the largest nodal force in the
+ * region of the probe in the first step, over the force of the largest initial stress component on one face of a grid
+ * cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed_run *o = e->o;

@@ -13,9 +13,9 @@ static bool in_patch(const struct scene *s, const real *x)
     return false;
 }
 
-/* Raises *most to the largest force component on node I of grid g [N], if the node is in the region of a PATCH probe of
- * scene s. at: index in the box of grid nodes from which the position of the node follows; for a node doubled by a slit
- * that of the node at its position. */
+/* Raises *most to the largest absolute force component on node I of grid g [N], if the node is in the region of a PATCH
+ * probe of scene s. at: index of the node of the regular grid at the same position; it differs from I if I is an extra
+ * node, which a slit has added. */
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];

@@ -70,10 +70,10 @@ real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p,
 /* limit of the number of bonds of a block, for its cost: larger blocks get the size of the body */
 #define BLOCK_BONDS_MOST 1e7
 
-/* Computes the numbers of particles along the edges of a lattice block, edge[dim], whose largest frequency represents
- * that of the body. The block is large enough for particles with full families and, if that is cheap, for long waves.
- * f: family of the bonds; longest[dim]: extent of the body along each axis [m]. Returns the number of particles of the
- * block. */
+/* Computes the size of a block of the lattice whose largest frequency is used in place of that of the whole body:
+ * edge[dim], its numbers of particles along the axes. The block is large enough for particles with full families and,
+ * if that is cheap, for long waves. f: family of the bonds; longest[dim]: extent of the body along each axis [m].
+ * Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

@@ -129,8 +129,10 @@ struct kick {
     real dt;
 };
 
-/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], with the change of velocity dv in the
- * step. Particles with prescribed motion do not contribute, since their work is computed with their motion. */
+/* Returns `sum` plus the sum of m dv^2/4 over particles first .. end - 1 [J], where dv is the change of velocity in the
+ * step. This is the difference between the mean of the kinetic energies before and after the step and m v_before .
+ * v_after/2, the kinetic part of the energy that leap-frog conserves. Particles with prescribed motion do not
+ * contribute, since their work is computed with their motion. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;

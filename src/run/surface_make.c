@@ -16,8 +16,8 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns the number of that body, among those joined to body `body`, whose shape contains the position X [m]; `body`
- * if no shape does. */
+/* Returns the number of the body whose shape contains the position X [m], among the bodies joined to body `body`;
+ * joined bodies are bonded to each other and counted as one. Returns `body` if no shape contains X. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
     for (int b = 0; b < s->bodies; b++)
