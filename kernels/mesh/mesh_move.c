@@ -135,10 +135,10 @@ static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
     }
 }
 
-/* Undoes mesh_mirror_nodes_gather after the step: restores the masses and divides the force between mirror node and
- * image by their masses. Sets velocity and displacement of the mirror node to the reflected ones of its image. Adds the
- * reaction of the plane to impulse [N s]: a component that changes sign counts twice, for the node and for its
- * image. */
+/* Undoes mesh_mirror_nodes_gather after the step: restores the masses, and divides the force between each mirror node
+ * (a node beyond a plane of symmetry) and its image by their masses. Sets velocity and displacement of the mirror node
+ * to the reflected ones of its image. Adds the reaction of the plane to impulse [N s]: a component that changes sign
+ * counts twice, for the node and for its image. */
 static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
     struct grid *g = &mesh->grid;

@@ -17,8 +17,9 @@
 
 /* ---- points of a group ------------------------------------------------------------------------------------------- */
 
-/* Returns a bit for each point of `run` (up to eight consecutive particles of a group), set if the point is on the
- * grid: neither peridynamic nor a point of the mesh. all: true if all particles are on the grid. */
+/* Returns a bit for each point of `run` (up to eight consecutive particles of one group of points that rotate
+ * together), set if the point is on the grid: neither peridynamic nor a point of the mesh. all: true if all particles
+ * are on the grid. */
 static ALWAYS_INLINE uint8_t run_on_grid(const struct particles *p, const struct turning_run *run, bool all)
 {
     uint8_t bits = (uint8_t)((1u << run->n) - 1);
@@ -139,8 +140,8 @@ static ALWAYS_INLINE void spin_apply(const struct rotation_groups *t, struct tur
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g: the last one in the chain of groups that it has joined, g itself if it has joined
- * none. */
+/* Returns the root of group g of points: the last one in the chain of groups that it has joined; g itself if it has
+ * joined none. */
 static int32_t group_root(const struct rotation_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
@@ -286,8 +287,9 @@ static void moments_shift(struct rotation_groups *t)
     }
 }
 
-/* Adds the inertia of each group of points to that of its root, the group that it has joined. If the inertia of a root
- * nearly vanishes about some axis, adds the inertia of its mass at a radius of LEAST_ARM spacings. */
+/* Adds the inertia of each group of points (points that rotate together) to that of its root, the group that it has
+ * joined. If the inertia of a root nearly vanishes about some axis, adds the inertia of its mass at a radius of
+ * LEAST_ARM spacings. spacing: of the particles [m]. */
 static void inertias_find(struct rotation_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {

@@ -38,9 +38,9 @@ struct candidate {
  * DUE_DENIED at the same time. */
 static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_n(&b->soft.due[g], __ATOMIC_RELAXED); }
 
-/* Returns true if the bond `bond` of row block g, in the row of particle i, may begin to soften, and describes it in
- * *c. Conditions: its stretch is between its onset of softening and the end, beyond which it breaks; it has not begun
- * to soften; and the row block of its other particle is marked in b->soft.due, too. */
+/* Returns true if the bond `bond`, in the row of particle i in row block g (bonds of eight particles), may begin to
+ * soften, and describes it in *c. Conditions: its stretch is between its onset of softening and the end, beyond which
+ * it breaks; it has not begun to soften; and the row block of its other particle is marked in b->soft.due, too. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {

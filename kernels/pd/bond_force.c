@@ -26,9 +26,9 @@ struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press, trigger;
 };
 
-/* Adds the forces of the eight bonds of column s to the sums of a row block, and updates largest and smallest stretch.
- * The force over the length is computed from the stretch: as a difference of inverse lengths it would be cheaper, but a
- * body in free fall would have three times the round-off. */
+/* Adds the forces of eight bonds, column s of a row block (the s-th bonds of eight particles), to the sums of these
+ * particles, and updates largest and smallest stretch. The force over the length is computed from the stretch. As a
+ * difference of inverse lengths it would be cheaper, but a body in free fall would have three times the round-off. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -53,9 +53,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of the bonds on the particles of row block g, without their repulsive cores (bond_core.h), into
- * p->f. Returns true if a bond may exceed its breaking limit. *pressed: set to true if a bond is compressed into its
- * core. */
+/* Computes the forces of the bonds on the eight particles of row block g, without their repulsive cores (bond_core.h),
+ * into p->f. Returns true if a bond may exceed its breaking limit. *pressed: set to true if a bond is compressed into
+ * its core. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -84,8 +84,8 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
 }
 
-/* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
- * limit. Returns the number of directed bonds broken. */
+/* Computes the forces of the bonds on the eight particles of row block g, repulsive cores included, and breaks their
+ * bonds beyond the limit. Returns the number of directed bonds broken. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

@@ -11,8 +11,8 @@
 
 #define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
-/* Computes bond vectors y [dim] [m] and stretches [1] of the eight bonds of column s, from the positions x of the
- * particles of the row block. Returns the inverse lengths 1/|y| [1/m]. */
+/* Computes bond vectors y[dim] [m] and stretches [1] of the eight bonds of column s, one for each particle of a row
+ * block. x[dim]: positions of these eight particles [m]. Returns the inverse lengths 1/|y| [1/m]. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
@@ -26,8 +26,9 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
     return inverse;
 }
 
-/* Returns the elastic energies of the eight bonds of column s divided by the stiffness. x: positions of the particles
- * of the row block [m]; *press: lowered to the smallest stretch of the intact bonds [1]. */
+/* Returns the elastic energies of the eight bonds of column s, one for each particle of a row block, divided by the
+ * stiffness. x[dim]: positions of these eight particles [m]; *press: lowered to the smallest stretch of the intact
+ * bonds [1]. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -40,8 +41,9 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bonds_normalised_energy(model, stretch, elastic) * length, lanes_broadcast(0));
 }
 
-/* Returns half the elastic energy of the bonds of the particles in row block g (each bond belongs to two particles),
- * repulsive cores included, divided by half the stiffness. */
+/* Returns the elastic energy of the bonds of the eight particles in row block g, repulsive cores included, divided by
+ * the stiffness. Times half the stiffness, it is the share of these particles in the energy, since each bond belongs to
+ * two particles. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim, const enum pd_model model)
 {
@@ -73,8 +75,8 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic particles of row block g
- * into p->stress [Pa], where F_ij is the force of bond i-j on i (Silling & Askari 2005). */
+/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of those of the eight particles of row block g
+ * that are peridynamic, into p->stress [Pa]. F_ij is the force of bond i-j on i (Silling & Askari 2005). */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -92,8 +94,8 @@ static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct pa
             p->stress[s][row[l]] = sum[s][l] * b->stiffness / (2 * p->volume0[row[l]]);
 }
 
-/* Raises the largest stretches so far of the eight bonds of column s, which soften, to their present stretches where
- * these are larger. x: positions of the particles of the row block [m]. */
+/* Raises the largest stretches so far of eight bonds that soften, column s of a row block, to their present stretches
+ * where these are larger. x[dim]: positions of the eight particles of the row block [m]. */
 static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct particles *p, const lanes *x,
                                              const int dim)
 {
@@ -102,7 +104,8 @@ static ALWAYS_INLINE void bond_soften_column(const struct column s, const struct
     bonds_update_softened_stretch(s.b, s.number * LANES, stretch);
 }
 
-/* Updates the largest stretches so far of the bonds of row block g, of which at least one has begun to soften. */
+/* Updates the largest stretches so far of the bonds of row block g (bonds of eight particles), of which at least one
+ * has begun to soften. */
 static ALWAYS_INLINE void bond_soften_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim)
 {

@@ -103,8 +103,8 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of those rows of row block g that belong to material points with bonds; the others belong to
- * peridynamic particles. */
+/* Returns the mask of those of the eight rows of row block g that belong to material points with bonds; the others
+ * belong to peridynamic particles. A row has the bonds of one particle. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -288,8 +288,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces of all bonds on the particles of row block g into p->f, without repulsive cores, from the states
- * in b->state. */
+/* Computes the forces of all bonds on the eight particles of row block g into p->f, without repulsive cores, from the
+ * states of the families in b->state (pressure, spring stiffness and rotation). */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {
@@ -314,8 +314,8 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
- * limit. Returns the number of directed bonds broken. */
+/* Computes the forces of the bonds on the eight particles of row block g, repulsive cores included, and breaks their
+ * bonds beyond the limit. Returns the number of directed bonds broken. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

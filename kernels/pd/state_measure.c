@@ -65,8 +65,8 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_broadcast(0));
 }
 
-/* Returns the elastic energy of the families of the particles of row block g, repulsive cores included [J]; 0 if the
- * row block is inactive (at rest). */
+/* Returns the elastic energy of the families of the eight particles of row block g, repulsive cores included [J]; 0 if
+ * the row block is inactive (at rest). */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -93,8 +93,8 @@ static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, c
     if (dim > 2) sum[4] += 0.5 * (T[1] * y[2] + T[2] * y[1]), sum[5] += 0.5 * (T[2] * y[0] + T[0] * y[2]);
 }
 
-/* Computes the stress of the peridynamic particles of row block g into p->stress [Pa], from the states of their
- * families. */
+/* Computes the stress of those of the eight particles of row block g that are peridynamic, into p->stress [Pa], from
+ * the states of their families (pressure, spring stiffness and rotation). */
 static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {

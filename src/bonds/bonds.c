@@ -31,9 +31,9 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks particle or image i and all particles within the cutoff of it. wanted[(particles + 7)/8]: 1 for groups of
- * eight consecutive particles that get rows; fresh[particles]: 1 for particles whose neighbours must be searched
- * again. found[capacity]: working memory. */
+/* Marks particle or image i and all particles within its cutoff by 1: in wanted[(particles + 7)/8] the groups of eight
+ * consecutive particles that contain one of them, which get rows of bonds; and in fresh[particles] these particles
+ * themselves, whose neighbours must be searched again. found[capacity]: working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
@@ -101,9 +101,9 @@ static int32_t *row_of_make(struct bonds *old, int64_t n)
     return row_of;
 }
 
-/* Makes rows for the particles of all groups of eight consecutive ones that are marked in wanted[groups]: sets
- * b->particle (particle of each row) and b->row_of (row of each particle). Unused rows of the last row block repeat
- * its last particle. old: previous rows or NULL. */
+/* Makes rows of bonds for the particles of all groups of eight consecutive ones that are marked in wanted[groups]: sets
+ * b->particle (particle of each row) and b->row_of (row of each particle). Rows are used in blocks of eight; unused
+ * rows of the last block repeat its last particle. old: previous rows or NULL. */
 static void rows_list(struct bonds *b, struct bonds *old, const struct particles *p, const uint8_t *wanted)
 {
     const int64_t eights = (p->n + LANES - 1) / LANES;
@@ -163,9 +163,9 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Returns true if the bonds of row block g can be made from the map of lattice sites, without a search: eight
- * consecutive particles on a regular part of the lattice, without changed weights. The bonds are then in
- * room->regular. */
+/* Returns true if the bonds of row block g (rows of eight particles) can be made from the map of lattice sites, without
+ * a search: its particles are consecutive, on a regular part of the lattice, and have no changed weights. The bonds are
+ * then in room->regular. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;

@@ -141,8 +141,9 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the column arrays of the previous rows. Both use them until bonds_clear_pointers_to_moved_arrays takes
- * them from `old`. kept[row blocks]: row block of `old` that is taken over, -1: none. */
+/* Makes b use the column arrays of the previous rows `old`. Both use them until bonds_clear_pointers_to_moved_arrays
+ * takes them from `old`. kept[g]: row block of `old` (rows of eight particles) whose columns row block g keeps; -1:
+ * none. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;

@@ -192,7 +192,8 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
     }
 }
 
-/* Returns the plastic state of bond k of lane `lane` (0 to 7) in a row block. */
+/* Returns the plastic state of the k-th bond of one of the eight particles of a row block. lane: which of them, 0 to
+ * 7. */
 static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;

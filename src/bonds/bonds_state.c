@@ -46,8 +46,8 @@ void state_update_weighted_volumes(struct bonds *b, const struct particles *p, c
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_weigh(b, p, s, g);
 }
 
-/* Computes the weighted volume Q of the row blocks in which it is still 0: those that are rebuilt. Row blocks taken
- * from the previous rows keep their Q. */
+/* Computes the weighted volume Q of the row blocks (rows of eight particles) in which it is still 0: those that are
+ * rebuilt. Row blocks that were copied from the previous rows keep their Q. */
 static void state_weigh_new(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
 #pragma omp parallel for schedule(static)

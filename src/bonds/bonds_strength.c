@@ -178,8 +178,8 @@ static ALWAYS_INLINE void row_block_strain_of(struct evaluation *e, int64_t g, c
     }
 }
 
-/* Computes the strains of the rows of row block g that are marked in wanted[8] into e->strain[0]. Does nothing if no
- * row is marked. */
+/* Computes the strains of those of the eight rows of row block g that are marked in wanted[8], into e->strain[0]. Does
+ * nothing if no row is marked. */
 static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted)
 {
     bool any = false;
@@ -418,8 +418,8 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
     }
 }
 
-/* Marks in touched[row blocks] the row block of a row that is on its strength surface, and those of all neighbours
- * to which its bonds lead. Several threads may mark one row block. */
+/* Marks in touched[row blocks] the row block (rows of eight particles) of a row whose particle is on its strength
+ * surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);

@@ -80,15 +80,16 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns component abcd of the fourth moment M of a full family, divided by M_1111. */
+/* Returns component abcd of the fourth moment M of a full family (the sum of w r nnnn over its bonds), divided by
+ * M_1111. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes an orthonormal basis of symmetric strain tensors B_k, their stresses M:B_k with the fourth moment M of a
- * full family, and the coefficients by which products of B_k with a moment tensor follow from the components of that
- * tensor. */
+/* Computes what the least-squares fit of moment tensors needs of strains: an orthonormal basis of symmetric strain
+ * tensors B_k; their stresses M:B_k, with the fourth moment M of a full family; and the coefficients by which products
+ * of B_k with a moment tensor follow from the components of the tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -110,8 +111,8 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes the third and fourth moments of the bonds of all offsets, the fourth moment M of a full family (all
- * divided by M_1111), and the basis of strains. */
+/* Computes the moments of the bond at each offset, the third w nnn and the fourth w r nnnn (direction n, weight w,
+ * length r), and the fourth moment M of a full family, all divided by M_1111. Then computes the basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -270,8 +271,8 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
 }
 
 /* Returns the sum of m . Q m over those bonds of a class (particles with equal surroundings) whose factors on their
- * weights are fitted. m: third and fourth moments of a bond; Q: quadratic form that weighs deviations of the moments of
- * the class. */
+ * weights are fitted. m: moments of a bond, the tensors w nnn and w r nnnn (direction n, weight w, length r); Q:
+ * quadratic form that weighs deviations of the moments of the class. */
 static real class_squares(const struct surface_fit_problem *q, const struct moments *m, int32_t class)
 {
     const struct class_fit *c = &q->class[class];

@@ -60,9 +60,10 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes value[offsets]: the scalar product of the third and fourth moments of each bond of a class (particles with
- * equal surroundings) and the vector by[thirds + fourths]. thirds, fourths: numbers of components of the moments,
- * compile-time constants. changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
+/* Computes value[offsets]: the scalar product of the moments of each bond of a class (particles with equal
+ * surroundings) and the vector by[thirds + fourths]. The moments of a bond are tensors of rank 3 and 4 formed of its
+ * direction; thirds, fourths: numbers of their components, compile-time constants. changes[offsets/2]: pairs of
+ * opposite bonds with the mark 0 are skipped; NULL if none is. */
 static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const uint8_t *changes, const real *by,
                                      real *value, const int thirds, const int fourths)
 {
@@ -79,10 +80,11 @@ static ALWAYS_INLINE void class_back(const struct surface_fit_problem *q, const 
     }
 }
 
-/* Subtracts from to[thirds + fourths] the sum of x times the third and fourth moments over the bonds of a class
- * (particles with equal surroundings). x[groups]: a number for each group of bonds that share a factor; group[offsets]:
- * group of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are skipped, since their x
- * is 0; NULL if none is. thirds, fourths: numbers of components of the moments, compile-time constants. */
+/* Subtracts from to[thirds + fourths] the sum of x times the moments over the bonds of a class (particles with equal
+ * surroundings). The moments of a bond are tensors of rank 3 and 4 formed of its direction; thirds, fourths: numbers of
+ * their components, compile-time constants. x[groups]: a number for each group of bonds that share a factor;
+ * group[offsets]: group of each bond, -1: none; changes[offsets/2]: pairs of opposite bonds with the mark 0 are
+ * skipped, since their x is 0; NULL if none is. */
 static ALWAYS_INLINE void class_sum(const struct surface_fit_problem *q, const uint8_t *changes, const int64_t *group,
                                     const real *x, real *to, const int thirds, const int fourths)
 {
@@ -119,8 +121,8 @@ static const uint8_t *marks_of(const struct surface_fit_problem *q, const uint8_
 }
 
 /* Computes d->value[classes, offsets]: for each bond of each class (particles with equal surroundings) the scalar
- * product of its third and fourth moments and the part of the vector x[classes, moments] that belongs to the class.
- * changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
+ * product of its moments (tensors formed of its direction) and the part of the vector x[classes, moments] that belongs
+ * to the class. changes[classes, offsets/2]: pairs of opposite bonds with the mark 0 are skipped; NULL if none is. */
 static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct surface_fit_problem *q = d->fit;
@@ -162,8 +164,8 @@ static void all_sum(const struct descent *d, const uint8_t *changes, const real 
     }
 }
 
-/* Returns the sum of d->value over all entries (class, offset) that belong to group g, a group of bonds that share one
- * factor. */
+/* Returns the sum of d->value over all entries (class of particles, offset of the bond) that belong to group g, a group
+ * of bonds that share one factor. */
 static real group_sum(const struct descent *d, int64_t g)
 {
     const struct surface_fit_problem *q = d->fit;

@@ -46,8 +46,9 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to the k-th listed particle. Records in a->pair the kind, bonded or cut, of the pairs of c with the
- * colours of its neighbours. Returns false if a pair of colours would need both kinds. */
+/* Assigns colour c to the k-th listed particle, and records in a->pair the kind, bonded or cut, of the pairs of c with
+ * the colours of its neighbours. Colours become particle types, by which LAMMPS excludes bonds. Returns false if a pair
+ * of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;

@@ -49,8 +49,8 @@ static void types_number(struct lammps_types *t, const struct exported *x, int32
             }
 }
 
-/* Lists in t->pair the pairs of types between which LAMMPS must not create bonds. These are the pairs of colours a and
- * b with pair[a * colours + b] == PAIR_CUT. number[a]: type of the particles with colour a. */
+/* Lists in t->pair the pairs of particle types between which LAMMPS must not create bonds: the types of the colours a
+ * and b with pair[a * colours + b] == PAIR_CUT. number[a]: type of the particles with colour a. */
 static void types_exclude(struct lammps_types *t, const int32_t *number, const uint8_t *pair, int colours)
 {
     for (int pass = 0; pass < 2; pass++) {

@@ -22,9 +22,10 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     }
 }
 
-/* Makes points, only for output, in cells whose particles were not created: in the cells cell[cells] of `level`, one
- * for each integration point. They are stored in r->shown.part from index `first` on, and their motion is that of the
- * nodes of the level. body: the particles of the run; m: materials of the scene. */
+/* Makes points, only for output, in cells whose particles were not created: one for each integration point of the cells
+ * cell[cells] of `level`, which have the edge of 2^level finest cells. The points are stored in r->shown.part from
+ * index `first` on, and move with the nodes of these cells. body: the particles of the run; m: materials of the
+ * scene. */
 static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
                          const int64_t *cell, int64_t cells, int64_t first)
 {

@@ -199,8 +199,8 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
-/* Rebuilds everything that follows from the levels of the cells, l->level: cells and masses of all meshes, interfaces
- * between levels, and distances to coarse cells. */
+/* Rebuilds everything that follows from l->level, the refinement level of each of the finest cells: cells and masses of
+ * the meshes of all levels, interfaces between levels, and distances to coarse cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_update_after_level_change(l->fine, p, source, l->level);

@@ -202,8 +202,8 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Reduces limit[I], the largest level allowed for cell I, to r->room[I], the largest level that the thickness of the
- * body allows there. Does nothing if the scene prescribes the number of levels. */
+/* Reduces limit[I], the largest refinement level allowed for cell I, to r->room[I], the largest level that the
+ * thickness of the body allows there. Does nothing if the scene prescribes the number of levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)

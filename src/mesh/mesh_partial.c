@@ -129,7 +129,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
 }
 
 /* Returns one entry of the stiffness matrix of a cell in terms of its deformation modes [Pa]: the force on the mode
- * `to` for a unit amplitude of the mode `by`. sum: moments of the points' stiffness, from cell_sums. */
+ * `to` for a unit amplitude of the mode `by`. sum[S]: means over the points of the cell of their stiffness times signs
+ * of their coordinates, from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -184,8 +185,9 @@ static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES
     }
 }
 
-/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] of partial cell I in terms of its deformation modes [Pa]. B:
- * strains of its points for unit amplitudes of the modes, with the mean dilatation (averaged_strains). */
+/* Computes the stiffness matrix K[MODES_MAX][MODES_MAX] [Pa] of partial cell I, a cell with a stiffness matrix of its
+ * own, in terms of its deformation modes. B: strains of its points for unit amplitudes of the modes, with the mean
+ * dilatation (averaged_strains). */
 static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
 {
     memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
@@ -198,9 +200,10 @@ static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_stra
     }
 }
 
-/* Computes the stiffness matrix of partial cell I in terms of its deformation modes [Pa] and stores its upper half row
- * by row. K: address of the first entry; further ones follow at distances of LANES, since the matrices of LANES cells
- * are interleaved. The lower half is not stored, since the matrix is symmetric up to round-off. */
+/* Computes the stiffness matrix of partial cell I, a cell with a stiffness matrix of its own, in terms of its
+ * deformation modes [Pa], and stores its upper half row by row. K: address of the first entry; the next ones follow at
+ * distances of LANES, since the matrices of LANES cells are interleaved. The lower half is not stored, since the matrix
+ * is symmetric up to round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -219,7 +222,8 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
-/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in partial cells. */
+/* Frees the lists of points with PD-MPM bonds (between peridynamic particles and material points) in partial cells,
+ * which have a stiffness matrix of their own. */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -253,8 +257,9 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
     return i >= 0 && point_has_state_bonds(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Appends the points with state-based PD-MPM bonds in partial cell number k to mesh->end, from index *n on, with the
- * contributions of the modes of the cell to their mean strain. Advances *n by the number of these points. */
+/* Appends the points with state-based PD-MPM bonds in partial cell number k (a cell with a stiffness matrix of its own)
+ * to mesh->end, from index *n on. Stores for each point how much the deformation modes of the cell change the mean
+ * strain of its family. Advances *n by the number of these points. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -270,8 +275,8 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the points with state-based PD-MPM bonds in all partial cells, in the order of the groups of LANES partial
- * cells. */
+/* Lists the points with state-based PD-MPM bonds in all partial cells (cells with a stiffness matrix of their own),
+ * group by group of LANES such cells. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -337,7 +342,8 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
     return (uint8_t)least;
 }
 
-/* Returns the parameters for computing stiffness matrices of partial cells. Release `whole` with memory_free. */
+/* Returns the parameters for computing the stiffness matrices of partial cells, those with missing points, partial
+ * stresses, several materials or doubled nodes. Release `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -354,7 +360,7 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
 }
 
 /* Returns the address of the first number of partial cell `cell` in the array `from`, which has `each` numbers for
- * every cell, interleaved for LANES cells. Returns NULL if `from` is NULL. */
+ * every partial cell, such as stiffnesses, interleaved for LANES cells. Returns NULL if `from` is NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -372,8 +378,8 @@ static void group_copy(real *to, real *old, const int64_t *from, int64_t group, 
         for (int l = 0; l < LANES; l++) own[k + l] = source[l][k];
 }
 
-/* Appends copies of the first partial cell of the last group of LANES partial cells until this group is full. The
- * copies have no stiffness and are not counted. */
+/* Fills up the last group of LANES partial cells (cells with a stiffness matrix of their own) by copies of its first
+ * cell. The copies have no stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_partial_cell_group_count(mesh) * LANES, partial_cells = mesh->partial_cells;
@@ -381,9 +387,10 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns for each partial cell of the mesh its index in the list of partial cells before the change, `old`. The index
- * is -1 if the stiffness of the cell must be computed, because the cell is new or marked in `dirty` (NULL: all cells
- * are), and for the lanes that fill the last group of LANES cells. Release the list with memory_free. */
+/* Returns for each partial cell (a cell with a stiffness matrix of its own) its index in `old`, the list before a
+ * change of cells, from which its stiffness is copied. The index is -1 if the stiffness must be computed, because the
+ * cell is new or marked in `dirty` (NULL: all cells are), and for the lanes that fill the last group of LANES cells.
+ * Release the list with memory_free. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = BARE("mesh.from", mesh_partial_cell_group_count(mesh) * LANES, int64_t);
@@ -398,8 +405,9 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
     return from;
 }
 
-/* Returns an array of `each` numbers for every partial cell, interleaved in groups of LANES cells. The last group is 0,
- * others are uninitialised. label: name of the array. Release it with memory_free. */
+/* Returns an array of `each` numbers for every partial cell (a cell with a stiffness matrix of its own), interleaved in
+ * groups of LANES cells. The numbers of the last group are 0, others are uninitialised. label: name of the array.
+ * Release it with memory_free. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_partial_cell_group_count(mesh), size = each * LANES;
@@ -408,17 +416,18 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
-/* Returns true if the `each` numbers per cell in the array `of` are bitwise equal in the groups g and h of LANES
- * partial cells. */
+/* Returns true if two groups g and h of LANES partial cells have bitwise equal numbers in the array `of`, such as
+ * stiffnesses. each: numbers per cell. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;
     return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
-/* Stores in mesh->alike[g], for each group g of LANES partial cells, the first of the groups directly before it that
- * have bitwise equal stiffness, or g itself if there is none. Then these groups share one stiffness. Cells that an edge
- * of the body cuts in the same way are consecutive. modes: number of deformation modes of a cell. */
+/* Finds groups of LANES partial cells (cells with a stiffness matrix of their own) that can share one stiffness.
+ * mesh->alike[g] receives the first of the groups directly before group g with bitwise equal stiffness, or g itself if
+ * there is none. Such groups are frequent, as cells that an edge of the body cuts in the same way are consecutive.
+ * modes: number of deformation modes of a cell. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_partial_cell_group_count(mesh);
@@ -459,8 +468,8 @@ void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p
     memory_free(old->stiffness);
 }
 
-/* Sets mesh->alike[g] = g for the groups g of partial cells with changed[g], and for the groups that use the stiffness
- * of such a group: each of them then uses its own stiffness, since they may differ now. changed: [groups]. */
+/* Ends the sharing of stiffness by groups of partial cells of which one has changed. Sets mesh->alike[g] = g for each
+ * group g with changed[g], and for each group that uses the stiffness of such a group. changed: [groups]. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_partial_cell_group_count(mesh) - 1; g >= 0; g--)

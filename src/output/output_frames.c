@@ -43,8 +43,8 @@ struct frame_job {
     char message[512];
 };
 
-/* Returns true if the frame of a job itself contains field number k. Fields that do not change from frame to frame are
- * in the particles file instead. */
+/* Returns true if field number k is stored in the frame of `job`, the description of a frame to be written. Fields that
+ * do not change from frame to frame are in the particles file instead. */
 static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
 
 /* Copies the rows of those fields that are stored in the frame itself, not in the particles file, to o->frame_copy.
@@ -81,9 +81,9 @@ static void job_drop_contact(struct frame_job *job)
     if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
 }
 
-/* Determines the particles file to which the frame of the job links. It contains the data that do not change. It is the
- * last one of the series, or a new one if its contents would differ. scene_text: text of the scene, which the file
- * contains. */
+/* Chooses the particles file, with the data that do not change, to which the frame of `job` links. It is the last
+ * particles file of the series of frames, or a new one if its contents would differ. source: data of the frame;
+ * scene_text: text of the scene, which the file contains. */
 static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
 {
     struct frame_series *s = job->series;
@@ -222,8 +222,9 @@ static void write_marks(struct hdf *f, const struct frame_job *job)
     if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
 }
 
-/* Writes the particles file of the frame of a job if it is new, then the frame, under its temporary name
- * PATH.cleave.tmp, which is renamed to PATH. Returns FAILED if a file cannot be written. */
+/* Writes the frame of a job (the description of a frame to be written) under its temporary name PATH.cleave.tmp, and
+ * renames it to PATH. Before that, writes the particles file to which it links, if this is new. Returns FAILED if a
+ * file cannot be written. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -238,8 +239,9 @@ static status frame_write(struct frame_job *job)
     return file_replace_by_temporary(job->path.text);
 }
 
-/* Writes the frame of a job and then the indices of its series, which thus never list a missing frame. The folder of
- * the run is two levels above the frame. Returns FAILED if a file cannot be written. */
+/* Writes the frame of a job (the description of a frame to be written) and then the index files of its series of
+ * frames, which thus never list a missing frame. The folder of the run is two levels above the frame. Returns FAILED if
+ * a file cannot be written. */
 static status job_write(struct frame_job *job)
 {
     TRY(frame_write(job));
@@ -273,8 +275,8 @@ status output_wait_for_frame(struct output *o)
     return s;
 }
 
-/* Appends a frame to the list of its series, before it is written. If writing fails later, output_wait_for_frame
- * removes it from the list. */
+/* Appends a frame that is about to be written to the list of its series, the frames of the whole run or of one region.
+ * If writing fails later, output_wait_for_frame removes it from the list. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frames", s->entry, s->frames + 1);
@@ -334,9 +336,9 @@ struct particles_seen {
     int64_t content;           /* this hash */
 };
 
-/* Checks particles file number `number` of a series in the folder of a run, and stores name, fault and hash in *seen.
- * Does nothing if it is the file that was checked last. The checkpoint has the hash of the last particles file of the
- * series. If the hash of this file differs, it belongs to another run and counts as lost. */
+/* Checks particles file number `number` of a series of frames in the folder of a run, and stores name, fault and hash
+ * of the file in *seen. Does nothing if it is the file that was checked last. The checkpoint has the hash of the last
+ * particles file of the series. If this file has another hash, it belongs to another run and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
@@ -402,7 +404,8 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     if (seen.fault) s->particles.number = -1;
 }
 
-/* Composes and writes both index files of a series. Returns FAILED if one cannot be written. */
+/* Composes and writes both index files of a series of frames (frames.hdf.series and frames.xdmf). Returns FAILED if one
+ * cannot be written. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};

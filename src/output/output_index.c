@@ -20,7 +20,8 @@ void series_file_name(const struct frame_series *s, char *name, size_t capacity,
     snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", ending);
 }
 
-/* Writes the index frames.hdf.series of a series, in JSON: name and time [s] of each frame that is not lost. */
+/* Writes the index frames.hdf.series of a series of frames, in JSON: name and time [s] of each frame that is not
+ * lost. */
 static void series_print(FILE *out, const struct frame_series *s)
 {
     const char *between = "";
@@ -76,7 +77,8 @@ static void xdmf_grid(FILE *out, const char *frame, const char *particles, const
     fprintf(out, "</Grid>\n");
 }
 
-/* Writes the index frames.xdmf of a series: a collection in time of the grids of all frames that are not lost. */
+/* Writes the index frames.xdmf of a series of frames: a collection in time of the XDMF grids of all frames that are not
+ * lost. */
 static void xdmf_print(FILE *out, const struct frame_series *s)
 {
     fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
@@ -93,7 +95,7 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of an index file of a series in the folder of a run. which: 0 for frames.hdf.series, 1 for
+/* Returns the path of an index file of a series of frames in the folder of a run. which: 0 for frames.hdf.series, 1 for
  * frames.xdmf. */
 static struct path index_path(const char *folder, const struct frame_series *s, int which)
 {
@@ -103,8 +105,9 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
     return path_join(folder, name);
 }
 
-/* Composes the text of an index file of a series in memory, index->text[which]. which: 0 for frames.hdf.series, 1 for
- * frames.xdmf. folder: folder of the run, for messages. Returns FAILED if memory is exhausted. */
+/* Composes the text of an index file of a series of frames in memory, index->text[which]. which: 0 for
+ * frames.hdf.series, 1 for frames.xdmf. folder: folder of the run, for messages. Returns FAILED if memory is
+ * exhausted. */
 static status index_make(struct frame_indices *index, const char *folder, const struct frame_series *s, int which)
 {
     static void (*const print[INDICES])(FILE *, const struct frame_series *) = {series_print, xdmf_print};

@@ -67,7 +67,7 @@ static real front_length(const struct crack_tips *t, const struct bond_source *s
 }
 
 /* Returns the area of a crack increment of INCREMENT_SPACINGS spacings [m^2]; half of it for a crack on a plane of
- * symmetry. front: length of the crack front in space, 1 for a plane body [m]. */
+ * symmetry. front: length of the crack front in 3D [m]; 1 for a plane body, whose thickness is in its section. */
 static real increment_area(const struct scene *s, const struct crack_tips *t, const struct bond_source *source,
                            real front)
 {

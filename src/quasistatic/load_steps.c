@@ -89,9 +89,10 @@ static status approach_loads(struct run *e, real t)
 }
 
 /* Makes the next crack increment while loads can only grow, and determines the one after it. The increment is made at
- * the load size at which it is due; if this is smaller than the load size *size of the previous increment, at *size.
- * *size receives the load size of this increment ([m] or [N]). Updates the largest forces of the rigid bodies there.
- * from, t: range of the pseudo-time [s]. Returns FAILED, with a message, if an equilibrium is not found. */
+ * the load size (norm of prescribed displacements [m] or of applied forces [N]) at which it is due; if this is smaller
+ * than *size, the load size of the previous increment, then at *size. *size receives the load size of this increment.
+ * Updates the largest forces of the rigid bodies there. from, t: range of the pseudo-time [s]. Returns FAILED, with a
+ * message, if an equilibrium is not found. */
 static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;

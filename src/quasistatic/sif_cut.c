@@ -191,7 +191,8 @@ static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct
     return tried;
 }
 
-/* Returns true if list l contains the bond of *record, i.e. a record with the same row and entry. */
+/* Returns true if list l contains the directed bond of *record: a record with the same row and entry in the bond
+ * arrays. */
 static bool list_has(const struct break_list *l, const struct broken_bond *record)
 {
     for (int64_t k = 0; k < l->n; k++)

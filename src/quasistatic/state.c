@@ -59,9 +59,9 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
     return sif_archive(&s->sif, a);
 }
 
-/* Saves scales and noise level of the solver, its counters, whether its preconditioner is still valid, and the last
- * record of the history to the archive a if a->saving is true, else restores them. Returns FAILED if the archive cannot
- * be written or lacks them. */
+/* Saves to the archive a if a->saving is true, else restores from it: scales and noise of the forces in the solver, its
+ * counters, whether its preconditioner is still valid, and the last results of load steps for the history. Returns
+ * FAILED if the archive cannot be written or lacks them. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct newton_solver *q = &s->balance;

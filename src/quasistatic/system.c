@@ -40,7 +40,8 @@ void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct par
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Adds the forces on mirror nodes of the mesh, with the signs of the reflection, to the forces on their image nodes. */
+/* Adds the forces on mirror nodes of the mesh (nodes beyond a plane of symmetry), with the signs of the reflection, to
+ * the forces on the nodes of which they are images. */
 static void mirror_forces_add(struct mesh *mesh)
 {
     for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) {
