@@ -475,8 +475,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
-/* Returns true if mesh_force has marked a cell of group number `group` of eight partial cells, as one in which a stress
- * may exceed the conversion stress. */
+/* Returns true if mesh_force has marked a cell of group `group` of eight partial cells (cells with stiffness matrices
+ * of their own), as one in which a stress may exceed the conversion stress. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;

@@ -30,9 +30,10 @@ void grid_clear(struct grid *g)
     EACH_NODE(CLEAR)
 }
 
-/* Sets one velocity component of a node of the grid to the velocity that the wall w prescribes; the reaction replaces
- * the force, and with APIC also the momentum. Adds the impulse [N s] and the work [J] of the wall to impulse[] and
- * *work, and stores its reaction [N s]. Does nothing for nodes lighter than smallest_mass [kg]. */
+/* Sets one velocity component of a node of the grid, and its change in the step (g->force), to the values that the wall
+ * w prescribes. The impulse of the wall replaces that of the forces on the node, and with APIC also the momentum that
+ * points have given to the node. Adds it [N s] and the work of the wall [J] to impulse[] and *work, and stores the
+ * reaction of the wall [N s]. Does nothing for nodes lighter than smallest_mass [kg]. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
                       real *work)
 {

@@ -119,7 +119,8 @@ static void rows_list(struct bonds *b, struct bonds *old, const struct particles
     for (int64_t r = b->rows; r < b->row_blocks * LANES; r++) b->particle[r] = b->particle[b->rows - 1];
 }
 
-/* Allocates all arrays of the rows except those of the columns. */
+/* Allocates the arrays of b with an entry for each row (the bonds of one particle) or each block of eight rows. The
+ * arrays with an entry for each bond are allocated later. */
 static void rows_arrays(struct bonds *b)
 {
     int64_t padded = b->row_blocks * LANES;

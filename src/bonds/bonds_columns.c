@@ -49,7 +49,8 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes holes that have no columns left from the array of all holes, and frees the lists. */
+/* Removes empty holes (ranges of unused columns of the bond arrays, here without a column left) from the array of all
+ * holes, and frees the lists of holes by size. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -103,7 +104,7 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
     b->pair = NEW("bonds.pair", b->room * LANES, int32_t);
 }
 
-/* Extends the column arrays to `room` columns, without initialising the new ones. */
+/* Extends the bond arrays to `room` columns of eight bonds each, without initialising the new ones. */
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;

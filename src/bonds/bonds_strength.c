@@ -190,9 +190,9 @@ static void row_block_strain(struct evaluation *e, int64_t g, const bool *wanted
 
 /* ---- means ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the row whose strain is that of particle or image j, up to mirrors: the row of j, or for an image that of
- * the particle that it mirrors. Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is
- * clamped. sign[dim]: receives -1 for axes that are mirrored, else 1. */
+/* Returns the row that holds the strain of particle or image j: the row of j, or for an image the row of the particle
+ * that it mirrors, with the strain still to be reflected. sign[dim]: receives -1 for the axes to be reflected, else 1.
+ * Returns -1 if that row does not hold bonds to all neighbours, or if a mirror is clamped. */
 static int64_t row_of_strain(const struct evaluation *e, int32_t j, real *sign)
 {
     const struct particles *p = e->p;
@@ -294,9 +294,9 @@ static void evaluation_free(struct evaluation *e)
 /* Returns true if a particle of row block g (the bonds of eight particles) may have reached its strength surface. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Computes the strains of those rows of row block g (bonds of eight particles) whose material has a strength surface
- * and in which a bond has not begun to soften. Sets e->distance to 1 for those that are on their strength surface or
- * beyond. Returns true if there is one. */
+/* Finds the particles of row block g (bonds of eight particles) whose strength surfaces must be evaluated: computes the
+ * strains of the rows whose material has such a surface and in which a bond has not begun to soften, and sets
+ * e->distance to 1 for those on their strength surface or beyond. Returns true if there is one. */
 static bool row_block_find(struct evaluation *e, int64_t g)
 {
     const struct bonds *b = e->b;
@@ -312,8 +312,9 @@ static bool row_block_find(struct evaluation *e, int64_t g)
     return any;
 }
 
-/* Sets e->distance to 1 for all rows whose own strain, not averaged over the family, is on their strength surface or
- * beyond, and in which a bond has not begun to soften. Returns true if there is one. */
+/* Finds the particles whose strength surfaces must be evaluated: sets e->distance to 1 for the rows in which a bond has
+ * not begun to soften and whose own strain, not averaged over the family, is on the strength surface or beyond. Returns
+ * true if there is one. */
 static bool find_candidates(struct evaluation *e)
 {
     bool any = false;
@@ -371,8 +372,9 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
 
 /* ---- start ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the lower limit of the stretch at which bonds of particle or image j begin to soften, if the stress of the
- * particle has reached its strength surface [1]; INFINITY if it has not. */
+/* Returns the smallest onset of softening that bonds of particle or image j may have [1], the share LEAST_ONSET of its
+ * strain at the tensile strength, if the stress of the particle has reached its strength surface; INFINITY if it has
+ * not. */
 static real start_of(const struct evaluation *e, int32_t j)
 {
     const int32_t i = (int32_t)image_source_particle(e->p, e->source->image, j);

@@ -83,8 +83,8 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
 }
 
 /* Returns an upper bound of omega^2 m for particle i [N/m], where omega is its largest angular frequency and m its
- * mass. It is the bound of the largest eigenvalue for the springs that its bonds in `row` are. stiffness: force per
- * stretch of a bond of weight 1 [N]. */
+ * mass: a bound of the largest eigenvalue of the stiffness matrix of its bonds in `row`, taken as springs. stiffness:
+ * force per stretch of a bond of weight 1 [N]. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -213,8 +213,8 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns the table of bond stiffnesses by pair of materials, divided by that of material 0, as bounds of frequencies
- * require them. In state-based models the entry of two materials is the mean of both, since each row of a bond responds
+/* Returns a table for bounds of frequencies: the stiffness of bonds for each pair of materials, divided by that of
+ * material 0. In state-based models the entry of two materials is the mean of both, since each row of a bond responds
  * with its own modulus. Release the array `ratio` of the table with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {

@@ -87,9 +87,9 @@ static real full_of(const struct moments *m, int a, int b, int c, int d)
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes what the least-squares fit of moment tensors needs of strains: an orthonormal basis of symmetric strain
- * tensors B_k; their stresses M:B_k, with the fourth moment M of a full family; and the coefficients by which products
- * of B_k with a moment tensor follow from the components of the tensor. */
+/* Computes the basis in which deviations of moment tensors are measured by the stresses that they cause: orthonormal
+ * symmetric strain tensors B_k; their stresses M:B_k, with the fourth moment M of a full family; and the coefficients
+ * by which products of B_k with a moment tensor follow from the components of that tensor. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -392,11 +392,11 @@ static void class_fix(struct surface_fit_problem *q, const struct near_faces *b,
     }
 }
 
-/* Fixes the factors of bonds at ends of cracks and in thin parts, which have too few layers of particles: to those of
- * the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations. Bonds at ends of
- * cracks also get factor 1 if bonds may break. They break next, and the critical stretch is calibrated for factor 1
- * (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated last, so that a bond between both
- * does not depend on the order of its particles. */
+/* Fixes the factors on the weights of bonds at ends of cracks and in thin parts, which have too few layers of
+ * particles: to those of the volume method (Le & Bobaru 2018), or to 1 if `rotates`, in models with particle rotations.
+ * Bonds at ends of cracks also get the factor 1 if bonds may break: they break next, and the critical stretch is
+ * calibrated for factor 1 (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). Thin parts are treated last, so
+ * that a bond between both does not depend on the order of its particles. */
 static void plain_parts(struct surface_fit_problem *q, const struct near_faces *b, const struct surface_fit_targets *f,
                         bool rotates)
 {

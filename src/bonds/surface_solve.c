@@ -334,8 +334,8 @@ static void system_make(struct descent *d)
     d->systems++;
 }
 
-/* Computes d->weighed = B^-1 d->left with the preconditioner B, which has the blocks of the classes (particles with
- * equal surroundings) on its diagonal. */
+/* Computes d->weighed = B^-1 d->left, where d->left is the residual of the linear system and B its preconditioner,
+ * which has the blocks of the classes (particles with equal surroundings) on its diagonal. */
 static void left_weigh(struct descent *d)
 {
     const int32_t classes = d->fit->alike->classes;

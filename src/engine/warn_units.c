@@ -309,8 +309,8 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength of the materials and interfaces that can break, E s_c (E s_0 for bonds that soften)
- * [Pa]; INFINITY if none can. */
+/* Returns the smallest strength of the materials and interfaces that can break [Pa]; INFINITY if none can. The strength
+ * is Young's modulus times the critical stretch, or times the onset of softening for bonds that soften. */
 static real least_strength(const struct scene *s)
 {
     real least = INFINITY, young = INFINITY;

@@ -62,9 +62,11 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns a colour to each particle listed in a->t (particles with cut bonds). It is the first colour of particles with
- * the same key for which every pair with the colour of a neighbour has one kind, bonded or cut; if there is none, a new
- * colour. Returns false if more than COLOURS_MOST colours are needed, or if a pair of colours needs both kinds. */
+/* Assigns a colour, which becomes a particle type of LAMMPS, to each particle listed in a->t (particles with cut
+ * bonds). All pairs of particles with the same two colours must be of one kind, bonded or cut. A particle gets the
+ * first colour for which this holds of particles with the same key (a hash of its material, loads, lattice position and
+ * cut bonds), or a new colour. Returns false if more than COLOURS_MOST colours are needed, or if a pair of colours
+ * needs both kinds. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

@@ -15,8 +15,9 @@
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Reads the scene of the request with the overrides of the user, with bonds in the whole body, and with the settings
- * `with` that the export needs. Returns REFUSED or FAILED if it cannot be read. */
+/* Reads the scene to be exported, with three kinds of changes to its keys: bonds fill the whole body, the overrides of
+ * the user, and the settings `with`, by which the scene agrees with LAMMPS. Returns REFUSED or FAILED if it cannot be
+ * read. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
@@ -69,8 +70,8 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Prints to `to` the probes and particle series of the scene, which the script does not write. Prints nothing if there
- * are none. */
+/* Prints to `to` how many probes the scene has, and how many regions with frames of their own, since the script does
+ * not write these. Prints nothing if there are none. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;

@@ -65,8 +65,8 @@ void export_mesh_free(struct export_mesh *m)
 
 /* ---- sets -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the name of the node set of load load_number: the name of its boundary, or nodelist_N with N = k + 1 if the
- * boundary has none or an earlier load has the same name. */
+/* Returns the name of the node set of load load_number: the name of its boundary, or nodelist_N with N = load_number +
+ * 1 if the boundary has no name or an earlier load has the same one. */
 struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number)
 {
     const struct load *load = m->e->loads.load;

@@ -88,11 +88,11 @@ static void basis(const struct particles *p, int64_t i, int32_t j, real scale, r
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* Computes gradient weights of particle i by moving least squares (Belytschko et al. 1994; their order of the factors
- * does not conform). On entry weight[k][0] of the stencil s is the weight W_k of neighbour k. It is replaced by
- * weight[k][0 .. 1], the rows of A^-1 P^T W for the linear terms, with the moment matrix A = P^T W P of the polynomials
- * P. scale: unit of length of the polynomials [m]; terms: LINEAR or QUADRATIC, their number. Returns false, with W
- * unchanged, if A is singular. */
+/* Computes gradient weights of particle i by moving least squares (Belytschko et al. 1994). On entry weight[k][0] of
+ * the stencil s is the weight W_k of neighbour k. It is replaced by weight[k][0 .. 1], the rows of A^-1 P^T W for the
+ * linear terms, with the polynomials P at the neighbours and the moment matrix A = P^T W P. (The order of the factors
+ * in that paper does not conform.) scale: unit of length of the polynomials [m]; terms: LINEAR or QUADRATIC, their
+ * number. Returns false, with W unchanged, if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};

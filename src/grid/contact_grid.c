@@ -39,7 +39,8 @@ static bool shared_find(struct shared *s, const struct grid_contact_side *a, con
     return true;
 }
 
-/* Returns the index in grid g of node number k of the shared box s. */
+/* Returns the index in grid g of node number k of the box s, which contains the nodes that points of both bodies may
+ * reach. */
 static int64_t shared_node(const struct shared *s, const struct grid *g, int64_t k)
 {
     int64_t I = 0;
@@ -57,8 +58,8 @@ static real slope_of(const struct grid *g, int64_t I, int d)
     return g->mass[I + g->stride[d]] - g->mass[I - g->stride[d]];
 }
 
-/* Computes node->mass_slope: the mass gradient of grid b less that of grid a at this node, times two node distances
- * [kg]. */
+/* Computes node->mass_slope at a node in contact: the gradient of the nodal mass of body b (grid b) less that of body
+ * a, times two node distances [kg]. */
 static void mass_slope_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
 {
     for (int d = 0; d < a->dim; d++) node->mass_slope[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
@@ -74,9 +75,9 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Appends to the list of contact nodes the nodes of the shared box s at which both bodies have more than the smallest
- * mass. a, b: indices of the bodies in `side`; slot[s->n]: receives the position in the list of each node of the box,
- * -1: not listed. */
+/* Appends to the list of contact nodes those nodes at which both bodies have more than the smallest mass. s: box of the
+ * nodes that points of both bodies may reach; a, b: indices of the bodies in `side`; slot[s->n]: receives the position
+ * in the list of each node of the box, -1: not listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *side,
                               int a, int b, int32_t *slot)
 {
@@ -93,9 +94,10 @@ static void shared_nodes_find(struct grid_contact *c, const struct shared *s, co
     }
 }
 
-/* Computes the unit normal of each listed node from the mass gradients, summed over nodes up to AROUND cells away,
- * since gradients at a single node follow the lattices of both bodies and are up to 10 degrees off on curved faces.
- * slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
+/* Computes the unit normal of each listed contact node from the mass gradients of both bodies, summed over nodes up to
+ * AROUND cells away. Gradients at a single node follow the lattices of both bodies and are up to 10 degrees off on
+ * curved faces. s: box of the nodes that points of both bodies may reach; slot[s->n]: position in the list of each node
+ * of the box, -1: not listed. */
 static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *slot)
 {
     for (int64_t k = 0; k < s->n; k++) {
@@ -117,9 +119,10 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Extends node->reach for each listed node that the shape function of point i reaches: the largest coordinate x . n
- * along the normal n of the node of a point of the first body (side 0), or the smallest of a point of the second one
- * (side 1). g: grid of the body; slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
+/* Updates the gap at contact nodes by one material point i: for each listed node that its shape function reaches,
+ * raises node->reach[0] to the coordinate of the point along the normal of the node if the point belongs to the first
+ * body (side 0), or lowers node->reach[1] to it for the second body (side 1). g: grid of the body; s: box of the nodes
+ * that points of both bodies may reach; slot[s->n]: position in the list of each node of the box, -1: not listed. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
                         int32_t i, int side, const int32_t *slot)
 {
@@ -142,9 +145,10 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
-/* Extends node->reach for the listed nodes by all points of body a: the largest coordinate along the normal of points
- * of the first body, the smallest of points of the second one. side: 0 if a is the first, 1 if it is the second body of
- * the pair; slot[s->n]: position in the list of each node of the shared box s, -1: not listed. */
+/* Updates the gaps at contact nodes by all points of body a, one of the two bodies of a pair. node->reach[side] becomes
+ * the coordinate along the normal of the node up to which the points of the body extend: the largest one for the first
+ * body (side 0), the smallest one for the second (side 1). s: box of the nodes that points of both bodies may reach;
+ * slot[s->n]: position in the list of each node of the box, -1: not listed. */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_contact_side *a,
                          const struct particles *p, int side, const int32_t *slot)
 {

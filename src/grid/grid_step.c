@@ -126,8 +126,9 @@ static void grid_receive(struct grid_method *mpm, struct particles *p, const str
     if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
-/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns the data
- * of the grids as sides of contact, an array [mpm->fields], which the caller frees; NULL if there is a single grid. */
+/* Lists in mpm->contact the nodes at which bodies with separate grids may be in contact in this step. Returns an array
+ * [mpm->fields] with the data of each grid that contact needs, which the caller frees; NULL if there is a single
+ * grid. */
 static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;

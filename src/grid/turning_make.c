@@ -10,8 +10,9 @@ static int first_of(const struct grid_method *grid, const struct scene *scene, i
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Sets held[first] to true for each group of bodies with one grid in which a boundary condition prescribes the motion
- * of a particle, without rotation. first: lowest number of the bodies of the group, one[b] for body b. */
+/* Marks the bodies on which a boundary condition with prescribed motion acts, rotations left out: their points do not
+ * rotate in groups. For each such body b sets held[one[b]] to true, where one[b] is the lowest number of the bodies
+ * that share a grid with body b. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {

@@ -185,8 +185,9 @@ static void stressed_put(struct mesh *mesh, const uint8_t *marks)
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
-/* Saves the flags of stressed rows of cells of a level (cells with the edge of 2^level finest cells) to the archive a,
- * or restores them from it, as the function a->exchange does. Returns FAILED if the archive does not have them. */
+/* Saves to the archive a if a->saving, else restores from it, which rows of cells of one level are stressed: in which a
+ * stress may exceed the one at which coarse cells are split. level: its cells have the edge of 2^level finest cells.
+ * Returns FAILED if the archive does not have these flags. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];

@@ -146,8 +146,9 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
 }
 
 /* Corrects the momentum of cell J of `level` (cells with the edge of 2^level finest cells), which has been merged from
- * finer cells. Its corners have the velocities of the finest nodes at their positions; the momentum of the finest cells
- * that these do not contain is distributed equally to the corners. q: indices of the cell along the axes. */
+ * finer cells. Its corners have got the velocities of the finest nodes at their positions. The difference between the
+ * momentum of the finest cells and that of cell J with these velocities is added to the corners in equal parts. q:
+ * indices of the cell along the axes. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;

@@ -45,8 +45,8 @@ static real edge_for(const struct load_rise *r, real across, real edges)
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
-/* Replaces the load *least by the load *one if that requires smaller cells in a body of thickness `across`
- * [spacings]. */
+/* Keeps in *least, of the loads *least and *one, the one that requires the smaller cells in a body of thickness
+ * `across` [spacings]. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
     const real now = edge_for(least, across, ACROSS), next = edge_for(one, across, ACROSS);
@@ -186,7 +186,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
                  RISES * edge, edges * edge, c->across);
 }
 
-/* Writes the reason for the number of levels that was chosen automatically to text[capacity]. */
+/* Writes to text[capacity] the reason for the number of refinement levels of cells that was chosen automatically. */
 static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char load[256], want[160];

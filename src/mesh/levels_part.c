@@ -81,9 +81,9 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Finds the cells I of level 0 (the finest) inside and around the circle `ring`, along which a sif probe integrates.
- * Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires
- * level 0; NULL if it is not needed. */
+/* Finds the cells I of level 0 (the finest) inside and around the circle `ring`, a contour of a probe of
+ * stress-intensity factors. Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for
+ * these cells, which requires level 0; NULL if it is not needed. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -107,10 +107,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Finds the cells I of level 0 (the finest) inside and around the circles along which sif probes integrate. Returns
- * true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires level 0;
- * NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells have them in some
- * steps only. */
+/* Finds the cells I of level 0 (the finest) inside and around the contours of all probes of stress-intensity factors.
+ * Returns true if one of them is part of a coarse cell at present. demand[I]: set to 1 for these cells, which requires
+ * level 0; NULL if it is not needed. The probes need accelerations in every step, and nodes of coarse cells have them
+ * in some steps only. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;

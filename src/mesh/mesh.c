@@ -133,8 +133,8 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
-/* Appends whole cell I, of `material`, to the last run of the present band, or begins a new run. A run is a row of
- * consecutive whole cells of one material. */
+/* Appends cell I to the last run of the present band, or begins a new run with it. A run is a row of consecutive whole
+ * cells (with all points, of one `material`); a band is a set of layers of cells that one thread processes. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -164,15 +164,16 @@ void mesh_node_spans_make(struct mesh *mesh)
     }
 }
 
-/* Returns the material of whole cell I. p: particles of the mesh; NULL for a mesh without points, such as that of
- * coarse cells. */
+/* Returns the material of whole cell I, a cell with all points, of one material. p: particles of the mesh; NULL for a
+ * mesh without points, such as that of coarse cells. */
 static uint8_t material_of(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Lists the runs of the mesh, rows of consecutive whole cells of one material, band by band, and its partial cells. p:
- * particles; NULL for a mesh without points. */
+/* Lists the runs of the mesh, which are rows of consecutive whole cells of one material, and its partial cells, which
+ * lack points or have several materials, partial stresses or doubled nodes. Runs are listed band by band (layers of
+ * cells that one thread processes). p: particles; NULL for a mesh without points. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -192,9 +193,9 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of cells from their points, and rebuilds the list of runs (rows of whole cells) and that of
- * partial cells with their stiffness. s: elastic constants and partial stresses; dirty: not 0 for the cells whose kind
- * may have changed; NULL: all cells. */
+/* Determines the kinds of cells from their points, and rebuilds the list of runs (rows of cells with all points, of one
+ * material) and the list of other cells with points (partial cells) with their stiffness. s: elastic constants and
+ * partial stresses; dirty: not 0 for the cells whose kind may have changed; NULL: all cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {

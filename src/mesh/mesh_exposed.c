@@ -63,9 +63,9 @@ static unsigned lanes_in_mesh(const struct mesh *mesh, const struct bonds *b, in
     return bits;
 }
 
-/* Sets the flags of the points that have intact bonds in row block g (the bonds of eight particles), and of the sources
- * of the images that are neighbours there. Peridynamic particles are no points of the mesh, so that most row blocks
- * need not be read. l: loads, with the list of images. */
+/* Marks in *e the points that have intact bonds in row block g (the bonds of eight particles), and the particles that
+ * images mirror, for images that are neighbours there: their motion is needed in every step. Peridynamic particles are
+ * no points of the mesh, so that most row blocks need not be read. l: loads, with the list of images. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

@@ -37,9 +37,9 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Lists in t the strain terms of the bending modes of a cell. Mode M of displacement component i, M a bit set of two or
- * more axes, is the product of the coordinates along the axes of M. Its derivative along one of these axes, a strain,
- * is the product of the other coordinates. */
+/* Lists in t the strains that the bending modes of a cell cause. A bending mode is a displacement component i that
+ * varies as the product of the coordinates along two or three axes, a bit set M. Its derivative along one of these axes
+ * is a strain that varies as the product of the other coordinates; each such strain is one term. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -52,8 +52,8 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Lists the strain terms of all deformation modes of a cell in t[MODES_MAX]: first the symmetric components of the mean
- * strain, then the bending modes, set by set of axes (kernels/mesh/mesh_partial.h). */
+/* Lists in t[MODES_MAX] the strains that each deformation mode of a cell causes: first the modes of uniform strain, one
+ * for each symmetric component, then the bending modes, set by set of axes (kernels/mesh/mesh_partial.h). */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_component_count(dim);
@@ -366,9 +366,9 @@ static real *lane_of(real *from, int64_t cell, int each)
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
-/* Copies `each` numbers of each of the LANES partial cells from[l] of the array `old` to lane l of group `group` of the
- * array `to`. A lane with from[l] < 0 keeps its values. The numbers of LANES cells are interleaved in both arrays,
- * which are read and written in order. */
+/* Copies the numbers of partial cells (such as stiffnesses) from the array `old` to group number `group` of LANES cells
+ * of the array `to`: those of cell from[l] to lane l. A lane with from[l] < 0 keeps its values. each: numbers per cell;
+ * those of LANES cells are interleaved in both arrays, which are read and written in order. */
 static void group_copy(real *to, real *old, const int64_t *from, int64_t group, int each)
 {
     real *own = to + group * each * LANES;

@@ -199,8 +199,8 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-/* Computes the rows of the mass matrix for those unknown nodes around which points are missing or have unequal masses:
- * inner_product is not valid there. Nodes beside slits get no row. */
+/* Computes the rows of the mass matrix that inner_product cannot replace: those of nodes whose value is unknown, and
+ * around which points are missing or have unequal masses. Nodes beside slits get no row. */
 static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];

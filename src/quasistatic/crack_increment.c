@@ -49,9 +49,9 @@ real crack_energy_share_by_symmetry(const struct crack_tips *t, const struct bon
     return on ? 0.5 : 1;
 }
 
-/* Returns the length of the crack front of a body in space [m]: the sum of the edges of the pre-cracks, at most the
- * shortest side of the body, and at least one spacing. The side counts twice if a plane of symmetry along the crack
- * halves it. Returns 1 for a plane body, since its section contains its thickness. */
+/* Returns the length of the crack front in 3D [m]: the sum of the edges of the pre-cracks, at most the shortest side of
+ * the body, and at least one spacing. The side counts twice if a plane of symmetry along the crack halves it. Returns 1
+ * for a plane body, since its section contains its thickness. */
 static real front_length(const struct crack_tips *t, const struct bond_source *source, const struct particles *p)
 {
     const real h = source->family.spacing;

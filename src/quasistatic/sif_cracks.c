@@ -76,10 +76,9 @@ static void crack_segments_free(struct crack *crack, int n)
     memory_free(crack);
 }
 
-/* Returns the elastic constants for the crack-tip fields at `tip`. In a plane body they are those of its space. In
- * space they are those of plane stress if the fit is at a distance of half the thickness or more from the front
- * (Nakamura & Parks 1988), else those of plane strain. radius: mean radius of the ring of particles used for the fit
- * [m]. */
+/* Returns the elastic constants for the crack-tip fields at `tip`. In 2D they are those of the plane space. In 3D they
+ * are those of plane stress if the fit is at a distance of half the thickness or more from the front (Nakamura & Parks
+ * 1988), else those of plane strain. radius: mean radius of the ring of particles used for the fit [m]. */
 static struct crack_medium medium_at(const struct sif_cracks *l, const struct particles *p,
                                      const struct sif_crack_tip *tip, real radius)
 {

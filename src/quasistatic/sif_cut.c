@@ -177,10 +177,10 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Computes tip->ahead.release, the energy that the next increment of a tip releases over the square of the load size,
- * by a trial in which the bonds in list l break and which is then undone. For the first increment of the tip also
- * estimates tip->behind, a fictitious increment before it. Returns FAILED, with a message, if an equilibrium is not
- * found. */
+/* Computes tip->ahead.release, the energy that the next increment of a tip releases over the square of the load size
+ * (norm of prescribed displacements or forces), by a trial in which the bonds in list l break and which is then undone.
+ * For the first increment of the tip also estimates tip->behind, a fictitious increment before it. Returns FAILED, with
+ * a message, if an equilibrium is not found. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -246,10 +246,10 @@ static status increment_try_together(struct run *e)
     return tried;
 }
 
-/* Computes the next increment of a tip: its bonds, which are appended to `list`, cost and energy release in tip->ahead,
- * and in tip->due the load size at which it is made. tip->due is INFINITY if the tip does not grow: under compression
- * (K_I < 0), or if there are no bonds ahead of it, so that it has ended. Returns FAILED, with a message, if an
- * equilibrium is not found. */
+/* Computes the next increment of a tip: its bonds, which are appended to `list`; its cost and energy release,
+ * tip->ahead; and tip->due, the load size (norm of prescribed displacements or forces) at which it is made. tip->due is
+ * INFINITY if the tip does not grow: under compression (K_I < 0), or if there are no bonds ahead of it, so that it has
+ * ended. Returns FAILED, with a message, if an equilibrium is not found. */
 static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_list *list)
 {
     tip->ahead = (struct crack_increment){0}, tip->due = INFINITY;

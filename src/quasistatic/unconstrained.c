@@ -52,7 +52,7 @@ struct search {
     struct candidate *candidate; /* [n] */
 };
 
-/* Joins the unknowns of the nodes of each mesh cell to one component. */
+/* Joins the unknowns of the nodes of each mesh cell to one connected component. */
 static void cells_join(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -81,7 +81,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the components of all pairs of particles with an intact bond. */
+/* Joins the connected components of the two particles of each intact bond. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -94,7 +94,7 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
     }
 }
 
-/* Stores in s the unknown of each particle and mesh node; a mirror node gets that of the node that it mirrors. */
+/* Stores in s the index of the unknown of each particle and mesh node; a mirror node has that of its image. */
 static void unknowns_number(struct search *s)
 {
     const struct statics *statics = s->statics;
@@ -109,7 +109,7 @@ static void unknowns_number(struct search *s)
         s->node[mesh->grid.mirror_node[k].node] = s->node[mesh->grid.mirror_node[k].image];
 }
 
-/* Allocates the storage of a search and stores the present positions of its nodes. */
+/* Allocates the arrays of a search for unconstrained fragments, and stores the present positions of the nodes. */
 static void unconstrained_search_begin(struct search *s)
 {
     const int64_t n = s->statics->balance.n;
@@ -353,8 +353,8 @@ static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
     f->motions = kept;
 }
 
-/* Initialises f as fragment number `which` with `count` free motions. free[count][m]: these, as combinations of the m
- * rigid motions. */
+/* Initialises f as fragment number `which` of the body, with `count` free motions. free[count][m]: the free motions, as
+ * linear combinations of the m rigid motions. */
 static void fragment_motions(const struct search *s, struct unconstrained_fragment *f, int64_t which,
                              real free[MODES_MOST][MODES_MOST], int count)
 {

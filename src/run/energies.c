@@ -39,9 +39,9 @@ struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the sums over entries first .. end - 1 of m to *to: the kinetic energy and, depending on `wanted`, the momentum
- * and the sum of |m v|. meshed: true to skip entries with FLAG_MESHED, which the nodes of a mesh move. dim, meshed and
- * wanted must be known at compile time. */
+/* Adds sums over the particles or nodes first .. end - 1 of m to *to: the kinetic energy and, depending on `wanted`,
+ * the momentum and the sum of |m v|. meshed: true to skip particles with FLAG_MESHED, which the nodes of a mesh move.
+ * dim, meshed and wanted must be known at compile time. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const enum motion_sums wanted)
 {
@@ -63,8 +63,8 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
 }
 
-/* Adds the sums over entries first .. end - 1 of m to *to, by add_motion with the dimension of m as a constant. Skips
- * the entries if all are particles that the nodes of a mesh move. */
+/* Adds sums over the particles or nodes first .. end - 1 of m to *to, by add_motion with the dimension of m as a
+ * constant. Adds nothing if all of them are particles that the nodes of a mesh move. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                        const enum motion_sums wanted)
 {
@@ -93,7 +93,8 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns the sums over entries first .. end - 1 of m that `wanted` selects; the other members are 0. */
+/* Returns sums over the particles or nodes first .. end - 1 of m: those of kinetic energy, momentum and |m v| that
+ * `wanted` selects; the other members are 0. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end,
                                              const enum motion_sums wanted)
 {
@@ -106,8 +107,8 @@ static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t fir
     return sum;
 }
 
-/* Adds the kinetic energy of entries first .. end - 1 to sum[0] [J]; a block function of reproducible_sums. context: a
- * struct movers. */
+/* Adds the kinetic energy of the particles or nodes first .. end - 1 to sum[0] [J]. context: their masses and
+ * velocities, a struct movers. reproducible_sums calls it for each block. */
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     sum[0] += motion_of(context, first, end, SUM_ENERGY).kinetic;
@@ -166,8 +167,8 @@ real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_v
     return sum;
 }
 
-/* Adds the momentum of entries first .. end - 1 to sum[0 .. dim - 1] [kg m/s]; a block function of reproducible_sums.
- * context: a struct movers. */
+/* Adds the momentum of the particles or nodes first .. end - 1 to sum[0 .. dim - 1] [kg m/s]. context: their masses and
+ * velocities, a struct movers. reproducible_sums calls it for each block. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
@@ -175,8 +176,9 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
     for (int d = 0; d < m->dim; d++) sum[d] += motion.momentum[d];
 }
 
-/* Adds the momentum of entries first .. end - 1 by component to sum[0 .. dim - 1], and the sum of |m v| to sum[dim] [kg
- * m/s]; a block function of reproducible_sums. context: a struct movers. */
+/* Adds the momentum of the particles or nodes first .. end - 1 by component to sum[0 .. dim - 1], and the sum of |m v|
+ * to sum[dim] [kg m/s]. context: their masses and velocities, a struct movers. reproducible_sums calls it for each
+ * block. */
 static void momentum_and_size_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;

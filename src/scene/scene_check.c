@@ -341,8 +341,9 @@ const char *scene_why_reference_frame_no_remedy(const struct scene *s)
     return why;
 }
 
-/* Returns a phrase for a message that names the key of the scene because of which shape functions must be evaluated at
- * the present positions of material points (frame `current`). Returns NULL if there is no such key. */
+/* Returns, as part of a message, the reason why the scene requires the frame `current`, in which shape functions are
+ * evaluated at the present positions of material points: a key that this frame alone has. Returns NULL if the scene has
+ * no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
