@@ -25,9 +25,9 @@ static void changed_weights(struct bonds *b, real *w, bool saving)
     }
 }
 
-/* Saves to the archive a, if a->saving, which row blocks (bonds of eight particles each) have a broken or softened
- * bond, and the weights of all bonds in these. Else restores both from the archive: the weights of all other bonds
- * follow from the scene. Returns FAILED if the archive does not contain them. */
+/* Saves to the archive a if a->saving, else restores from it: which row blocks (bonds of eight particles each) have a
+ * broken or softened bond, and the weights of all bonds in these. Other row blocks have the weights with which they are
+ * made. Returns FAILED if the archive lacks one of both. */
 static status weights_archive(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;

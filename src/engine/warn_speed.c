@@ -29,9 +29,9 @@ struct driver {
     real limit;
 };
 
-/* Returns true if nothing prevents the bodies with particles of the load of d from moving with this load: no mirror
- * across its components, no absorbing face, no damping, no contact with other bodies, and no other load that drives the
- * same components with a velocity that differs by more than d->limit. all: all loads of the run. */
+/* Returns true if nothing prevents the bodies on whose particles the load d->load acts from moving with this load: no
+ * mirror across its components, no absorbing face, no damping, no contact with other bodies, and no other load that
+ * drives the same components with a velocity that differs by more than d->limit. all: all loads of the run. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -75,7 +75,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Adds a warning to *to about the load of d, which acts on bodies that move freely, if its velocity changes by more
+/* Adds a warning to *to about the load d->load, which acts on bodies that move freely, if its velocity changes by more
  * than d->limit within the time in which a wave crosses these bodies. Slower changes hardly strain them. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)

@@ -143,10 +143,10 @@ static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if no slit separates two pieces of the body around node I: pieces `one` and `other` are then connected.
- * A piece is a set of points of a cell that no slit divides; 8 c + g is the number of piece g of the cell of which the
- * node is corner c. Points that are opposite each other across the boundary of the two cells are tested, or all pairs
- * of points if there are none; one pair without a slit between its points suffices. */
+/* Returns true if the pieces `one` and `other` of the body around node I are connected: if there is no slit between a
+ * point of one and a point of the other. Points that are opposite each other across the boundary of two cells are
+ * tested, or all pairs of points if there are none; pieces of one cell are not connected. A piece is a set of points of
+ * a cell that no slit divides; 8 c + g is the number of piece g of the cell of which the node is corner c. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -190,10 +190,10 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if no slit separates a connected set of pieces around node I from its mirror image at the plane of
- * symmetry `plane`, which contains the node. A piece is a set of points of a cell that no slit divides. group: the set,
- * where bit 8 c + g is piece g of the cell of which the node is corner c. Points next to the plane are tested, or all
- * points if there are none. */
+/* Returns true if a connected set of pieces around node I is connected with its mirror image at the plane of symmetry
+ * `plane`, which contains the node: if there is no slit between a point of the set and the mirror image of this point.
+ * Points next to the plane are tested, or all points if there are none. A piece is a set of points of a cell that no
+ * slit divides. group: the set, where bit 8 c + g is piece g of the cell of which the node is corner c. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
