@@ -140,9 +140,9 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Continues the printed line of the run time. Prints from which trial steps the run time
- * was extrapolated (all steps with larger particles, or the first steps alone), and what the run time would be if all
- * particles were peridynamic. c: estimated cost. */
+/* Continues the printed line of the estimated run time: prints which steps were measured (all steps of the scene with
+ * larger particles, or only the first steps), and what the run time would be if all particles were peridynamic. c:
+ * estimated cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -161,8 +161,9 @@ static void say_basis(const struct scene *scene, const struct cost *c)
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 
-/* Prints the run time of a static equilibrium on `threads` threads in two forms: for 1000 steps with its bounds, and
- * for the largest number of steps. The number of steps that the solver will need is not known in advance. */
+/* Prints the run time of a static equilibrium on `threads` threads. The solver runs until it converges, so the number
+ * of its steps is not known in advance. Prints therefore the time of 1000 steps with a lower and an upper bound, and an
+ * upper bound for the largest number of steps that the scene allows. c->step: measured time of one step [s]. */
 static void say_cost_at_rest(const struct run *e, const struct cost *c, int threads)
 {
     const double thousand = 1e3 * c->step;

@@ -79,9 +79,10 @@ static const struct {
 };
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
 
-/* Returns the largest relative errors of the stiffness of a peridynamic part that is `layers` particles thick, with the
- * model and horizon of scene s. The three errors [%] are indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending and
- * tension) and OFF_TWISTED (3D in torsion). surface: rule by which bonds near faces are corrected. */
+/* Returns from a table the largest relative errors of the stiffness of a peridynamic part that is `layers` particles
+ * thick, with the bond model of scene s. The three errors [%] are indexed by OFF_PLANE (2D), OFF_SOLID (3D in bending
+ * and tension) and OFF_TWISTED (3D in torsion). surface: rule by which the weights of bonds near faces are
+ * corrected. */
 static const int *stiffness_errors(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -315,8 +316,9 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
 #define PARTS_AT_GRIP 1.3
 
 /* Writes to `out` up to two remarks for metal bodies that supports pull to `stretch` times their initial length. The
- * first is written if the shape functions of scene s then give too small a force, the second if material points then
- * lose their common grid nodes beside the driven points. */
+ * first is written if forces are too small at this stretch with the shape functions of scene s. The second is written
+ * if, at this stretch, material points next to those with a prescribed velocity no longer share grid nodes with them,
+ * so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
     const struct weak_shape *weak = shape_find_weak_in_tension(s->shape);

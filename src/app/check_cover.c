@@ -70,8 +70,10 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
-/* Returns true if a face of the piece p seems to cross the cell number `cell` of c. This is so if exactly one of the
- * cell and a neighbouring cell contains a particle, or if neither does and the piece is within half a cell diagonal. */
+/* Returns true if a face of the piece p (a body, or its part of one material) seems to cross the lattice cell number
+ * `cell` of c. This is so if the cell contains a particle and one of its neighbouring cells does not, or the reverse.
+ * It is also so if neither the cell nor its neighbours contain particles, but the piece is within half a cell diagonal
+ * of the centre. */
 static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
@@ -93,9 +95,9 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Returns true if several faces of the body can cross the cell number `cell`. This is so for a cell with a particle if
- * both neighbours along some axis have none, for a cell without a particle between two with particles, and for any cell
- * without neighbours that contain particles. */
+/* Returns true if more than one face of the body may cross the lattice cell number `cell`, because the body or a gap in
+ * it is only one cell wide there. A cell with a particle is thin if both its neighbours along some axis are empty. An
+ * empty cell is thin if both its neighbours along some axis contain particles, or if none of its neighbours does. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;

@@ -35,9 +35,10 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* Creates in c a table of heights: for each column of particles along the axis b->face, the coordinate of its outermost
- * particle, which is on the face f [spacings, positive outwards]. Returns false, with nothing to release, if the
- * columns are too scattered for a table. Release c->height otherwise. */
+/* Creates in c a table of the heights of a face: the particles are sorted into columns along the axis b->face, and the
+ * height of a column is the coordinate of its particle that is exposed on the face [spacings, positive outwards].
+ * f->normal[i] > 0 for exposed particles. Returns false, with nothing to release, if the exposed particles occupy too
+ * small a part of the table. Release c->height otherwise. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct exposed_face *f)
 {
@@ -67,9 +68,10 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Returns the absolute slope of the column heights c->height along the axis c->axis[k], at the column with the index
- * `place` [1]. It is the difference over AWAY columns on one side. Of the slopes on both sides the smaller is returned,
- * so that a single step does not count as a slope. */
+/* Returns the absolute slope [1] of a face at the column of particles with the index `place`, along the axis
+ * c->axis[k]. The slope is the difference between the height of this column and that of the column AWAY columns
+ * further, over AWAY. It is computed on both sides, and the smaller one is returned, so that a single step does not
+ * count as a slope. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -98,10 +100,10 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Returns two sums over the particles of face f: their area, and the area of those at which the surface is inclined to
- * the axis by more than ELSEWHERE degrees. Includes only particles whose inner end is at the coordinate `from` along
- * the axis (positive outwards [m]) or further out; -INFINITY includes all. b: boundary of the face; c: table of column
- * heights, from which surface normals follow, or with c->height NULL. */
+/* Returns the area of the face f, and the area of that part of it which is inclined: there the surface normal deviates
+ * from the axis of the face by more than ELSEWHERE degrees. Only particles whose inner side has a coordinate of at
+ * least `from` along this axis count [m, positive outwards]; with -INFINITY all particles count. b: boundary of the
+ * face; c: heights of its columns of particles, from which the normals are computed if c->height is not NULL. */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct exposed_face *f, const struct ends *c,
                                        real from)
@@ -120,9 +122,10 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Returns a coordinate along the axis of the face f of boundary b [m, positive outwards]. A region that begins at this
- * coordinate excludes nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. c:
- * column heights of the face; all: area of the whole face and of its inclined part. */
+/* Returns a coordinate along the axis of the face f of boundary b [m, positive outwards] for a message that advises the
+ * user to restrict the load: a region that begins at this coordinate contains nearly no inclined part of the face.
+ * Returns INFINITY if no such coordinate is found. c: heights of the columns of particles of the face; all: area of the
+ * whole face and of its inclined part. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
                           const struct ends *c, const struct elsewhere *all)
 {

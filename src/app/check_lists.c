@@ -68,7 +68,8 @@ static int thinnest(const struct run *e, int body)
     return LAYERS_MOST;
 }
 
-/* Prints, for each body whose list is no lattice along the axes, that the weights of its bonds suit such a lattice. */
+/* Prints advice for each body that is read from a list of particles, if these are not on a lattice along the axes while
+ * the scene has pd.weights: isotropic. These weights of bonds are computed for a lattice along the axes. */
 static void print_weight_advice(const struct scene *s, FILE *out)
 {
     for (int b = 0; b < s->bodies && s->shells == SHELLS_ISOTROPIC; b++) {

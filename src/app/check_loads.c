@@ -146,9 +146,10 @@ static bool has_distance(const struct scene *s, int body)
     return has;
 }
 
-/* Adds one face of particle i to the sums in *context, a struct faced: its area `area` [m^2], its area projected on the
- * surface of the body's shape, and this projected area times its distance from the surface. axis, side (1 or -1):
- * outward normal of the face. It is called by pressure_visit_faces for each face. */
+/* Adds one exposed face of particle i to the sums in *context, a struct faced: the area of the face, the area projected
+ * on the surface of the body's shape [m^2], and the projected area times the signed distance of the face from this
+ * surface [m^3]. The face is normal to `axis`, outwards in the direction `side` (1 or -1), and has the area `area`
+ * [m^2]. It is called by pressure_visit_faces for each face. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -165,11 +166,12 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Prints the area of the particle faces on which the pressure load number `which` acts, and their mean distance from
- * the surface of the body's shape. Particle faces form steps along a slanting or curved surface. They have a larger
- * area than the surface and are on both sides of it. The mean distance is the volume between faces and surface over the
- * area of the surface. A bore of particles is wider than its shape by this distance. It is exact, because the flux of
- * the shape's normals through closed steps equals their flux through the surface. */
+/* Prints the area on which the pressure load number `which` acts, and how far this area is from the surface of the
+ * body's shape. The pressure acts on faces of particles. Along a slanted or curved surface these form steps, whose
+ * total area exceeds that of the surface, so each face is projected on the surface. Prints the sum of the projected
+ * areas, and the mean distance of the faces from the surface: negative distances are below it. The radius of a bore
+ * differs from that of its particles by this distance. Prints the area of the faces if the normals of the shape are not
+ * known. */
 static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];

@@ -43,9 +43,9 @@ struct chord {
     real middle, width;
 };
 
-/* Returns true if the run through `cell` continues to the next cell in the direction `way` (-1 or 1) along k->axis. A
- * run is a row of consecutive cells along k->axis that either all contain particles, or all contain none and are partly
- * covered by the piece. */
+/* Returns true if the run of cells that contains `cell` continues to the next cell in the direction `way` (-1 or 1)
+ * along k->axis. A run is a line of consecutive lattice cells that either all contain particles, or contain none
+ * although the body partly covers each of them. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
     const struct cover *c = k->cover;
@@ -56,8 +56,8 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of the run whose first cell is `from`. A run is a row of consecutive cells along k->axis
- * that are alike: all with particles, or all without and partly covered by the piece. */
+/* Returns the number of cells of the run whose first cell is `from`. A run is a line of consecutive lattice cells along
+ * k->axis that either all contain particles, or contain none although the body partly covers each of them. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -65,8 +65,8 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Returns true if a cell with a particle adjoins an end of the row of n cells along k->axis that begins with the cell
- * `from`. */
+/* Returns true if one of the two cells next to the ends of a line of n lattice cells contains a particle. The line
+ * extends along k->axis and begins with the cell `from`. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -76,10 +76,10 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
 
-/* Sets k->rows[cells]. Consecutive cells along k->axis form a run if they all contain particles, or if they contain
- * none and the piece partly covers them. A run of n cells with particles sets its cells to 1 + n, where n is at most
- * NARROW. A run without particles sets its cells to 1, unless it adjoins a run with particles. All other cells are set
- * to 0. */
+/* Computes k->rows[cells] from the runs of cells along k->axis. A run is a line of consecutive lattice cells that
+ * either all contain particles, or contain none although the body partly covers each of them. In a run of n cells with
+ * particles, rows is 1 + n, with n limited to NARROW. In a run without particles it is 1, or 0 if a cell with a
+ * particle is next to an end of the run. In all other cells it is 0. */
 static void rows_count(struct necks *k)
 {
     const struct cover *c = k->cover;
@@ -93,9 +93,9 @@ static void rows_count(struct necks *k)
     }
 }
 
-/* Searches the cells that adjoin a run of cells on one side. The run is the row of alike cells along k->axis through
- * `cell`; the side is the direction `way` (-1 or 1) along the axis `across`. Returns the adjoining cell with the
- * largest number of particle rows, k->rows, or -1 if k->rows is 0 in all of them. */
+/* Returns the cell with the largest k->rows (1 + number of particle rows) among the cells next to a run, or -1 if
+ * k->rows is 0 in all of them. The run is the line of consecutive cells along k->axis that contains `cell`. The cells
+ * next to it are shifted by one in the direction `way` (-1 or 1) along the axis `across`. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;
@@ -198,9 +198,9 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Returns the number of particle rows across the piece in the column of cells that contains chord m: the number of
- * lattice lines between the ends of the chord in the middle of this column. Returns NAN if that chord was not
- * measured. */
+/* Returns the number of particle rows across the piece in the column of lattice cells that contains chord m. A chord is
+ * the part of a line that is inside the piece. The rows are counted as the lattice lines between the two ends of the
+ * chord in the middle of the column. Returns NAN if that chord was not measured. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
@@ -276,10 +276,11 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Returns true if a neck in 3D has its smallest width along the axis on which it was found. Its width is compared at
- * points along the axis `third`, which is neither along the width nor along the length of the neck, up to the end of
- * the piece or to where the neck widens. cell: a cell of the neck; width: width of the neck there [m]. Returns false
- * for round rods, which are narrower at their sides; check_sections.c examines these. */
+/* Returns true if a neck in 3D is not narrower elsewhere along the axis `third`, which is normal to both its width and
+ * its length. The width at `cell`, a cell of the neck, is `width` [m]. Cells are followed along `third` in both
+ * directions while they have as many particle rows as `cell`. Returns false if the next cells have fewer rows, or if
+ * the width decreases towards a surface where the piece ends. This is so for round rods, which check_sections.c
+ * examines. */
 static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -361,9 +362,10 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Searches a neck along the axis `across` that begins at `cell`. Follows the consecutive rows of cells (along k->axis)
- * that have equal numbers of particles. If the rows before and after them are longer, or end at a plane of symmetry,
- * they are a neck: it is measured and, if the error of its width is large, added to the list. */
+/* Examines the part of a piece that begins at `cell` and extends along the axis `across`, over consecutive cells with
+ * the same number of particle rows along k->axis. The part is a neck if the cells before and after it have more rows,
+ * or if a plane of symmetry replaces the cells on one side. A neck is measured, and is added to the list if its width
+ * differs too much from that of its particles. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);

@@ -41,9 +41,10 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Creates a section: all covered cells of the slice number `slice` that are connected to the cell `first` within the
- * slice. Adds up the areas of the shape and of the particles in it. A cell is covered if it contains a particle or is
- * mostly inside the shape. stack: work array with an element for each cell of a slice. */
+/* Creates a section, which is a connected set of covered lattice cells within one slice, normal to the axis of the
+ * slices. It consists of the cells of slice number `slice` that are connected to the cell `first`. A cell is covered if
+ * it contains a particle or is mostly inside the shape. Adds up the area of the shape and that of the particles in the
+ * section. stack: work array with an element for each cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;

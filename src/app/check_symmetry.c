@@ -71,10 +71,10 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Sums the loads on component d of each particle, in a form in which mirror images can be compared. ask[n]: sum of the
- * loads or prescribed velocities, each times load_mark(boundary), a number that identifies the load. held[n]: sum of
- * load_mark(boundary) over prescribed motions and absorbing boundaries. In a symmetric scene, particles that are mirror
- * images have equal sums. */
+/* Computes two numbers for component d of the motion of each particle, so that loads of mirror images can be compared.
+ * ask[n]: sum over the loads and prescribed velocities of the particle, each times load_mark(boundary), a number that
+ * identifies the boundary. held[n]: sum of load_mark(boundary) over the prescribed velocities and absorbing boundaries
+ * of the particle. In a symmetric scene, particles that are mirror images have equal numbers except for signs. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);

@@ -92,9 +92,10 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
     *high = u->at[u->axis] + piece_distance_to_surface(p, u->at, u->axis, 0.05 * h, most);
 }
 
-/* Measures the width of the narrow part u of piece p on the line through its point u->at. u->width must hold an
- * estimate from areas. If the measured width differs from it by less than 10 %, and still differs clearly from the
- * width u->filled of the particles, it replaces u->width and u->measured is set. */
+/* Measures the width of the narrow part u of piece p on the line along u->axis through the point u->at. u->width must
+ * hold an estimate from areas. The measured width replaces it, and u->measured is set, if the two differ by less than
+ * 10 % and if the measured width also differs from u->filled, the width of the rows of particles, by more than half the
+ * estimated error. */
 static void width_measure(struct uneven *u, const struct piece *p)
 {
     real low, high;

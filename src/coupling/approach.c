@@ -65,8 +65,8 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
-/* Marks particle i as near another body. A material point is flagged for conversion (FLAG_NEAR); a peridynamic particle
- * cannot revert to a material point for now. */
+/* Records that particle i is near another body. A material point is flagged for conversion to a peridynamic particle
+ * (FLAG_NEAR). A peridynamic particle is prevented from becoming a material point again for now. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)

@@ -75,9 +75,10 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Appends to l the peridynamic particles that have lost a bond and have a bond to a material point. In state-based
- * models that normalise by the present family (s->local) their other bonds then become stiffer, so that the partial
- * stress of the material points around them changes. Appends none in other models. */
+/* Appends to l the peridynamic particles that have lost a bond and still have bonds to material points. Appends none
+ * unless the model is state-based with s->local, i.e. normalises its forces by the intact bonds of the family. The
+ * remaining bonds are then stiffer than before, so that the partial stress of the material points around must be
+ * recomputed. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {

@@ -15,9 +15,9 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* Returns true if a material point may have been flagged for conversion in this step, or a bond may have changed, so
- * that all flags must be tested. Points on the grid do not record that they are flagged; cells of the mesh record it
- * for their points. */
+/* Returns true if the conversion flags of all material points must be tested in this step. This is so with points on
+ * the grid, which do not record that they were flagged, and if anything else may have flagged points or broken bonds.
+ * Returns false if there are only points of a mesh and no cell of it has recorded a high stress. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_has_load_steps(s) || p->low_since ||

@@ -21,9 +21,9 @@ static bool interface_zone_is_free(const struct particles *p, int32_t j)
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Sets mark[j] to `as` for the unmarked particles j within `radius` [m] of the n particles list[k] that are of the same
- * body and whose velocity damping may change. If `as` is POINT, only material points are marked. Threads that reach the
- * same particle write the same value. */
+/* Sets mark[j] to `as` for the particles j within `radius` [m] of the n particles list[k]. Marks only particles of the
+ * same body that have no mark and whose velocity damping may change; if `as` is POINT, only material points. Threads
+ * that reach the same particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -57,9 +57,9 @@ static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *
         if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* Lists the members of the interface zone in r->particle: first its material points, those near peridynamic particles,
- * then the neighbours of these outside the zone. mark[p->n]: 0 before, receives the mark of each particle; slot[p->n]:
- * receives the index of each member. */
+/* Lists in r->particle the members of the interface zone: first the material points near peridynamic particles, then
+ * all their nearest neighbours that are no such points. mark[p->n]: 0 before, receives POINT or BESIDE for these two
+ * groups; slot[p->n]: receives the index of each member in the list. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                          uint8_t *mark, int32_t *slot)
 {
@@ -71,9 +71,9 @@ static void members_make(struct interface_zone *r, const struct particles *p, co
     members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Finds the neighbours of member k of the interface zone with which it forms a pair: one of both must be a material
- * point of the zone, and no pre-crack may separate them. mark, slot: as from members_make; to: receives the indices of
- * these neighbours among the members, in the order of particles, NULL: they are only counted; near: working memory.
+/* Finds the nearest neighbours of member k of the interface zone with which damping acts. At least one of the two must
+ * be a material point of the zone, and no pre-crack may separate them. mark, slot: as computed by members_make; to:
+ * receives the indices of these neighbours in the list of members, or NULL to count them only; near: working memory.
  * Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                         const uint8_t *mark, const int32_t *slot, int64_t k, struct neighbour_list *near, int32_t *to)
@@ -92,9 +92,9 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
     return n;
 }
 
-/* Counts the neighbours of each member k of the interface zone in r->start[k + 1] if `count` is true, else writes their
- * indices to r->neighbour. mark, slot: as from members_make. Returns the largest number of neighbours of a member, at
- * least 1. */
+/* With `count` true, stores the number of neighbours of each member k of the interface zone in r->start[k + 1]. With
+ * `count` false, stores their indices in r->neighbour, from r->start[k] on. mark, slot: as computed by members_make.
+ * Returns the largest number of neighbours of a member, at least 1. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                           const uint8_t *mark, const int32_t *slot, bool count)
 {
@@ -113,8 +113,9 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
-/* Lists the neighbours of all members of the interface zone, and computes r->scale, the factor on their velocity
- * differences. */
+/* Lists the neighbours of each member of the interface zone in r->neighbour. Computes from the largest number of
+ * neighbours r->scale, the factor on the velocity differences between neighbours. mark, slot: as computed by
+ * members_make. */
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                                       const uint8_t *mark, const int32_t *slot)
 {
@@ -174,8 +175,8 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* Computes m d of member k of the interface zone, and stores it in r->difference [kg m/s]. m: its mass; d: r->scale
- * times the sum over its neighbours of their velocity relative to it along the line to them. */
+/* Computes r->difference of member k of the interface zone [kg m/s]: r->scale times its mass times the sum, over its
+ * neighbours, of their velocity relative to it, projected on the line to the neighbour. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -189,8 +190,9 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Computes the change of momentum of member k by damping, and stores it in r->change [kg m/s]. share: strength of the
- * damping [1]. What the two members of a pair exchange is bitwise opposite, so that momentum is conserved. */
+/* Computes r->change, the change of momentum of member k of the interface zone by damping [kg m/s], from r->difference
+ * of the member and its neighbours. The changes of the two members of a pair are bitwise opposite, so that momentum is
+ * conserved. share: strength of the damping [1]. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;

@@ -57,8 +57,8 @@ struct crack_edges {
 
 enum { EDGES_MAX = 64 };
 
-/* Returns the set of edges of crack c that are inside the body, together with the crack and `radius`, the radius of the
- * peridynamic zones around these edges [m]. */
+/* Returns crack c with the set of its edges (in 2D ends) beyond which the body continues. Around these edges the body
+ * is peridynamic. radius: radius of these peridynamic zones [m]. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -120,8 +120,9 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-/* Counts the particles that lose bonds by a crack and are outside the peridynamic zones around its edges (member
- * `particles`), and those of them that are not points of a mesh (member `elsewhere`). zone: the crack and its zones. */
+/* Counts the particles that lose bonds by a crack, without those in the peridynamic zones around its edges. Member
+ * `particles` of the result is their number; member `elsewhere` is the number of those that are not points of a mesh,
+ * for which the crack cannot be a slit. zone: the crack and its peridynamic zones. */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -164,9 +165,9 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Stores in n->lost[i] the volume of those neighbours of particle i within the cutoff that slits separate from it, over
- * the volume of all these neighbours [1]. near: working memory. Returns true if a slit separates the particle from one
- * of its nearest neighbours. */
+/* Computes n->lost[i], the share of the volume of the neighbours of particle i within the cutoff that slits separate
+ * from it [1]. Returns true if a slit separates particle i from a nearest neighbour, so that the particle is beside the
+ * slit. near: working memory. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source,
                       struct neighbour_list *near, int64_t i)
 {
@@ -261,9 +262,10 @@ void notches_free(struct notches *n)
 
 /* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]; 0
- * if no void is between them. It is reached when the faces of the void are VOID_AHEAD spacings apart, but is less than
- * the initial distance of the particles. k, l: indices of the particles in n->face. */
+/* Returns the distance below which two particles on both sides of a void are converted to peridynamic particles [m]. It
+ * is reached when the faces of the void are VOID_AHEAD spacings apart, but is at least NOTCH_GAP spacings less than the
+ * initial distance of the particles. Returns 0 if no void is between them. k, l: indices of the particles in n->face;
+ * spacing: lattice spacing [m]. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -274,7 +276,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
 }
 
 /* Returns the distance below which two particles on both sides of a slit or void are converted to peridynamic particles
- * [m]; 0 if no slit or void is between them. face, other: indices of the particles in n->face. */
+ * [m]. Returns 0 if neither is between them. face, other: indices of the particles in n->face; spacing: lattice spacing
+ * [m]. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -299,8 +302,9 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-/* Returns an upper bound of the present distance of two particles that may be nearer than their meeting_distance after
- * the time `ahead` [s], in [m]. Two particles approach each other by at most twice the largest speed of all. */
+/* Returns a search radius [m] that finds all pairs of particles which must be converted because the faces of a slit or
+ * void meet. These are pairs that will be nearer than their meeting_distance after the time `ahead` [s]. Two particles
+ * approach each other by at most twice the largest speed of particles beside slits. spacing: lattice spacing [m]. */
 static real meeting_reach(const struct notches *n, const struct particles *p, real spacing, real ahead)
 {
     const real gap = NOTCH_GAP * spacing;

@@ -90,9 +90,10 @@ static void make_positive(real *M, int n)
  * eigenvalues of its fourth-order tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Reduces T [J], the part of the stiffness of a point that its bonds replace, such that V C + q L L - T has no negative
- * eigenvalue. C: elastic tensor of material m; V: volume of the point [m^3]; q: stiffness of its bonds against a change
- * of their mean strain [J]; L: derivative of the mean strain by the strain of the cell, symmetric components [1]. */
+/* Reduces T [J], the part of the stiffness of a material point that bonds replace, until V C + q L L - T has no
+ * negative eigenvalue, so that the point stays stable. C: elastic tensor of material m; V: volume of the point [m^3];
+ * q: stiffness of its bonds against a change of their mean strain [J]; L: derivative of this mean strain by the strain
+ * of the point's cell, symmetric components [1]. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_component_count(dim);

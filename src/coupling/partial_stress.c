@@ -139,9 +139,10 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds to T the contributions of those bonds of material point (or mirror image) j that cross a cell with the centre
- * X[dim] and half edge `half` [m]. T: stiffness that bonds add to the cell times its volume [J]. box[rows]: bounding
- * boxes of the bonds of each row, by which most rows are skipped. */
+/* Adds to T the contributions of the bonds of material point (or mirror image) j to the stress in a cube of material
+ * with the centre X[dim] and half edge `half` [m], the cell of another point. Only the part of a bond inside the cell
+ * counts. T: stiffness of all bonds in the cell times its volume [J]. box[rows]: bounding boxes of the bonds of each
+ * particle, by which most are skipped. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -169,9 +170,9 @@ real particle_cell_half_edge(const struct particles *p, const struct bond_source
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T, the stiffness that bonds add to the cell of point i times its volume [J], from all bonds nearby one by
- * one; for any arrangement of particles. T: 0 before; box[rows]: bounding boxes of the bonds of each row; near: working
- * memory. */
+/* Computes T, the stiffness that all bonds near material point i have within its cell, times the volume of the cell
+ * [J]. Tests the bonds one by one, which works for any arrangement of particles. T: 0 before; box[rows]: bounding boxes
+ * of the bonds of each particle; near: working memory. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct neighbour_list *near)
 {
@@ -185,8 +186,8 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
 }
 
 /* Computes the matrix M = T C^-1/V over symmetric components: M sigma is the part of the stress sigma of point i that
- * bonds carry. C, V: elastic tensor and volume of the point; T: stiffness that bonds add to its cell times V [J]; a
- * shear strain counts twice in T : eps. Returns false if no bond crosses the cell of the point. */
+ * bonds carry. C, V: elastic tensor and volume of the point; T: stiffness of the bonds within its cell, times V [J].
+ * Returns false if M is 0, i.e. if no bond crosses the cell. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -212,11 +213,11 @@ static int partial_stress_entry_size(const struct bond_source *s, int dim)
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the values stored for point i of a state-based model, entry[]: the matrix M (share of its stress that bonds
- * carry), then the tensor L (derivative of its mean strain by the strain of its cell). T: stiffness that bonds add to
- * its cell times its volume [J]; reduced here if necessary. Returns false if the point needs no entry. In hand-shake
- * coupling (partial->gives_all) a point transmits all its stress itself: M and L are 0, and the entry only marks a
- * point with bonds. */
+/* Computes the values that are stored for point i of a state-based model. entry: receives the matrix M (part of its
+ * stress that bonds carry), then the tensor L (derivative of its mean strain by the strain of its cell). T: stiffness
+ * of the bonds within its cell, times its volume [J]; reduced if the point would be unstable. Returns false if the
+ * point needs no entry. With partial->gives_all (hand-shake coupling), a point transmits its whole stress itself: all
+ * values are 0, and the entry only marks a point with bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -227,9 +228,9 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the values stored for point i of a bond-based model, the matrix M (share of its stress that bonds carry),
- * into entry[]. T: stiffness that bonds add to its cell times its volume [J]; reduced here if necessary. Returns false
- * if no bond crosses the cell of the point. */
+/* Computes the values that are stored for point i of a bond-based model. entry: receives the matrix M (part of its
+ * stress that bonds carry). T: stiffness of the bonds within its cell, times its volume [J]; reduced if the point would
+ * be unstable. Returns false if no bond crosses the cell. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_bond_based(T, p, s, i);
@@ -250,11 +251,11 @@ struct renewal {
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Sets bits in mark[particles]. DIRTY: particles within `radius` [m] of changed ones; their stored values must be
- * recomputed. OTHERS_ROW: particles up to `reach` [m] farther; their rows may have bonds that cross cells of DIRTY
- * ones. OWN: the n changed particles themselves. map: map of lattice sites, NULL: none; with reach 0 it gives the
- * particles within the cutoff of bonds, `radius`. changed: indices of the changed particles; NULL: all peridynamic
- * particles. */
+/* Marks the particles that are affected when particles have changed, by bits in mark[particles]. OWN: a changed
+ * particle. DIRTY: its distance from a changed particle is at most `radius` [m], so that its partial stress must be
+ * recomputed. OTHERS_ROW: its distance is at most radius + reach [m], so that its bonds may cross the cell of a DIRTY
+ * particle. changed: indices of the n changed particles, or NULL if all peridynamic particles have changed. With reach
+ * 0, the particles within the cutoff of bonds are found, by the map of lattice sites `map` (NULL: none). */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s,
                        const struct site_map *map, real radius, real reach, const int32_t *changed, int64_t n)
 {
@@ -292,9 +293,10 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the points whose stored values must be recomputed after the n particles changed[k] have changed (changed =
- * NULL: all peridynamic particles have), and the rows whose bonds may cross the cells of these points. table: table of
- * bond responses on a lattice; if it serves all particles, no rows are listed. Release r with renewal_free. */
+/* Finds in r the points whose partial stress must be recomputed, and the rows (bonds of one particle) that may cross
+ * their cells. changed: indices of the n particles that have changed, or NULL if all peridynamic particles have. table:
+ * table for bonds on a lattice; if it applies to all particles, no rows are listed, since they are then found by
+ * lattice site. Release r with renewal_free. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)

@@ -53,7 +53,8 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of lattice sites of table t: (2 reach + 1)^dim, those of a cube with the point in the middle. */
+/* Returns the number of lattice sites in table t: (2 reach + 1)^dim. They form a cube with a material point at its
+ * centre. */
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
     int64_t n = 1;
@@ -61,8 +62,8 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Computes at[dim], the offset of site number `place` from the middle of the table [spacings]. The sites of the table
- * are those of a cube, (2 reach + 1)^dim. */
+/* Computes at[dim], the offset of the lattice site with the number `place` from the site at the centre of the table
+ * [spacings]. The (2 reach + 1)^dim sites of the table form a cube and are numbered with x fastest. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -78,8 +79,8 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Returns the number in the table of the site at which the position to[dim] is seen from the position from[dim] [m],
- * the middle of the table; -1 if it is outside the table. */
+/* Returns the number in table t of the site at to[dim] [m] if the site at from[dim] [m] is at the centre of the table.
+ * Returns -1 if it is outside the table. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
@@ -94,9 +95,9 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers the vectors of all bonds not longer than `cutoff` [m], in the order of the sites to which they lead from the
- * middle of the table, in t->vector. Lists these sites and the middle in t->near. If there are more than VECTORS_MOST
- * vectors, t->vectors becomes VECTORS_MOST + 1. */
+/* Numbers all possible bond vectors on the lattice, up to the length `cutoff` [m], and stores their numbers in
+ * t->vector, by the site to which a vector leads from the centre of the table. Lists these sites and the centre in
+ * t->near. If there are more than VECTORS_MOST vectors, t->vectors becomes VECTORS_MOST + 1. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -127,8 +128,8 @@ static int direction_of(const struct partial_table *t, int vector)
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
-/* Computes t->mirror: for each set of axes and each bond vector the number of the vector after reflection along these
- * axes. */
+/* Computes t->mirror: for each set of axes and each bond vector, the number of the vector whose components along these
+ * axes have the opposite sign. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -141,9 +142,9 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Examines the bond from the middle of the table to site k. For each cell that it crosses, counts a crossing if `count`
- * is true, else stores it in t->crossing. Crossings are sorted by the site at which the bond starts as seen from the
- * cell. next[site + 1] receives the counts; when crossings are stored, next[site] is the position of the next one. */
+/* Lists the lattice cells that the bond from the centre of the table to site k crosses. With `count` true, only counts
+ * them in next[site + 1]; otherwise stores them in t->crossing, sorted by `site`, at the positions next[site], which
+ * are incremented. `site` is the site of the bond's start if the crossed cell is at the centre of the table. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -167,8 +168,9 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Makes t->crossing, the list of all ways in which a bond can cross the cell of a point, sorted by the site where the
- * bond starts relative to the point, and t->start, the range of each site. */
+/* Lists in t->crossing how each possible bond crosses the cell at the centre of the table: its vector, and the fraction
+ * of its length inside the cell. The list is sorted by the site at which the bond starts; t->start[site] is the first
+ * entry of a site. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -184,8 +186,8 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: for each direction of bonds the tensor T of a bond of which the whole length is inside the cell,
- * for a unit value of each part of its response (struct response). */
+/* Computes t->tensor: for each direction of bonds and each part of their response to strain (struct response), the
+ * stiffness T that a bond with this part equal to 1 has in the cell of a point, if all of its length is inside. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -279,8 +281,8 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Extends the array of bond responses so that `open` rows of bonds can have an entry in it. A row holds the bonds of
- * one particle. */
+/* Reserves memory in t->responses for `open` rows, each with the bonds of one particle. A row has an entry of
+ * t->vectors responses to strain (struct response), one for each possible bond vector. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -294,8 +296,8 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Assigns an entry of the array of bond responses (struct responses) to particle i, a released one if possible. Does
- * nothing if the particle has one. */
+/* Assigns an entry of t->responses to particle i, in which the responses of its bonds to strain are stored. Reuses a
+ * released entry if there is one. Does nothing if the particle has an entry. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -311,8 +313,9 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes response[vectors][parts]: the responses to strain (struct response) of the bonds in row `row`, at the number
- * of each bond's vector. They are 0 for broken bonds and for vectors without a bond. */
+/* Computes the responses to strain (struct response) of the bonds in row `row`, the bonds of one particle.
+ * response[vectors][parts]: receives them, sorted by the number of the bond's vector on the lattice; 0 for broken bonds
+ * and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -387,9 +390,10 @@ struct crossing_row {
     int32_t j, place, response;
 };
 
-/* Adds to sum[directions][parts] the responses of the bonds of a row, each times the fraction of the bond inside the
- * cell of a point. place: number in the table of the site of the row as seen from the point; response: responses of the
- * row; signs: axes that the reflections of an image reverse, as bits; parts: t->parts, a compile-time constant. */
+/* Adds to sum[directions][parts] the responses of the bonds of one particle, each times the fraction of the bond inside
+ * the cell of a material point. place: number of the particle's site in the table whose centre is the point; response:
+ * responses of the particle's bonds; signs: axes along which a mirror image is reflected, as bits; parts: t->parts,
+ * known at compile time. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -409,8 +413,9 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds sum_k sum[k] tensor_k to T. k: direction of bonds and part of their response; tensor_k: the tensor of a unit
- * response in that direction, from the table; sum[directions][parts]: summed responses. */
+/* Adds to T the sum of sum[k] tensor_k over all k, each of which is a direction of bonds and one part of their response
+ * to strain. sum[directions][parts]: summed responses; tensor_k: stiffness of a bond with a unit response, from
+ * t->tensor. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {
@@ -425,9 +430,9 @@ bool partial_table_applies_to(const struct particles *p, const struct bond_sourc
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts particle or image j into the list to[n], which is ascending by j, if the particle, or the one that j mirrors,
- * is a material point with bond responses. place: number in the table of the site of j as seen from the point whose
- * cell is examined. Returns the new length of the list. */
+/* Inserts particle or mirror image j into the list to[n], in ascending order, if its bonds may cross the cell of a
+ * material point: if it is a material point, or the image of one, whose bond responses are stored. place: number of its
+ * site in the table whose centre is the point with the cell. Returns the new length of the list. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -439,9 +444,9 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists in `to` the rows whose bonds may cross the cell of point i, in ascending order of particles and images, and
- * returns their number. l: map from lattice sites to particles, by which they are found. Sites are visited in ascending
- * order of particles, so that only images must be inserted between others. */
+/* Lists in `to` the particles and images whose bonds may cross the cell of point i, in ascending order, and returns
+ * their number. l: map from lattice sites to particles, in which they are looked up. Sites are visited in the order of
+ * the particles, so that only images have to be inserted between others. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -455,8 +460,9 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists in `to` the rows whose bonds may cross the cell of point i, in ascending order of particles and images, and
- * returns their number. They are found by a neighbour search. near: working memory. */
+/* Lists in `to` the particles and images whose bonds may cross the cell of point i, in ascending order, and returns
+ * their number. Finds them by a neighbour search, for particles without a map of lattice sites. near: working
+ * memory. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct neighbour_list *near,
                                    struct crossing_row *to)

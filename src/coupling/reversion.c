@@ -82,10 +82,10 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* Sets bound[i] to 1 for peridynamic particles that must stay so: those with a particle marked in `held` within the
- * cutoff, or with one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i that have a
- * peridynamic particle j with bound[j] = 0 within the cutoff. Only such particles can be the centre of a ball, as large
- * as the cutoff, without bound particles. All arrays: [p->n]. */
+/* Sets bound[i] to 1 for peridynamic particles that must not become material points. These have a particle marked in
+ * `held` within the cutoff, or one marked in `cut` within BROKEN_HORIZONS horizons. Sets near[i] to 1 for particles i
+ * within the cutoff of a peridynamic particle that is not bound. (A set of particles reverts only as a ball, as large
+ * as the cutoff, without bound particles; its centre must have near[i] = 1.) All arrays: [p->n]. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -110,9 +110,9 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Sets mark[i] to 1 for those particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
- * (`meeting` true), or that have no such particle (`meeting` false). Sets mark[i] to 0 for all others. Arrays:
- * [p->n]. */
+/* Sets mark[i] to 1 for those particles i with wanted[i] = 1 that have a particle j with other[j] = 1 within the
+ * cutoff, if `meeting` is true. If it is false, sets mark[i] to 1 for those that have no such particle. Sets mark[i] to
+ * 0 for all others. Arrays: [p->n]. */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -183,9 +183,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Adds the moments of the intact bonds of row `row` to K and G, both [dim dim]: K = sum w e e and G = sum w e y/r. w is
- * the weight of a bond, e its reference direction, y its present vector and r its reference length. The deformation
- * gradient F of the family follows from K F^T = G. */
+/* Adds the sums K = sum w e e and G = sum w e y/r over the intact bonds of row `row`, the bonds of one particle, to K
+ * and G, both [dim dim]. w: weight of a bond; e, r: its reference direction and length; y: its present vector. The
+ * deformation gradient F of the family follows from K F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -211,9 +211,9 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of what a bond contributes to stress and derivative in the cell *to. The bond is in the row of r->root,
- * seen from particle or image j; the row of its other particle adds the other half. r: reflection that maps the
- * particle r->root of the body to j. */
+/* Adds half of the contribution of one bond to the stress in the cell *to of a particle, and to the derivative of this
+ * stress by the strain. The other half is added when the bond is found in the row of its other particle. The bond
+ * starts at particle or mirror image j. r: reflection that maps the particle r->root, which has the row, to j. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -245,11 +245,11 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* Computes the stress sigma = (1/V) sum l F (x) y and its derivative T = (1/V) sum k r l e e e e of the cell of
- * particle i from all bonds that cross it. l: share of the bond's reference length inside the cell (partial_stress.c);
- * F, y: its force and present vector; k, r, e: its stiffness, reference length and direction; V: volume of the cell.
- * sigma is the flux of momentum through the cell. The virial of the bonds of particle i is equal under uniform strain,
- * but smooths a wave over twice the distance. near: working memory. */
+/* Computes the stress in the cell of particle i from all bonds that cross it, sigma = (1/V) sum l F (x) y, and its
+ * derivative by a uniform strain, T = (1/V) sum k r l e e e e. V: volume of the cell; l: fraction of the bond inside
+ * the cell; F, y: force and present vector of the bond; k, r, e: its stiffness, reference length and direction. In a
+ * uniform strain sigma equals the virial stress of the bonds of particle i, but it averages a wave over only half the
+ * distance. near: working memory. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct neighbour_list *near)
 {
@@ -275,9 +275,9 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Replaces the stress of the bonds across the cell of particle i, `stress` [Pa], by that of a body with all bonds under
- * the same strain, T^-1 stress. T: derivative of the given stress by a uniform strain [Pa], overwritten. Leaves the
- * stress unchanged if T is singular. */
+/* Corrects `stress` [Pa], the stress of the bonds that cross the cell of particle i, for missing bonds. The uniform
+ * strain that causes this stress is T^-1 stress; the result is the stress of a complete family under this strain. T:
+ * derivative of the stress by a uniform strain [Pa], overwritten. Leaves the stress unchanged if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
@@ -303,8 +303,8 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
-/* Sets stress, volume, velocity gradient and stretch of particle i, as a material point, from its bonds. near: working
- * memory. */
+/* Sets the state that particle i has as a material point from its bonds: stress, volume and stretch. The velocity
+ * gradient becomes 0. near: working memory. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct neighbour_list *near)
 {

@@ -9,8 +9,9 @@
 #include "contact/contact.h"
 #include "run/energies.h"
 
-/* Returns the number of steps between two checks which particles revert to material points, at least 1. A wave travels
- * one horizon in these steps, half of the diameter of a family, so that none crosses a family between two checks. */
+/* Returns the number of time steps, at least 1, from one search for particles that may become material points again to
+ * the next. In this time a wave travels one horizon, half the diameter of a family, so that no wave crosses a family
+ * unnoticed. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {

@@ -26,16 +26,16 @@ struct closed {
     int64_t n, first;
 };
 
-/* Counts particle i in *to, as one beside a void across which the grid joins the sides, and stores it as to->first if
- * it is the first one. */
+/* Counts particle i in *to, the particles beside voids that are too narrow for the grid to separate their two sides.
+ * Stores i in to->first if it is the first one. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;
 }
 
-/* Counts the material points beside narrow voids across which the grid joins the sides, in bodies whose surface is
- * known, and returns their number with the first one. uncut: true if voids do not divide the mesh of the reference
- * frame; if false, points of this mesh are left out. */
+/* Counts the material points beside voids that are so narrow that the grid connects their two sides, and returns their
+ * number with the first of them. v: voids of the bodies whose surface is known. uncut: false if voids divide the mesh
+ * of the reference frame; points of this mesh then do not count. */
 static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
     struct closed found = {0};
@@ -61,9 +61,9 @@ static void next_along(const struct particles *p, int64_t i, const struct neighb
     }
 }
 
-/* Counts the particles of body b beside gaps of its lattice (empty sites) that are narrower than `reach` [m], and
- * returns their number with the first one. For bodies whose surface is not known. Returns n = 0 if the particles are
- * not on a lattice. */
+/* Counts the particles of body b that are beside gaps, rows of empty lattice sites narrower than `reach` [m], and
+ * returns their number with the first of them. It serves bodies whose surface is not known. The number is 0 if the
+ * particles are not on a lattice. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {

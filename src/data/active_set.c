@@ -31,7 +31,8 @@ void active_set_rebuild_list(struct active_set *r)
         if (r->level[k] > 0) r->list[r->active++] = (int32_t)k;
 }
 
-/* Lists all blocks of the active set r as active, in ascending order. */
+/* Makes all blocks of the active set r active: lists their numbers in ascending order. A block is a fixed number of
+ * consecutive elements. */
 static void list_all(struct active_set *r)
 {
     for (int64_t k = 0; k < r->blocks; k++) r->list[k] = (int32_t)k;

@@ -60,9 +60,10 @@ static struct crack *crack_add(struct crack_list *to, const struct crack *c, int
     return new;
 }
 
-/* Appends the mirror image of crack number k of the list at the plane m to the list. Does nothing if the crack is in
- * this plane, up to `tolerance` [m], or farther from it than `reach`, the length of the longest bonds [m]. The corners
- * of the image are in reverse order, so that particles in its plane count as on the same side of both. */
+/* Appends the mirror image, at the plane of symmetry m, of crack number k of the list to the list. Appends nothing if
+ * the crack is in this plane, up to `tolerance` [m], or farther from it than `reach`, the length of the longest bonds
+ * [m]. The order of the corners is reversed, which reverses the normal of the image: a crack and its image that are in
+ * one plane thus have the same normal. */
 static void image_add(struct crack_list *to, int k, const struct mirror_plane *m, real reach, real tolerance)
 {
     const struct crack c = to->crack[k];

@@ -82,9 +82,8 @@ const struct particle_field particle_fields[] = {
 };
 const int particle_fields_count = COUNT_OF(particle_fields);
 
-/* Checks at compile time that every pointer of struct particles is in the table: 4 vectors, 3 scalars, 6 + 6 + 9 + 3
- * components of tensors and stretch, 2 of plasticity, 2 of return, strength, damage, 4 indices, id; 2 scalars, a
- * rotation and a moment of the points of PD-MPM bonds; work, back stress, temperature and stress of flow laws. */
+/* Checks at compile time that struct particles has as many pointers as the table has arrays, so that an array that is
+ * added to the structure is not forgotten in the table. Each component of a vector or tensor has its own pointer. */
 _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");

@@ -109,10 +109,11 @@ static real direction_along(const struct directions *a, int k)
     return a->space == SPACE_SOLID ? square(at) : square(cos(0.5 * M_PI * at));
 }
 
-/* Returns axial and lateral stress of a family of state-based bonds over E' s_0 [1], at the strains `axial` and
- * `lateral` over s_0, the stretch at which softening begins. They are the derivatives by the strain of W = [A <q s>^2 +
- * B <q |e|^2>]/2, where < > is the mean over directions n and q the share of its stiffness that a bond keeps. s is the
- * stretch along n, and e the stretch along n or, in models with rotations, the whole displacement eps . n. */
+/* Returns the axial and lateral stress of a family of state-based bonds, divided by E' s_0 [1]. axial, lateral:
+ * strains, in units of s_0, the stretch at which softening begins. The stresses are the derivatives, by the strains, of
+ * the energy W = [A <q s>^2 + B <q |e|^2>]/2, with the constants A and B of the model. < > is the mean over all
+ * directions n, q the share of its stiffness that a softened bond keeps, and s its stretch. e is the stretch s too, or
+ * in models with rotations the vector eps . n. */
 static struct stress_pair state_family_stress(const struct directions *a, real axial, real lateral)
 {
     const struct softening_model *m = a->model;
@@ -131,10 +132,10 @@ static struct stress_pair state_family_stress(const struct directions *a, real a
                                 m->A * mean * pull.lateral + m->B * sum.lateral};
 }
 
-/* Returns axial and lateral stress over E' s_0 [1] of a family of bonds in all directions, strained by `axial` along
- * one axis and by `lateral` in all directions normal to it. Strains are in units of s_0, the stretch at which softening
- * begins. Bonds have Poisson's ratio 1/3 in the plane (in plane strain with E' and nu/(1 - nu) in place of E and nu)
- * and 1/4 in a solid. */
+/* Returns the axial and lateral stress of a family of bonds in all directions, divided by E' s_0 [1]. axial, lateral:
+ * strains along one axis and in all directions normal to it, in units of s_0, the stretch at which softening begins.
+ * Bond-based models have Poisson's ratio 1/3 in the plane and 1/4 in 3D; in plane strain E' and nu/(1 - nu) replace E
+ * and nu. */
 static struct stress_pair family_stress(const struct directions *a, real axial, real lateral)
 {
     struct stress_pair sum = {0, 0};
@@ -166,8 +167,9 @@ static real strain_without_stress(const struct directions *a, real low, real giv
     return 0.5 * (low + high);
 }
 
-/* Functions whose roots strain_without_stress finds: the lateral stress, the axial stress, and the sum of both, over
- * E' s_0. Strains are in units of s_0, the stretch at which softening begins. */
+/* Functions of one strain, whose zeros strain_without_stress finds: the lateral stress, the axial stress, and the sum
+ * of both, divided by E' s_0. The other strain is given. Strains are in units of s_0, the stretch at which softening
+ * begins. */
 static real lateral_stress(const struct directions *a, real lateral, real axial)
 {
     return family_stress(a, axial, lateral).lateral;
@@ -197,9 +199,9 @@ static real biaxial_at(const struct directions *a, real strain)
     return family_stress(a, strain_without_stress(a, -2 * strain, strain, axial_stress), strain).lateral;
 }
 
-/* Returns the shear stress over E' s_0 [1] in the plane, in a state of equal tension and pressure along two axes;
- * `strain`: along the axis of tension, in units of s_0, the stretch at which softening begins. Returns NAN in other
- * spaces. */
+/* Returns the shear stress of a family of bonds, divided by E' s_0 [1], in a plane state with equal tension and
+ * compression along two axes. strain: along the axis of tension, in units of s_0, the stretch at which softening
+ * begins. Returns NAN in 1D and 3D. */
 static real shear_at(const struct directions *a, real strain)
 {
     if (space_dim(a->space) != 2) return NAN;

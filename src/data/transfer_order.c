@@ -59,8 +59,8 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Extends o->cell_start, the list of the first entries of cells in the sorted list, to at least `cells` cells, with a
- * reserve. Its contents are lost if it is extended. */
+/* Reserves memory for o->cell_start, the index of the first point of each cell in the list of points sorted by cell,
+ * for at least `cells` cells. If the array is too short, a longer one replaces it and its contents are lost. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -108,8 +108,9 @@ struct sorting {
  * chunks, one per thread. */
 static int64_t chunk_start(const struct sorting *s, int chunk) { return s->n * chunk / s->chunks; }
 
-/* Computes s->place, from which the numbers of block and cell of a point follow: the sum over the axes d of
- * s->place[d][cell along d]. */
+/* Fills the tables s->place[d], with one entry for each cell index along the axis d. The sum of one entry for each axis
+ * encodes a cell of the grid: the upper bits are the number of its block (a box of cells), the lower INSIDE_BITS bits
+ * the number of the cell in its block. */
 static void cell_shares_find(struct sorting *s)
 {
     int64_t blocks = 1, cells = 1;
@@ -124,9 +125,9 @@ static void cell_shares_find(struct sorting *s)
     }
 }
 
-/* Returns the rank of the block (a box of cells) that contains point i, in the order of blocks by colour. inside:
- * receives the index of its cell in the block. g: copy of the grid that the compiler can keep in registers; dim: number
- * of dimensions, known at compile time. */
+/* Returns the rank of the block (a box of cells) that contains point i. Blocks are ranked by colour, then by number.
+ * inside: receives the number of the point's cell in the block. g: copy of the grid s->g, which the compiler can keep
+ * in registers; dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct grid *g, int32_t i, uint16_t *inside,
                                         const int dim)
 {
@@ -137,9 +138,9 @@ static ALWAYS_INLINE int32_t find_block(const struct sorting *s, const struct gr
     return s->rank[place >> INSIDE_BITS];
 }
 
-/* Finds the blocks (s->key) and cells (s->inside) of the points of a chunk of the list, the part of one thread, and
- * counts the points of each block in s->fill. Consecutive points of one block are counted together and then added. dim:
- * number of dimensions, known at compile time. */
+/* Finds the block (a box of cells) and the cell of each point in one chunk, which is the part of the list of points
+ * that one thread sorts. Stores the rank of the block in s->key and the cell in s->inside. Counts the points of the
+ * chunk in each block in s->fill. dim: number of dimensions, known at compile time. */
 static ALWAYS_INLINE void find_blocks(const struct sorting *s, int chunk, const int dim)
 {
     int32_t *count = s->fill + chunk * s->shape.n, key = 0;
@@ -171,9 +172,10 @@ static void find_blocks_of(const struct sorting *s, int chunk)
     }
 }
 
-/* Replaces s->fill, the number of points of each chunk (part of the list of one thread) in each block of cells, by the
- * index of the first of them in a list sorted by block, then by chunk. block_start[blocks + 1]: receives the first
- * index of each block. */
+/* Computes where each thread stores its points when they are sorted by block (a box of cells). On entry,
+ * s->fill[chunk][block] is the number of points of a block in a chunk, the part of the list that one thread sorts. It
+ * is replaced by the index of the first of these points in the sorted list, in which a block's points are in the order
+ * of the chunks. block_start[blocks + 1]: receives the index of the first point of each block. */
 static void add_up(const struct sorting *s, int32_t *block_start)
 {
     int32_t next = 0;
@@ -225,9 +227,10 @@ static int32_t sort_in_block(int32_t *particle, uint16_t *inside, int32_t n, int
     return cells;
 }
 
-/* Computes o->cell_start, the first entry of each cell in the sorted list of points. Before the call,
- * o->block_cell[b + 1] must be the number of cells with points in block b; after it, o->block_cell[b] is the first
- * cell of block b. inside: cell of each entry in its block. */
+/* Computes o->cell_start, the index of the first point of each cell in the sorted list of points. Only cells with
+ * points are counted. inside: number of the cell of each point in its block (a box of cells). Before the call,
+ * o->block_cell[b + 1] must be the number of cells with points in block b; after it, o->block_cell[b] is the first cell
+ * of block b. */
 static void find_cells(struct transfer_order *o, const uint16_t *inside)
 {
     o->block_cell[0] = 0;

@@ -16,8 +16,8 @@ struct member {
     int32_t body, particle, off;
 };
 
-/* Compares two groups of points: first by their bodies body_a and body_b, then by their integer positions a and b.
- * Returns -1, 0 or 1. */
+/* Compares two groups of points, which are boxes of neighbouring lattice sites that rotate together. a, b: integer
+ * positions of the groups along the axes; body_a, body_b: bodies of the groups, compared first. Returns -1, 0 or 1. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -45,9 +45,9 @@ static int by_group(const void *a, const void *b)
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* Returns the integer position along an axis of the group of points that contains the coordinate u, measured from the
- * middle of the body [spacings]. odd: true if the middle of the body is the middle of a group, false if it is a border
- * between two. */
+/* Returns the integer position, along one axis, of the group of points at the coordinate u. Groups are TURNING_EDGE
+ * spacings wide. u: distance from the middle of the body [spacings]. odd: true if the middle of the body is in the
+ * middle of group 0, false if it is at the boundary between the groups -1 and 0. */
 static int64_t group_place(real u, bool odd)
 {
     const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
@@ -79,8 +79,9 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Stores in the member `near` of group g of t the indices of the 26 groups of points around it that belong to the same
- * body, -1 for those that do not exist: first those displaced along one axis, then along two, then along three. */
+/* Finds the 26 neighbours of group g of t, a box of points that rotate together. Stores their indices in the array
+ * `near` of the group, or -1 where the body has no group. Neighbours displaced along one axis come first, then those
+ * displaced along two axes, then along three. */
 static void groups_near(struct rotation_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
@@ -100,8 +101,8 @@ static bool groups_differ(const struct member *a, const struct member *b)
     return order_of_places(a->place, a->body, b->place, b->body) != 0;
 }
 
-/* Divides the n sorted particles all[n] into runs of at most LANES particles that are consecutive in memory and belong
- * to one group, and lists the runs in t->run, group by group. */
+/* Lists in t->run the particles of each group as runs: at most LANES particles that have consecutive numbers and belong
+ * to one group. all[n]: particles sorted by group, then by position. */
 static void runs_make(struct rotation_groups *t, const struct member *all, int64_t n)
 {
     struct turning_group *g = t->group;

@@ -175,8 +175,9 @@ real voids_surface_distance_bound(const struct voids *v, const struct particles 
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Returns true if the convex solid s and its mirror images at planes of symmetry within `reach` [m] of X[dim] form a
- * convex set: no such plane is near, or s is a box that reaches to it. */
+/* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry within
+ * `reach` [m] of the point X[dim] matter. Returns false for such a plane unless s is a box that the plane touches or
+ * cuts. */
 static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
 {
     for (int m = 0; m < v->mirrors; m++) {
@@ -189,10 +190,10 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns which convex solids of its body contain particle i, one bit each, or ALONE if a single solid is within
- * `reach` [m] of the particle and contains it. Returns 0 if a subtracted or intersected solid is near, or if the body
- * has more than SOLIDS_MOST solids. If one of these solids contains two particles at most `reach` apart, no void is
- * between them. */
+/* Returns the convex solids of its body that contain particle i, as one bit each. Two particles at most `reach` [m]
+ * apart have no void between them if they have a bit in common. Returns ALONE instead if the particle is in such a
+ * solid and no other solid of the body is within `reach`. Returns 0 if a subtracted or intersected solid is that near,
+ * or if the body has more than SOLIDS_MOST solids. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};
@@ -215,10 +216,12 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     return within == 1 && inside ? ALONE : inside;
 }
 
-/* Returns VOID_NEAR if the segment from particle i to a particle of its body in `near` leaves the body, else 0. Adds
- * VOID_ACROSS if the two surfaces that such a segment crosses face each other. depth[n_all]: lower bounds of the
- * distances of particles from the surface [m]; a segment is inside if the balls of these radii around its ends cover
- * it. inside[n_all]: convex solids that contain each particle, one bit each. */
+/* Tests whether voids, spaces without material, separate particle i from the neighbours `near` of its own body. Returns
+ * VOID_NEAR if the straight line to one of them leaves the body, else 0. Adds VOID_ACROSS if the two surfaces that such
+ * a line crosses face each other. Skips neighbours that need no test: depth[n_all], lower bounds of the distances of
+ * particles from the surface [m], shows that the line is inside if the two balls with these radii cover it;
+ * inside[n_all], bits of the convex solids that contain a particle, shows it if the two particles have a bit in
+ * common. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct neighbour_list *near)
 {

@@ -77,9 +77,9 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Recomputes the activity levels b->active.level of all row blocks (LANES rows of bonds each): the highest level for
- * row blocks in motion, one less for each bond between a row block and these, at least 0. Must be called after rows
- * were rebuilt. */
+/* Recomputes the activity levels b->active.level of all row blocks (LANES rows of bonds each). Row blocks in motion
+ * have the highest level. Other row blocks with a bond to one of these have one level less, those with a bond to one of
+ * the latter two levels less, and so on down to level 0, which is inactive. Must be called after rows were rebuilt. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

@@ -18,9 +18,9 @@ static bool same_particles(const struct load *a, const struct load *b)
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Makes component d of load b use an equal array of shares (area, volume or mass of each particle) of an earlier
- * component or load on the same particles, and frees its own array. Does nothing if there is no equal array. dim:
- * number of components. */
+/* Saves memory if component d of load b has an array of shares equal to that of an earlier component, or of an earlier
+ * load on the same particles: frees its own array and refers to the earlier one. A share is the area, volume or mass of
+ * a particle by which the value of the load is multiplied. dim: number of components. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -34,9 +34,10 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Sets the leader of load b: the first load on the same list of particles, or b itself. If earlier loads of that leader
- * have equal arrays of shares (areas, volumes, masses), load b uses these. Allocates in the leader the previous
- * positions, from which work is computed. dim: number of components. */
+/* Finds the leader of load b: the first load on an equal list of particles, or b itself. Loads with one leader are
+ * applied together. Equal arrays of shares (areas, volumes or masses of the particles) are stored once. Allocates in
+ * the leader the arrays of previous positions, from which the work of the loads is computed. dim: number of
+ * components. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -63,8 +64,8 @@ void loads_merge_equal_particle_lists(struct loads *l, int dim)
     }
 }
 
-/* Returns true if an earlier load or component uses the same array of shares (areas, volumes, masses) as component d of
- * load b, and frees it. */
+/* Returns true if component d of load b refers to an array of shares (areas, volumes or masses of the particles) that
+ * belongs to an earlier load or component. The array must then not be freed for load b. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -94,9 +95,10 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads with leader `leader`, the first load on a list of particles, in *a: one term for
- * each distinct array of shares (areas, volumes, masses). factor[l->n]: current factor of each load's value [1].
- * Returns false if none of these loads has component d. */
+/* Prepares in *a the application of component d of all loads with the leader `leader`, which act on equal lists of
+ * particles. Loads with the same array of shares (areas, volumes or masses of the particles) are added up to one term
+ * of *a: a value times this array. factor[l->n]: factor of each load at present [1]. Returns false if none of these
+ * loads has a value for component d. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -113,8 +115,9 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Computes force[end - first], component d of the applied forces on the particles number first .. end - 1 of the list
- * of a [N]: the sum of value * share over the terms of a. */
+/* Computes force[end - first] [N], one component of the applied force on the particles with the numbers first .. end -
+ * 1 in the list of a. It is the sum over the terms of a, each a value times an array of shares (areas, volumes or
+ * masses). */
 static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
@@ -163,8 +166,9 @@ static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64
     return sum;
 }
 
-/* Applies the forces of a struct push (context) to the particles number first .. end - 1 of its list, and adds their
- * sum to *sum [N]. A block function of reproducible_sums. */
+/* Adds the applied forces to the particles with the numbers first .. end - 1 in a list, and the sum of these forces to
+ * *sum [N]. context: a struct push, with one component of the loads on this list. Called by reproducible_sums for each
+ * block of numbers. */
 static void push_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;
@@ -174,8 +178,9 @@ static void push_block(const void *context, int64_t first, int64_t end, real *su
                                                        : block_sum(push_one, a, first, end, force, false);
 }
 
-/* Adds the work of the forces of a struct push (context) on the particles number first .. end - 1 of its list to
- * *sum [J]. A block function of reproducible_sums. */
+/* Adds the work of the applied forces on the particles with the numbers first .. end - 1 in a list to *sum [J].
+ * context: a struct push, with one component of the loads on this list. Called by reproducible_sums for each block of
+ * numbers. */
 static void work_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct push *a = context;

@@ -52,9 +52,10 @@ static real width_of(const struct columns *c, const struct boundary *b, const st
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
-/* Computes c->width, the mean edge of the cubes that represent the particles of body c->body [m], and c->even, true if
- * all of them have one volume up to the relative difference EVEN. A width that differs from the lattice spacing by less
- * than EVEN is set to the spacing. */
+/* Computes c->width [m], the edge of a cube (in 2D a square) with the mean volume of the particles of body c->body.
+ * Sets c->even to true if their volumes are equal up to the relative difference EVEN. A width that differs from the
+ * spacing of the scene by less than this is set to the spacing. Without b->section (area or thickness) the width is the
+ * spacing. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -89,9 +90,10 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Computes the axes across the columns of particles, which are parallel to the normal of b's face; c->step, the
- * distance of columns; and c->middle, the middle line of column 0 along each of these axes [m]. Columns are at lattice
- * sites if particles are ordered and have one volume, else there are FINE columns per particle width. */
+/* Determines where the columns of particles are, which are parallel to the normal of the face of b. Computes the axes
+ * c->axis across the columns, the distance c->step of neighbouring columns, and c->middle, the position of column 0
+ * along each of these axes [m]. If the particles are on a lattice and have equal volumes, there is a column at each
+ * lattice site; else there are FINE columns for each particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -168,9 +170,10 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Enters particle i in each column whose middle line passes through its cube: counts it in c->count (`put` false), or
- * stores it in c->order (`put` true). While counting, a particle of body c->body creates columns that do not exist; a
- * particle of another body is counted in existing columns only. */
+/* Adds particle i to each column whose middle line passes through the cube of the particle. It is called twice for each
+ * particle: with `put` false it counts the particle in c->count, with `put` true it stores the particle in c->order.
+ * While counting, a particle of body c->body creates columns that do not exist yet, and a particle of another body does
+ * not. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -289,8 +292,9 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Returns the index in c->order of the next particle of body c->body in column `column`, at least BENEATH particle
- * widths behind the one at index k. Returns -1 if the column ends, or has a hole of more than GAP widths there. */
+/* Returns the index in c->order of the first particle of body c->body in column `column` that is at least BENEATH
+ * particle widths behind the particle with the index k. Returns -1 if there is none before the column ends or has a
+ * hole of more than GAP widths. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -302,13 +306,12 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
     return -1;
 }
 
-/* Adds the area of column `column` to the areas f [m^2] of its exposed particle (the first one from outside) and, for
- * tangential components, of the next one. Tangential traction acts on the face, half a spacing outside the first
- * particle, and this offset would cause a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the
- * stress. So the first particle gets 3/2 of the tangential area and the next one -1/2, a linear extrapolation that
- * preserves force and first moment. Without a next particle, or if `two` is false, the first one gets all of it.
- * selected[p->n]: 1 for particles in the region of b; area: of the column [m^2], or 0 for the volume of its first
- * particle over its width. */
+/* Adds the area of column `column` to the areas f of its exposed particle [m^2], the first one from outside. A
+ * tangential traction acts on the face, half a spacing outside this particle, and its moment would be wrong by this
+ * distance. (The shear stress in a plate of n particles per side would be 1 + 1.3/n times too large.) So for tangential
+ * components the exposed particle gets 3/2 of the area and the next one in the column -1/2, which preserves force and
+ * moment. If there is no next particle or `two` is false, the first one gets all. selected[p->n]: 1 for particles in
+ * the region of b; area: of the column [m^2], or 0 to use the volume of the exposed particle over its width. */
 static void face_add(struct exposed_face *f, const struct columns *c, int64_t column, const struct boundary *b,
                      const struct particles *p, const uint8_t *selected, real area, bool two)
 {
@@ -322,8 +325,9 @@ static void face_add(struct exposed_face *f, const struct columns *c, int64_t co
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Returns the cross-section of a column of particles [m^2]: volume of a cubic particle over its height, or less if
- * there are several columns per particle width. Returns 0 if boundary b has no section. dim: number of dimensions. */
+/* Returns the cross-section of a column of particles [m^2]: the volume of a particle over its width c->width, or a part
+ * of it if there are several columns for each particle width. Returns 0 if boundary b has no section (area or
+ * thickness). dim: number of dimensions. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;

@@ -52,9 +52,9 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
     return OK;
 }
 
-/* Allocates an array of shares (area, volume or mass of each particle) for each component of load l, in place of arrays
- * that several components use together. with: true to multiply the new shares by the formula of the component at time t
- * [s]. */
+/* Allocates an array of shares for each component of load l, in place of arrays that several components have in common.
+ * A share is the area, volume or mass of a particle by which the value of the load is multiplied. with: true to
+ * multiply the new shares by the formula of the component at time t [s]. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -90,9 +90,9 @@ void load_varying_shares_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Updates the shares of component d of load l for the velocity update from t - dt to t [s]: share = half * new + (1 -
- * half) * share. The new share of a particle is its area, volume or mass times the mean of (function of time) *
- * (formula) at both times. */
+/* Updates the array l->share[d] of a load whose formula changes in time, for the velocity update from t - dt to t [s].
+ * The new share of a particle is its area, volume or mass l->base[d] times the mean, over both times, of the product of
+ * time function and formula. half: weight of the new shares [1]; the old ones keep the weight 1 - half. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -105,9 +105,10 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
-/* Updates the shares (area, volume or mass of each particle, times formula) of all loads that change in time, for the
- * velocity update from t - dt to t [s]. half: weight of the new shares [1]; the previous ones have the weight 1 - half.
- * Areas of pressures that follow the surface are recomputed first. */
+/* Updates the shares of all loads that change in time, for the velocity update from t - dt to t [s]. A share is the
+ * factor by which the value of a load is multiplied for one particle: its area, volume or mass times the formula. The
+ * areas of pressures that follow the surface are computed anew before. half: weight of the new shares [1]; the old ones
+ * keep the weight 1 - half. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -124,10 +125,11 @@ void loads_update_shares_for_velocity_update(struct loads *l, const struct parti
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Replaces the shares (area, volume or mass of each particle, times formula) of loads that change in time by the mean
- * of two: those of the velocity updates before and after the position update of the step of size dt about t [s]. Must
- * be called after the position update, so that the latter have the new positions. The work of loads over the step can
- * then be summed. */
+/* Sets the shares of loads that change in time to those with which their work over the position update about time t is
+ * computed [s]. A share is the factor on the value of a load for one particle: its area, volume or mass times the
+ * formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
+ * velocity update after it. Must be called after the position update, since the latter depend on the new positions. dt:
+ * time step [s]. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);

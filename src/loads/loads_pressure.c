@@ -25,8 +25,8 @@ struct ends {
     void *context;
 };
 
-/* Returns true if the free end, at particle i, of a column of particles along the axis of e->boundary is in the plane
- * of a mirror, behind which the body continues. */
+/* Returns true if the face of particle i in the direction e->boundary->side along the axis e->boundary->face is in a
+ * plane of symmetry. The body continues behind the plane, so that this is no free face. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;
@@ -38,8 +38,9 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Reports the free face of particle i at an end of a column of particles: calls the function `found` of context, a
- * struct ends, unless the face is in a mirror plane. area: of the face [m^2]. */
+/* Calls the function e->found for the free face of particle i, which is at an end of a column of particles. Does
+ * nothing if the face is in a plane of symmetry. context: pointer to the struct ends e; area: area of the face
+ * [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -77,9 +78,9 @@ struct pressed {
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
-/* Adds a free face of particle i, with its outward normal along `axis` towards `side` (-1 or 1), to the sum of areas of
- * the particle and, if there is one, to the list of faces. context: a struct pressed that holds both; area: of the face
- * [m^2]. */
+/* Adds the free face of particle i that is normal to `axis`, outwards in the direction `side` (-1 or 1), to the area
+ * vector of the particle. Also appends it to the list of faces if there is one. context: a struct pressed that holds
+ * both; area: of the face [m^2]. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {
     const struct pressed *a = context;
@@ -87,9 +88,9 @@ static void face_pressed(void *context, int32_t i, int axis, int side, real area
     if (a->faces) surface_face_add(a->faces, i, axis, side);
 }
 
-/* Makes load l a pressure on the reference surface: its particles are those with a free face, their shares the areas
- * along the inward normal. area[dim][p->n]: summed areas along the outward normal [m^2]. Returns false if no
- * particle has a free face. */
+/* Prepares load l, a pressure on the reference surface of a body: sets its particles to those with a free face, and the
+ * factors l->share of its value to their areas along the inward normal [m^2]. area[dim][p->n]: sum of the outward area
+ * vectors of the free faces of each particle [m^2]. Returns false if no particle has a free face. */
 static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
 {
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);

@@ -73,9 +73,10 @@ void load_set_particles(struct load *l, const uint8_t *selected, struct particle
     if (boundary_applies_force(l->boundary)) shares_allocate(l, p->dim);
 }
 
-/* Sets the particles of the traction l to those on its exposed face, which no particle covers, and their shares to
- * their areas: normal area for the normal component, tangential area for the others [m^2]. selected[p->n]: 1 for
- * particles in its region; spacing: lattice spacing [m]. */
+/* Sets the particles on which the traction l acts to those on the exposed face of the body, and the factors l->share of
+ * its components to their areas [m^2]. The area for tangential components differs from that for the normal one, so that
+ * the traction has the right moment. selected[p->n]: 1 for particles in the region of l; spacing: lattice spacing
+ * [m]. */
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;
@@ -90,9 +91,10 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     exposed_face_free(&face);
 }
 
-/* Sets the particles of the absorbing boundary l to those on its exposed face and behind it, and stores their areas
- * [m^2]: l->outer, and l->edge extrapolated to the face. selected[p->n]: 1 for particles in its region; spacing:
- * lattice spacing [m]. */
+/* Sets the particles of the absorbing boundary l to those in the exposed layer of the body and in the layer behind it.
+ * Stores two areas of each particle [m^2]: l->outer, which is 0 in the second layer, and l->edge, with which a sum over
+ * both layers extrapolates linearly to the face. selected[p->n]: 1 for particles in the region of l; spacing: lattice
+ * spacing [m]. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct exposed_face face;

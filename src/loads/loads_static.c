@@ -24,12 +24,13 @@ void static_boundaries_make(struct boundary *static_boundary, const struct bound
     }
 }
 
-/* Returns true if boundary b of a static problem prescribes different displacements to its particles, so that the work
- * of the support must be summed over particles. */
+/* Returns true if boundary b of a static problem prescribes displacements that differ between particles. The work of
+ * the support is then a sum over particles, not the total force times one displacement. */
 static bool works_by_place(const struct boundary *b) { return b->frozen && boundary_motion_varies_in_space(b); }
 
-/* Returns component d of the final prescribed displacement of particle number k of load l [m]; for k < 0 the
- * displacement at X = 0, which serves loads without particles. by: displacement that the load prescribes at the end. */
+/* Returns component d of the displacement [m] that load l prescribes for its particle number k at the end of a static
+ * problem. by: prescribed displacement at this time. For k < 0 returns the displacement at X = 0, for loads that have
+ * no particles or move all equally. */
 static real static_displacement(const struct prescribed_displacement *by, const struct load *l,
                                 const struct particles *p, int64_t k, int d)
 {

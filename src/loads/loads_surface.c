@@ -68,8 +68,8 @@ static int by_key(const void *a, const void *b)
     return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
 }
 
-/* Returns the key of a lattice site, which combines the number `body` of its body and the indices k[dim] of the site,
- * steps from the first particle of the body, in one integer. Returns -1 if an index needs more than SITE_BITS bits. */
+/* Returns an integer that identifies a lattice site. It combines the number `body` of its body with the indices k[dim]
+ * along the axes, counted from one particle of the body. Returns -1 if an index needs more than SITE_BITS bits. */
 static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
@@ -81,7 +81,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes the site k[dim] of particle i, from its body's first particle. Returns false if it is off the lattice. */
+/* Computes k[dim], the lattice indices of particle i from its body's first particle. Returns false off the lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -108,7 +108,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Makes the sorted list s->site of sites of all bodies with faces in f. Returns REFUSED if one is off the lattice. */
+/* Lists in s->site, sorted, the lattice sites of bodies with faces in f. Returns REFUSED if a particle is on none. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -128,7 +128,7 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns twice the distance of mirror m from the first particle of `body` [spacings]; odd if midway between sites. */
+/* Returns twice the distance of mirror m from the first particle of `body` [spacings]: odd midway between sites. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
@@ -173,7 +173,7 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
 
 /* ---- corners ----------------------------------------------------------------------------------------------------- */
 
-/* Computes the lattice site k[dim] above corner c of face f (c = 0 .. 1 in 2D, 0 .. 3 in 3D, around the face). */
+/* Computes k[dim], the lattice site with corner c of face f as its lower corner (c = 0 .. 1 in 2D, 0 .. 3 in 3D). */
 static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
 {
     const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
@@ -183,8 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of all faces of f without duplicates: sets a->corners and a->corner. Returns the corners of all
- * faces, sorted by site, with value = 4 face + position in the face; release with memory_free. */
+/* Numbers the corners of the faces f, one number for a corner of several faces: sets a->corners and a->corner. Returns
+ * all corners of faces, sorted by position, each with value = 4 face + corner; release the array with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -224,8 +224,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds to *t the particle (or source of an image) at lattice site `site` with weight `counts`, unless it is in *t or *t
- * is full. off[dim]: steps from the site above the corner to this site. Returns false if the site is empty. */
+/* Adds the particle (or source of an image) at lattice site `site` to *t with weight `counts`, unless it is there or *t
+ * is full. off[dim]: steps to `site` from the site above the corner that *t moves. Returns false if `site` is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -302,8 +302,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Computes the reference position of corner c: the weighted mean of the particles and images t, exact to round-off, so
- * that the forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
+/* Computes the reference position of corner c: the weighted mean of the particles and images t that move it, exactly,
+ * so that forces have no moment. first: first particle of the body; site[dim]: lattice site above c. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -316,7 +316,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Computes the stencil and the reference position of every corner. all: corners of all faces f, sorted by site. */
+/* Computes the particles that move each corner, and its position. all: corners of the faces f, sorted by position. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -341,7 +341,7 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-/* Lists in a for each particle of load l the corners that move with it. particles: number of all particles. */
+/* Lists in a, for each particle of load l, the corners that it moves. particles: number of particles in the run. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);
@@ -420,7 +420,7 @@ void load_surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if an edge of a face is longer than s->longest: its corners x[corners] belong to different fragments. */
+/* Returns true if an edge of a face is longer than s->longest: its ends, in x[corners], are in different fragments. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;
@@ -432,7 +432,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes half the area vector of a 2D segment at each end, to[2][2] [m^2]. x: ends [m]; sign: orientation, +-1. */
+/* Computes to[2][2], half the area vector of a 2D segment for each end [m^2]. x: ends [m]; sign: orientation, +-1. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -441,8 +441,8 @@ static void segment_area(const struct surface *s, const real *const *x, real sig
     }
 }
 
-/* Adds a sixth of the area vector of triangle a, b, c to each of its corners in to[4][3] [m^2]: a third, halved because
- * the triangles of both diagonals count. x: corners of the face [m]; sign: orientation, +-1. */
+/* Adds 1/6 of the area vector of triangle a, b, c to each of its corners in to[4][3] [m^2]: 1/3, halved because a face
+ * is divided along both diagonals. x: corners of the face [m]; sign: orientation, 1 or -1. */
 static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
 {
     real u[DIM_MAX], v[DIM_MAX];
@@ -454,8 +454,8 @@ static void triangle_add(const real *const *x, int a, int b, int c, real sign, r
     }
 }
 
-/* Computes the area vectors of the corners of a quadrilateral, to[4][3], zero before [m^2]: mean of both diagonals. x:
- * corners in order around it [m]; sign: orientation, +-1. */
+/* Computes to[4][3], each corner's share of the area vector of a quadrilateral [m^2]: mean of the divisions along both
+ * diagonals. to: 0 before; x: corners in order around it [m]; sign: orientation, 1 or -1. */
 static void quadrilateral_area(const real *const *x, real sign, real *to)
 {
     triangle_add(x, 0, 1, 2, sign, to);
@@ -464,7 +464,7 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
-/* Computes s->face_area of face q: area vector of each corner at present positions [m^2]; zero if it is torn. */
+/* Computes in s->face_area each corner's share of the present area vector of face q [m^2]; zero for a torn face. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;

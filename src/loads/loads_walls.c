@@ -8,7 +8,8 @@
 
 /* ---- walls of the grid ------------------------------------------------------------------------------------------- */
 
-/* Appends to set s the component `component` of node `node`, constrained by load number `load`. */
+/* Appends an entry to the list s of constrained node components: load number `load` prescribes the velocity of the
+ * component `component` of node `node`. */
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     GROW("loads.held", s->held, s->n + 1);
@@ -77,8 +78,8 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
-/* Returns true if the load may constrain nodes of grid g. Where bodies have separate grids, a load with prescribed
- * motion acts only on grids of bodies that have particles in its list. */
+/* Returns true if the load may constrain nodes of grid g. Where each body has a grid of its own, a load with prescribed
+ * motion constrains only the grids of bodies to which its particles belong. */
 static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
 {
     bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
@@ -94,9 +95,10 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
     for (int d = 0; d < g->dim; d++) x[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if `load` must not constrain node I of the mesh because of its position. This is so for nodes doubled by
- * slits, gaps between cells: the material of their cells decides whether they are driven, and on a mirror a slit may
- * separate their material from its image. Returns false without mesh or slits. */
+/* Returns true if the position of mesh node I does not tell whether `load` constrains it. This is so at slits, gaps
+ * between cells at which each side has its own node at the same position. Whether such a node is driven depends on the
+ * material of its cells. A plane of symmetry does not constrain it along an axis along which the slit separates its
+ * material from the mirror image. Returns false without mesh or slits. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -104,10 +106,11 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Lists in *s the components of nodes of g that regions and mirrors constrain by position, and adds the mirror nodes
- * to g. Must be called once for each box of nodes. mesh: the mesh whose grid g is, or NULL; reference: true if nodes
- * move with the material, so that regions of rotating loads count too. Nodes doubled by slits have no mirror nodes:
- * slits are refused where a mirror is between nodes. */
+/* Lists in *s the components of nodes of g that loads constrain because of the position of the node: in the region of a
+ * prescribed motion, or on a plane of symmetry. Adds nodes beyond such planes to g as mirror nodes, which copy the
+ * motion of another node. Nodes doubled by slits have no mirror nodes. Must be called once for each box of nodes. mesh:
+ * the mesh to which g belongs, or NULL; reference: true if nodes move with the material; only then regions of rotating
+ * loads constrain nodes, because the region rotates with the material. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -159,9 +162,9 @@ static bool point_is_on(const struct grid *g, const struct particles *p, int32_t
            (g->body == 0 || g->body == p->body[i] + 1);
 }
 
-/* Maps the mass of the material points of `load` that are on grid g to its nodes, in l->share[g->n] [kg]. k:
- * interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of these points;
- * if it is 0, l->share is not set. */
+/* Computes l->share[g->n] [kg]: the mass that each node of grid g receives from the material points of `load`. k:
+ * interpolation kernels; half_width: half the reference edge of a particle [m]. Returns the number of points of `load`
+ * on g. If it is 0, l->share is not set. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
 {
@@ -191,10 +194,10 @@ struct driven_by {
     struct wall wall[DIM_MAX]; /* only if `uniform`: by component, without node */
 };
 
-/* Returns the wall (prescribed velocity) for component d of node I at x[dim] [m], with its change since the previous
- * step for the material at the node. by: motion that the load prescribes; which: number of the load; reference: true if
- * nodes move with the material, as on a mesh. A displacement then also prescribes the displacement of the node at the
- * end of the step. */
+/* Returns the wall, which is the prescribed velocity of component d of node I at x[dim] [m], and its change since the
+ * previous step. by: motion that the load prescribes; which: number of the load; reference: true if nodes move with the
+ * material, as on a mesh. If so, and if the load prescribes a displacement, the wall also contains the displacement of
+ * the node at the end of the step. */
 static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x, int d, int which, bool reference)
 {
     const struct boundary *b = by->now.boundary;
@@ -209,9 +212,9 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
     return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
 }
 
-/* Adds walls (prescribed velocities) of load number `which` at the nodes that have at least half of their mass from its
- * points; their mass is in l->share. Skips nodes that the region of the load constrains already, since a second wall
- * would count the inertia of the node as a reaction. by: motion that this load prescribes. */
+/* Prescribes the velocity of the nodes of g that have at least half of their mass from points of load number `which`.
+ * l->share[g->n]: this mass [kg]. Skips node components that the load constrains already because the node is in its
+ * region; a second entry would count the inertia of the node as a reaction. by: motion that this load prescribes. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
                          const struct particles *p)
 {
@@ -284,9 +287,9 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Adds the mass that the points of `load` contribute to each node I of the mesh to share[I] [kg], and sets mark[I] = 1
- * for these nodes. All marks must be 0 before. At the first contribution to a node share[I] is overwritten, so that it
- * need not be cleared. */
+/* Adds up in share[I] the mass that each mesh node I receives from the points of `load` [kg], and sets mark[I] = 1 for
+ * these nodes. All marks must be 0 before. share[] need not be initialised, since the first mass of a node is stored
+ * and not added. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -300,8 +303,9 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
     }
 }
 
-/* Adds to l->constrained_mesh the nodes that have at least half of their mass from points of load number `which`, for
- * each component that it prescribes. */
+/* Lists in l->constrained_mesh the mesh nodes that have at least half of their mass from points of load number `which`,
+ * for each component of the velocity that it prescribes. Skips components that the load constrains already because of
+ * the node's position. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -339,8 +343,8 @@ void loads_find_driven_coarse_nodes(const struct loads *l, struct constrained_se
     if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, true);
 }
 
-/* Replaces the walls (prescribed velocities) of g by those of the constrained set `held`, for the step of size dt about
- * t [s]. g: a grid whose nodes move with the material; mesh: the mesh whose grid g is, or NULL. */
+/* Replaces the prescribed nodal velocities g->wall by those of the node components in `held`, for the step of size dt
+ * about time t [s]. g: a grid whose nodes move with the material; mesh: the mesh to which g belongs, or NULL. */
 static void reference_walls(const struct loads *l, const struct constrained_set *held, struct grid *g,
                             const struct mesh *mesh, real t, real dt)
 {

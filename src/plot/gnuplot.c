@@ -145,8 +145,9 @@ static void gnuplot_release(struct gnuplot *g)
 /* Factor on the height of a narrow picture of curves, whose key is below its panel. */
 static const double CURVES_HIGHER = 1.35;
 
-/* Returns the height of a picture that is laid out for width x height [pixel]: the one that the user has chosen or,
- * where only a width is chosen, the one that goes with it. letters: factor on the size of letters [1]. */
+/* Returns the height [pixel] of a picture that is laid out for width x height [pixel]. It is the height that the user
+ * has chosen. If the user has chosen only a width, the height of the layout is scaled with the width; a narrow picture
+ * of curves is made a little higher. letters: factor on the size of letters [1], which is 1 for pictures of curves. */
 static int height_for(int width, int height, double letters)
 {
     const double scale = usual.width ? (double)usual.width / width : 1;

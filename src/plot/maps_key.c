@@ -48,9 +48,9 @@ static double bar_tics(const struct bar_scale *s, int length)
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
 }
 
-/* Returns the length of a vertical bar [pixel]: the height of the panels, but at most BAR_HIGHEST, and at least the
- * length of the label without its unit if the picture is high enough. panels: height of all rows of panels; room:
- * height of the picture below the upper edge of the bar [pixel]. */
+/* Returns the length of a vertical colour bar [pixel]: the height of the panels, but at most BAR_HIGHEST. The bar is
+ * longer than low panels if its label, without the unit, needs this length and the picture has the space. panels:
+ * height of all rows of panels; room: height of the picture below the upper edge of the bar [pixel]. */
 static int bar_length(const struct bar_scale *s, int panels, int room)
 {
     const int label = (int)fmin(letter_wide() * (double)strcspn(s->label, "["), room - 40);
@@ -75,7 +75,8 @@ int bar_width_beside(const struct maps_shown *m, int panels)
     return (int)(BAR_FROM_NARROW + BAR_WIDE + NUMBERS_NARROW + numbers + LABEL_HALF + lines * letter_wide());
 }
 
-/* Writes the text at an end of the colour bar that says which share of the particles is beyond it, if any are. x, y:
+/* Writes beside one end of the colour bar which percentage of the particles have values beyond this end. Writes nothing
+ * if no particle has. end: 0 for the lower end, 1 for the upper one; particles: number of particles of a frame; x, y:
  * position of the text from the upper left corner of the picture [pixel]; adjust: `left` or `right`. */
 static void draw_beyond(FILE *to, const struct layout *l, const struct view *view, int64_t particles, int end, double x,
                         double y, const char *adjust)

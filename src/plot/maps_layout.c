@@ -21,8 +21,9 @@ static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger
 
 bool map_has_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
-/* Returns a layout in which only the margins of the panels are set, without the rows of bar and key below them. under:
- * bar or named values are below the panels; panels: height of all rows of panels [pixel]. */
+/* Returns a layout in which only the margins of the panels are set: above for the title, left for the axis, and right
+ * for the colour bar or the key. The lower margin is set by strip_set. under: the colour bar, or the key of a map of
+ * named values, is below the panels; panels: height of all rows of panels [pixel]. */
 static struct layout margins_of(const struct maps_shown *m, bool under, int panels)
 {
     const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_bar(m->map), titled = m->title[0];
@@ -50,8 +51,8 @@ static struct layout margins_of(const struct maps_shown *m, bool under, int pane
     return l;
 }
 
-/* Sets the number of entries in a row of the key below the panels, and the lower margin, for a picture of the given
- * width [pixel]. */
+/* Computes the number of entries in a row of the key below the panels, for a picture of the given width [pixel].
+ * Computes from it the margin below the panels, in which the axis labels, the colour bar and the key are. */
 static void strip_set(struct layout *l, int width)
 {
     l->key_columns = (int)fmax((width - KEY_LEFT) / fmax(l->entry, 1), 1);
@@ -82,8 +83,9 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
     return l;
 }
 
-/* Returns the layout with one margin for the bar on the right: a flat one has its unit in a line of its own, for which
- * the height of the panels must be known. */
+/* Returns the layout of a picture of `panels` panels in `columns` columns. It is computed twice, because the width of a
+ * colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
+ * the colour bar or key is below the panels; aspect: height over width of a panel. */
 static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect)
 {
     struct layout margins = margins_of(m, under, 0), l = layout_of(columns, panels, aspect, &margins);

@@ -24,8 +24,8 @@ struct faces {
     double *u[2], *weight[2];
 };
 
-/* Returns the position along the pre-crack [m] of a point X[2] [m], and stores its distance from the line [m], positive
- * on the left. */
+/* Returns the coordinate of the point X[2] [m] along the straight pre-crack f, from its first end [m]. Stores the
+ * distance of X from the line of the pre-crack in *off [m], positive on the left. */
 static double place_along(const struct faces *f, const double *X, double *off)
 {
     const double x = X[0] - f->from[0], y = X[1] - f->from[1];
@@ -33,8 +33,10 @@ static double place_along(const struct faces *f, const double *X, double *off)
     return f->along[0] * x + f->along[1] * y;
 }
 
-/* Adds the motion of particle i, if it is beside the pre-crack, to the section beside it: the drawn displacement of the
- * point of the face that is nearest to the particle in the reference state. */
+/* Adds the displacement of particle i to that of the adjacent face of the pre-crack. Does nothing if the particle is
+ * farther from the pre-crack than BESIDE spacings or badly damaged. Each face is divided into sections along the
+ * pre-crack. The displacement is extrapolated from the particle to the nearest point of the face by the deformation
+ * gradient, and is added, weighted by nearness, to the sum of the section there. */
 static void face_add_motion(struct faces *f, const struct plotted_particles *c, int64_t i)
 {
     const double X[2] = {c->reference[0][i], c->reference[1][i]}, *axis[2] = {c->camera.right, c->camera.up};
@@ -59,8 +61,10 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
 }
 
-/* Computes the drawn position of the face `side` at the position s [m] along the pre-crack: linear between the middles
- * of its sections. Returns false if no particle is beside it there. */
+/* Computes the drawn position x[2] [m] of a point of one face of the pre-crack: s [m] along the pre-crack, displaced by
+ * the mean displacement of the particles beside the face. This mean is interpolated linearly between the middles of the
+ * sections into which the face is divided. side: face, 0 or 1. Returns false if no particle is beside the section at
+ * s. */
 static bool face_at(const struct faces *f, int side, double s, double *x)
 {
     const double middle = s / f->section - 0.5;
@@ -92,7 +96,8 @@ static void line_paint(struct colour *pixel, int width, int height, const double
                 pixel[(int64_t)row * width + column] = c;
 }
 
-/* Paints the faces f into pixel[height][width] of the view v. */
+/* Paints both faces of a deformed pre-crack as lines into the image pixel[height][width], which shows the rectangle of
+ * the view v. Also fills the gap between the faces where it is too narrow to be seen. */
 static void faces_paint(struct colour *pixel, int width, int height, const struct view *v, const struct faces *f,
                         struct colour colour)
 {
@@ -118,7 +123,8 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
     }
 }
 
-/* Prepares the faces of a pre-crack with the two ends `corner` [m]. section: length of its sections [m]. */
+/* Initialises the two faces of a straight pre-crack, without displacements. Each face is divided into equal sections,
+ * at most `section` long [m]. */
 static void faces_make(struct faces *f, const struct crack *crack, double section)
 {
     *f = (struct faces){.from = {crack->corner[0][0], crack->corner[0][1]}};

@@ -30,9 +30,9 @@ struct span {
     double from, to;
 };
 
-/* Returns the range of value[n] without the lowest and the highest values. The share `share` of the values is left out
- * at each end, or `few` values (at most 1/20 of all) if these are more. sample[SAMPLE_MOST]: work array. Returns an
- * empty range if no value is finite. */
+/* Returns the range of value[n] without outliers: omits the largest and the smallest values, the share `share` of the
+ * values at each end. Omits `few` values at each end instead, but at most 1/20 of all, if these are more. Values that
+ * are not finite are ignored; returns an empty range if there are no others. sample[SAMPLE_MOST]: work array. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
     const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
@@ -111,9 +111,11 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
 static const double EXTREME = 0.002, HOT = 0.01, HOT_TIMES = 1.5;
 enum { EXTREMES_LEAST = 3 };
 
-/* Returns the end of the colours of one cloud: the magnitude above `low` (of fields of both signs the magnitude) that
- * few particles exceed, of those particles alone where it is not 0: a body is mostly at rest before a wave arrives, and
- * yields in a small part. sample[SAMPLE_MOST]: work array. Returns 0 if there is none. */
+/* Returns the largest magnitude for which the colour scale of a field has to suffice. The magnitude of a value is its
+ * distance above `low`, or its absolute value in a field of both signs. Only magnitudes above 0 count, because most of
+ * a body can be at rest or elastic. Of these a small share of outliers is omitted, and the result is limited to
+ * HOT_TIMES the magnitude that the share HOT of them exceeds. Returns 0 if there are none. sample[SAMPLE_MOST]: work
+ * array. */
 static double magnitude_of(float *sample, const struct plotted_particles *c, enum field_scale scale, double low)
 {
     const int64_t stride = c->n / SAMPLE_MOST + 1;

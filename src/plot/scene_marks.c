@@ -34,10 +34,11 @@ void marks_add_point(struct marks *m, const real *X, const double *vector)
     putc('\n', m->to);
 }
 
-/* Ends a line of positions in the current block of marks; the next position begins another line. */
+/* Interrupts the line in the current data block: positions that follow are not connected with those before. */
 static void mark_break(struct marks *m) { putc('\n', m->to); }
 
-/* Adds `text` as a line of the key. It describes the element that was added last to the plot command. */
+/* Adds an entry with the text `text` to the key of the picture. The entry belongs to the element (line, points or
+ * arrows) that was added last to the plot command. */
 static void key_line_add(struct marks *m, const char *text)
 {
     fputs("title ", m->plot);

@@ -58,10 +58,10 @@ static void cloud_add(struct plotted_particles *c, const real *x, int dim, doubl
     c->colour[c->n++] = colour;
 }
 
-/* Appends the particles p to the cloud c, coloured by material or body. part: all particles of the run. spacing: NULL
- * if p are the particles of the run. These have the spacing of the scene s, and peridynamic ones are darker if both
- * kinds occur. Otherwise p are points that represent coarse cells, and spacing[p->n] are the edges of the points
- * [m]. */
+/* Appends the squares of n = p->n particles p to the cloud c, coloured by material or body. With `spacing` NULL, p are
+ * the particles of the run, with the spacing of the scene s; if the run has material points and peridynamic particles,
+ * the latter are darker. Otherwise p are points that represent coarse cells, and spacing[n] are the edges of their
+ * squares [m]. part: all particles of the run. */
 static void cloud_add_particles(struct plotted_particles *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -190,16 +190,17 @@ static double arrow_length(const struct plotted_particles *c)
     return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
-/* Returns the number of entries in a row of the key with the marks m. wide: width of the panel [pixel], which gnuplot
- * does not exceed with several columns. */
+/* Returns how many entries of the key of m fit into one row below a panel of the width `wide` [pixel]; at least 1. It
+ * follows from the longest entry. (In several columns, gnuplot does not make the key wider than the panel.) */
 static int key_columns(const struct marks *m, double wide)
 {
     return (int)fmax(floor(wide / (SAMPLE_NARROW + LETTER_NARROW * fmax(m->letters, 1))), 1);
 }
 
-/* Returns the layout of a picture with the view v and the key of the marks m. untitled: there is no title; outside: of
- * a solid, which has no axes at its left. If panel and key do not fit into the size that the user has chosen
- * (picture_size_set), returns the layout of a larger picture of the same shape. */
+/* Returns the layout of a picture that shows the view v in one panel, and the key of m. untitled: the picture has no
+ * title; outside: the view is of a body in 3D from outside, so that no axis needs space on the left. If panel and key
+ * do not fit into the size that the user has chosen (picture_size_set), the layout is of a larger picture with the same
+ * ratio of width and height. */
 static struct layout scene_layout(const struct view *v, const struct marks *m, bool untitled, bool outside)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -317,8 +318,8 @@ static status draw_collected(struct sheet sheet, const struct marks *m, const st
     return gnuplot_close(&g);
 }
 
-/* Draws the run e, whose particles are in the cloud c. title: NULL for the usual one. Returns FAILED if gnuplot does.
- */
+/* Draws the run e, whose particles are in the cloud c. title: title of the picture, or NULL for the name of the scene
+ * with the number of particles. Returns FAILED if gnuplot fails. */
 static status draw_scene(struct sheet sheet, struct run *e, struct plotted_particles *c, const char *title)
 {
     char *elements = NULL, *data = NULL;

@@ -30,13 +30,13 @@ struct damped {
     const uint8_t *flag;
 };
 
-/* Returns true if entry i of a is damped with a mass of its own. Returns false for material points of the mesh, whose
- * mass moves with the nodes. */
+/* Returns true if bulk damping acts on entry i of a (a particle or a mesh node) by its own mass. Returns false for a
+ * material point of a mesh, since the nodes carry its mass. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
-/* Adds the energy that bulk damping has taken from entries first .. end - 1 of a struct damped since the previous step
- * to sum[0] [J]. context: the struct damped, with the previous velocities `before`. A block function of
- * reproducible_sums. */
+/* Adds to sum[0] the energy [J] that bulk damping has dissipated since the previous step in the particles or mesh nodes
+ * with the numbers first .. end - 1. context: a struct damped with their velocities v, and `before` at the previous
+ * damping. Called by reproducible_sums for each block of numbers. */
 static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -48,9 +48,10 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Multiplies the velocities of entries first .. end - 1 by the factor of the struct damped. Adds the momentum that they
- * lose to sum[0 .. dim - 1] [N s], and their kinetic energy before the change to sum[DIM_MAX] [J]. A function for
- * reproducible_sums; context: a struct damped. */
+/* Multiplies the velocities of the particles or mesh nodes with the numbers first .. end - 1 by the damping factor.
+ * Adds the momentum that they lose to sum[0 .. dim - 1] [N s], and their kinetic energy before the change to
+ * sum[DIM_MAX] [J]. context: a struct damped that holds the velocities. Called by reproducible_sums for each block of
+ * numbers. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;

@@ -95,9 +95,9 @@ struct pair_counts {
     real stretch, x;
 };
 
-/* Returns the distance between the points of a pair over their reference distance [1], or 0 below PARTED_LEAST, where
- * nothing is stored. middle[dim]: receives the position between them [m]; *axis: receives the axis along which they
- * are farthest apart. */
+/* Returns the present distance of two material points over their reference distance [1]. middle[dim]: receives the
+ * position midway between them [m]; *axis: receives the axis along which they are farthest apart. If the ratio is below
+ * PARTED_LEAST, returns 0 and stores nothing. */
 static real pair_stretch(const struct particles *p, const struct point_pair *pair, real *middle, int *axis)
 {
     const int32_t i = pair->a, j = pair->b;
@@ -112,9 +112,9 @@ static real pair_stretch(const struct particles *p, const struct point_pair *pai
     return sqrt(now / before);
 }
 
-/* Returns true if the cell at the position middle[dim] [m] and the cells on both sides of it along the axes other than
- * `axis` are empty of points. Such a gap separates the points; a single empty cell is a hole that the flow of points
- * fills. middle is overwritten. */
+/* Returns true if there is a gap between two points: the grid cell at the position middle[dim] [m] contains no points,
+ * nor do the cells next to it along the axes other than `axis`, along which the points are apart. A single empty cell
+ * is no gap, since flowing points fill it again. Overwrites middle. */
 static bool gap_at(const struct held_cells *h, real *middle, int axis)
 {
     uint64_t key;

@@ -27,8 +27,8 @@
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the step nearest to `step` after which all levels of coarse cells are at the same time: a multiple of
- * clock->stride, because coarser levels have longer time steps. */
+/* Returns the step nearest to `step` at which the coarse cells of all levels have reached the same time. Coarser cells
+ * have longer time steps, so this is so only after each multiple of clock->stride steps. */
 static int64_t common_step(const struct run_clock *clock, int64_t step)
 {
     return (step + clock->stride / 2) / clock->stride * clock->stride;
@@ -185,9 +185,9 @@ static status write_checkpoint(struct run *e)
     return OK;
 }
 
-/* Returns true if a checkpoint is due after a step or load step. If the scene gives an interval, it is due when this
- * has passed, in load steps always. Otherwise CHECKPOINT_SECONDS and CHECKPOINT_SHARE determine how rarely checkpoints
- * are written. */
+/* Returns true if a checkpoint is due after a time step or load step. If the scene gives an interval, it is due after
+ * this time, and after every load step. Otherwise it is due after CHECKPOINT_SECONDS, or after a load step, but only if
+ * checkpoints so far took less than the share CHECKPOINT_SHARE of the run time. */
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);

@@ -198,9 +198,9 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum, NULL);
 }
 
-/* Replaces momentum[dim], on entry the momentum after the step, by the momentum at time t [s] of a sample [kg m/s],
- * interpolated linearly between s->momentum (before t) and the one on entry. now: time of the present velocities, and a
- * factor on the interpolated momentum. */
+/* Computes the momentum at the time t of a sample [kg m/s]. On entry, momentum[dim] is the momentum after the step; it
+ * is replaced by the linear interpolation between s->momentum, the momentum before t, and this one. now->t: time of the
+ * velocities after the step [s]; now->scale: factor by which the result is multiplied [1]. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
@@ -248,8 +248,8 @@ static void sample_energies(struct run *e)
     };
 }
 
-/* Completes a sample with velocities and writes its line of history.csv. now: time of the present velocities; kinetic:
- * kinetic energy, work: external work at the time of the sample [J]. */
+/* Completes a sample with what requires velocities after the step, and writes its line of history.csv. now: time of
+ * these velocities and factor on them; kinetic, work: energy and external work at the time of the sample [J]. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -280,8 +280,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the difference [J] between the mean of the kinetic energies before and after the kick (velocity update) of a
- * step and m v_before . v_after/2. The part of absorbing dashpots, which act during the kick, is left out. */
+/* Returns a correction of the kinetic energy of a sample [J]: the mean of m v^2/2 before and after the velocity update
+ * of the step, minus m v_before . v_after/2. Absorbing dashpots, which act during the update, are left out. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -333,8 +333,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns true if forces alone change the velocities in the first step. This is not so for points on the grid with
- * APIC, or with supports that prescribe a velocity other than 0, or if bodies are in contact on the grid. */
+/* Returns true if forces alone change velocities in the first step. With material points on the grid, APIC, prescribed
+ * velocities other than 0 and contact between bodies on the grid change them as well. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -409,8 +409,8 @@ static void reactions_add(struct loads *l, const struct grid *g)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Adds the forces on nodes after the last step to the reactions of the loads. The forces on particles have been added
- * before. grid: grids of the current frame; NULL if no particle is on them. */
+/* Adds the forces on nodes with prescribed motion at the end of the run to the reactions of their loads [N]. Those on
+ * particles must have been added before. grid: grids of the current frame; NULL if no particle is on them. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -421,10 +421,10 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the power v . f [W] of the forces after the last step, after which nothing moves. It contains the work on
- * driven particles, but not that of walls (nodes with prescribed motion). No bond breaks, and the energies and impulses
- * recorded by the loads, except reactions, are restored. *held: receives the work that walls of grids and meshes would
- * do in that step [J]. */
+/* Returns the power v . f [W] of the forces at the end of the run. These are computed as in a further step, but nothing
+ * moves, no bond breaks, and the energies and impulses that the loads have summed are restored; only reactions are
+ * updated. The power includes the work on particles with prescribed motion, but not that on nodes with prescribed
+ * motion. *held: receives the work that grid and mesh nodes with prescribed motion would do in this step [J]. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;

@@ -32,8 +32,8 @@ enum { MOMENTS = 256 };        /* samples of a function of time */
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the largest speed of peridynamic particles, of points on the grid, and of nodes of the reference frame (there
- * by component) at present [m/s]. */
+/* Returns the largest present speed of peridynamic particles and of material points on the grid [m/s]. For nodes of the
+ * reference frame, the largest magnitude of a velocity component is used instead of the speed. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(particles_largest_speed_of_list(p, p->list[KIND_PD], p->n_of[KIND_PD]),
@@ -61,8 +61,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
     }
 }
 
-/* Returns the speed to which a load alone accelerates the fastest of its particles within the last `steps` steps [m/s];
- * for a prescribed motion its largest speed, for mirrors and absorbing faces 0. */
+/* Returns the speed to which a load alone accelerates the fastest of its particles within the last `steps` time steps
+ * [m/s]. For a prescribed motion returns its largest speed, and for mirrors and absorbing boundaries 0. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -304,9 +304,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* Returns FAILED, with a message, if a formula of a load had a value that is not finite in the last step: the impulse
- * of the loads is then not finite, and the formulas are evaluated at the times of the last steps. After the last step
- * of the run all formulas are evaluated once. */
+/* Returns FAILED, with a message, if the formula of a load has a value that is not finite. Such a value makes the
+ * impulse of the loads infinite or NaN, so that only then the formulas are evaluated at the times of the last steps. At
+ * the end of the run they are always evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
@@ -372,8 +372,9 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Sets the error that the run is unstable, with a message that contains step, time and the fastest particle. what: end
- * of the sentence "the fastest one of a body ..."; remedy: advice, at the end of the message. Returns FAILED. */
+/* Sets the error message that the run is unstable, with step, time and the position of the fastest particle, and
+ * returns FAILED. what: text after "the fastest one of a body", such as "whose velocities change sign in every step";
+ * remedy: advice at the end of the message. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);

@@ -77,8 +77,9 @@ static void zone_damp(struct run *e, struct step *now)
     loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
-/* Stores the velocities before bulk damping, from which its energy loss is computed. In the first step also damps the
- * velocities by half a step first; samples of t = 0 use the undamped ones. */
+/* Stores the velocities before the forces of this step, from which the energy loss by bulk damping is computed. In the
+ * first step it damps them by half a step before, because velocities are half a step behind positions from then on.
+ * Does nothing without bulk damping. now->decay: product of damping rate and time step [1]. */
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;

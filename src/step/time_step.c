@@ -15,12 +15,12 @@
 /* Returns true if cells of the grid have about two points per direction (1.7 to 2.3). */
 static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
 
-/* Returns the critical time step of points on a grid over h/(c + |v|) [1]: node distance h, wave speed c, speed v of
- * the points. n is the number of points per cell and direction. The values are empirical: slightly below the smallest
- * limit measured over all positions of the points in their cells, because a moving body passes through these. With FLIP
- * and MUSL the limit hardly depends on the mass of nodes beyond an edge. With APIC, whose strains follow from the
- * updated velocity, it decreases with the size of the points. Linear shapes are limited by points on nodes, where
- * round-off decides the cell (measured over 1500 steps); at other positions the limit is three times as large. */
+/* Returns the critical time step of material points on a grid, divided by h/(c + |v|) [1], with the node distance h,
+ * the wave speed c and the speed v of the points. The values are slightly below the smallest limits that were measured
+ * over all positions of points within their cells, because a moving body passes through all of them. With FLIP the
+ * limit hardly depends on n, the number of points per cell and direction; with APIC it does. With linear shape
+ * functions the smallest limit is that of points exactly on nodes, where round-off decides to which cell they belong;
+ * elsewhere it is three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -38,13 +38,12 @@ static real points_share(const struct scene *s)
     }
 }
 
-/* Returns the factor on the critical step of points for nearly incompressible materials: min(1, sqrt((5/3)/r)) with the
- * stiffness ratio r = 1 + (dim - 1) c12/c11 [1]. Nodes that move against each other in all directions have the
- * stiffness c11 + (dim - 1) c12, waves have c11; r approaches 2 in the plane and 3 in space as nu approaches 1/2. The
- * limits of points_share were measured up to r = 5/3 (nu = 1/4 in space). From nu = 0.25 to 0.499 in space, measured
- * limits fall to 0.80 (FLIP) and 0.76 (APIC), and this factor to 0.75. Linear shapes with two points per cell and
- * direction are limited by points on nodes at any ratio, so their factor is 1: 1.01 to 1.07 h/c in space from nu = 0.25
- * to 0.499, 0.84 to 0.88 in plane strain. */
+/* Returns a factor on the critical time step of material points that accounts for nearly incompressible materials [1].
+ * Neighbouring nodes that move against each other in all directions feel the stiffness c11 + (dim - 1) c12, a plane
+ * wave only c11; r is the ratio of both. The limits of points_share were measured for r up to 5/3, so the factor is
+ * sqrt((5/3)/r), at most 1. (Measured in 3D from nu = 0.25 to 0.499: limits fall to 0.76 to 0.80, the factor to 0.75.)
+ * The factor is 1 for linear shape functions with two points per cell and direction, whose limit does not depend on
+ * r. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
@@ -83,7 +82,9 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * does not resolve. Measured where few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
-/* Returns the factor by which the critical time step of bonds is multiplied for a coupling method [1]. */
+/* Returns the factor on the critical time step of bonds for a coupling method [1]. It differs from 1 if the grid moves
+ * peridynamic particles: it is larger where the grid does not resolve the shortest waves of the bonds, and smaller
+ * where FLIP retains motion that the grid does not resolve. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -98,9 +99,9 @@ static bond_force_fn *elastic_force(const struct scene *s, const struct kernels 
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Returns the smallest critical time step [s] of infinite lattices, one of each material of `all`. force: force
- * function of bonds. *bound: receives the smallest estimate by row sums of the stiffness matrices of these lattices
- * [s]. */
+/* Returns the smallest critical time step [s] of infinite lattices with the family of `all`, one lattice for each
+ * material. force: force function of the bonds. *bound: receives the smallest of the lower bounds of these time steps
+ * that follow from the row sums of the stiffness matrices [s]. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {
@@ -126,10 +127,12 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
  * takes the time of about 30 rounds of a few time steps each. */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical time step of the bonds [s]; INFINITY without bonds. For a small peridynamic body, or one that is
- * not on a lattice, the highest frequency of the whole body is found by iteration; else that of a block of its lattice.
- * The step of a block is then multiplied by min(1, row-sum estimate of the body/row-sum estimate of the block). This
- * factor is below 1 for scattered particles, corrected surfaces and heavy neighbours. */
+/* Returns the critical time step of the bonds [s]. Returns INFINITY for the method mpm, which has no bonds, and the
+ * time in which a wave crosses one spacing for a peridynamic body without bonds. In a small peridynamic body, or one
+ * that is not on a lattice, it follows from the highest frequency of the body, found by iteration. Otherwise it follows
+ * from the highest frequency of an infinite lattice. Scattered particles, bonds near surfaces and heavy neighbours can
+ * make the body stiffer than this lattice. Therefore the step is multiplied by the ratio of the bound from row sums of
+ * the body's stiffness matrix to that of the lattice, if this is below 1. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -166,11 +169,11 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
     return OK;
 }
 
-/* Returns the largest admissible ratio of the time step to the critical step of contact [1]. Contact begins and ends
- * within steps, which changes the energy by up to k u^2/2 with the displacement u in a step. Measured change per
- * collision: bars of 50 particles in a plane 0.3 % at 0.8 and 0.1 % at 0.5; bars of 100 particles in a line, whose
- * faces meet in one step, 1 % at 0.8 and 0.1 % at 0.35. Crack faces of one body approach slowly: 0.7. If safety is
- * above 1, contact within a body does not limit the step. */
+/* Returns the largest admissible ratio of the time step to the critical time step of contact [1]. Contact that begins
+ * or ends within a step changes the energy by up to k u^2/2, with the contact stiffness k and the displacement u in the
+ * step. The values keep this change to about 0.1 % per collision: bars in 2D changed by 0.3 % at 0.8 and 0.1 % at 0.5;
+ * bars in 1D, whose faces meet in a single step, by 1 % at 0.8 and 0.1 % at 0.35. Faces of a crack approach slowly, so
+ * their value is 0.7, or INFINITY (no limit) if the safety factor of the scene is above 1. */
 static real contact_safety(const struct scene *s)
 {
     if (!scene_bodies_can_meet(s)) return s->safety > 1 ? INFINITY : 0.7;

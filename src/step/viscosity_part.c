@@ -88,9 +88,9 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
-/* Computes the viscous pressure v->pressure of the points on the grid from the growth of their volumes in the previous
- * step, and adds the energy that the pressure dissipated to v->taken. partial: parts of the stress that bonds carry;
- * dt: duration of that step [s]. */
+/* Computes v->pressure, the viscous pressure of the material points on the grid, from the growth of their volumes in
+ * the previous step. Adds the energy that the pressure dissipated in that step to v->taken. partial: shares of the
+ * stress of points that bonds carry instead of the points (PD-MPM bonds); dt: duration of that step [s]. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
 {
@@ -157,9 +157,9 @@ static real invert_gradient(const real *F, int dim, real *inverse)
     return J;
 }
 
-/* Replaces the displacement gradient H[dim dim][i] of point i by the tensor of its viscous nodal forces, volume0 J q
- * F^-T [N m], with the viscous pressure q and the determinant J of F = 1 + H. The nodal forces follow by multiplication
- * with gradients of shape functions. partial: parts of the stress that bonds carry; G: velocity gradients, [dim
+/* Replaces the displacement gradient H[dim dim][i] of point i of a mesh by volume0 J q F^-T [N m], with the viscous
+ * pressure q and the determinant J of F = 1 + H. Multiplied by the gradients of the shape functions, this tensor gives
+ * the viscous forces on nodes. partial: shares of the stress of points that bonds carry; G: velocity gradients, [dim
  * dim][points] [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
