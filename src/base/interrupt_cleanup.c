@@ -19,11 +19,10 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Handles the signal `number`, which ends the process. Ends the child processes and waits for them, since they could
- * otherwise create their files again; removes the temporary files; ends the process by the same signal. Calls only
- * functions that are safe in a handler. Files and children are created by the thread `maker` alone, which blocks
- * signals while it starts a child. Another thread only forwards the signal to `maker`, which would otherwise continue
- * to create them. */
+/* Handles the signal `number`, which ends the process: ends the child processes and waits for them, since they could
+ * otherwise create their files again, removes the temporary files, and ends the process by the same signal. Only the
+ * thread `maker` creates files and children. If the signal reaches another thread, it is forwarded to `maker`, which
+ * would otherwise go on creating them. Calls only functions that are safe in a signal handler. */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {

@@ -98,9 +98,9 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* Removes the smallest block of at least `least` and at most 4 `least` bytes from the store of released blocks and
- * returns it. large: the block must have large pages, else it must not. Returns a block with `whole` NULL if there is
- * none. */
+/* Removes a block from the store of released blocks and returns it: the smallest one with at least `least` and at most
+ * 4 `least` bytes. large: true to consider only blocks with large pages, false only those without. Returns a block with
+ * `whole` NULL if there is none. */
 static struct block take_kept(size_t least, bool large)
 {
     struct block block = {0};

@@ -32,8 +32,9 @@ static struct memory_limit memory;
 /* The name of the processor, "" before the topology of the machine has been read. */
 static char processor[128];
 
-/* Stores the size of the machine's memory, or the smallest limit below it, in `memory`. topology: of the machine, from
- * hwloc; NULL: the figure of the system alone is used. */
+/* Stores the memory of the machine in `memory` [byte], or the smallest limit for this process if that is lower.
+ * topology: topology of the machine from hwloc, which states its memory; NULL: the memory is read from the operating
+ * system. */
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;

@@ -70,10 +70,10 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Returns the largest squared frequency of a free rigid body with particles in contact on both sides [1/s^2]; 0 if no
- * rigid body is free. It assumes one particle for each spacing of both faces, with a contact stiffness of 2 k each. m:
- * material of the particles; stiffness: k over the squared particle volume [N/m^7]; volume: volume of a particle
- * [m^3]. */
+/* Returns the largest squared frequency [1/s^2] of a freely moving rigid body in contact with particles on two opposite
+ * sides. It is assumed that each face has one particle per spacing, with a contact stiffness of 2 k each. Returns 0 if
+ * no rigid body moves freely. m: material of the particles; stiffness: k over the squared volume of a particle [N/m^7];
+ * volume: volume of a particle [m^3]. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -87,13 +87,15 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Returns the critical time step of bodies in contact [s], or INFINITY if contact is not possible. bonds_time_step:
- * critical time step of their bonds alone [s]; material: the materials.
- * Two particles in contact have the squared frequency 2 k/mass, with the stiffness k of a contact. A particle of a
- * flat face has half of its bonds. Opposite it is one particle of the other face, or two in 2D and three in 3D, at
- * 60 degrees or more to the face: a normal stiffness of 1, 1.5 and 2 k in total. Rubble, with up to eight contacts
- * per particle, needs 0.61 of the critical step of the bonds in 2D; the safety factor where bonds may break is 0.5.
- * (The rule of LAMMPS adds contact with all 2, 8 or 26 neighbours to full families.) */
+/* Returns the critical time step of bodies in contact [s]. Returns INFINITY if contact is not possible.
+ * bonds_time_step: critical time step of the bonds of these bodies alone [s]; material: the materials.
+ * The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
+ * Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step counts half.
+ * Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal stiffness of all
+ * contacts of one particle is 1 k in 1D, 1.5 k in 2D and 2 k in 3D (1, 2 or 3 opposite particles, at angles of at least
+ * 60 degrees to the face). With the contact distance of LAMMPS, full families and contact with all 2, 8 or 26
+ * neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the bonds' critical
+ * step in 2D, which the safety factor 0.5 for breaking bonds covers. */
 real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
                                 real bonds_time_step)
 {
@@ -124,9 +126,9 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Computes contact for all rows of the contact list (particles that may come into contact) in parallel. If the law has
- * the form `surface`, only the gaps are computed, and faces_force adds the forces afterwards; if it has the form
- * `pair`, the forces are added to p->f. all: receives number of contacts, largest overlap and its particle. dt: time
+/* Evaluates the contact of all particles near faces, the rows of the contact list, in parallel. In a law of the form
+ * `pair` the forces are added to p->f. In the form `surface` only the gaps are computed, from which faces_force
+ * computes the forces afterwards. all: receives the number of contacts, the largest overlap and its particle. dt: time
  * step [s]. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
@@ -148,9 +150,9 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
     }
 }
 
-/* Adds the contact forces of a law of the form `surface`, friction included, to p->f, in two passes over the rows of
- * the contact list (particles that may come into contact). rows_sweep must have computed the gaps. dt: time step
- * [s]. */
+/* Adds the contact forces of a law of the form `surface`, friction included, to p->f, for all particles near faces (the
+ * rows of the contact list). Friction is added in a second pass, since it requires the friction springs of all rows,
+ * which the first pass advances by the time step dt [s]. rows_sweep must have computed the gaps before. */
 static void faces_force(struct contact *c, struct particles *p, real dt)
 {
 #pragma omp parallel

@@ -50,10 +50,10 @@ void contact_density_profile_make(struct contact_profile *profile, int dim)
     }
 }
 
-/* Returns the height of a position above the particles of a face [spacings], which the law of contact calls its depth,
- * from the density of the face there (weighted number of its particles nearby), by the table `profile`. *slope:
- * receives the derivative by the density. The height is cubic between the nodes of the table, linear for higher
- * densities and constant for lower ones. */
+/* Returns the height of a point above the layer of particles of a face [spacings], from the density of the face at this
+ * point. The density is the number of particles nearby, weighted by a kernel. profile: table of heights over densities,
+ * interpolated by cubics; linear for densities above its range and constant below. *slope: receives the derivative of
+ * the height by the density. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -77,9 +77,10 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns the weight with which the particle of list entry l counts in the density of a face at the particle of list
- * entry k: the spacing of l over the mean of both spacings, to the power dim - 1 [1]. The list contains the particles
- * that may come into contact. *reach: receives the distance beyond which l does not count [m]. */
+/* Returns the weight m_l of a particle of a face in the density of the face, which is the sum of m_l W(r/reach) over
+ * particles l near another particle, with the kernel W and the distance r. k, l: entries of both particles in the
+ * contact list. The weight is the spacing of l over the mean of both spacings, to the power dim - 1 [1]. *reach:
+ * receives the distance at which W becomes 0 [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -93,9 +94,10 @@ struct face_field {
     real density, mean;
 };
 
-/* Computes the density of the faces around the particle of row `row` of the contact list (particles that may come into
- * contact), and their mean rise: height of the surface above its particles, minus 1/2 spacing. place[dim][particles]:
- * positions, present or reference [m]. */
+/* Computes the density of the faces around the particle of row `row` of the contact list (number of particles of its
+ * pairs, weighted by a kernel of the distance), and the weighted mean of their rises. The rise of a particle is the
+ * height of the body's surface above it minus 1/2 spacing. place[dim][particles]: present or reference positions
+ * [m]. */
 static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
                                        int64_t row)
 {
@@ -122,9 +124,9 @@ struct face_gap {
     bool leans;
 };
 
-/* Computes height and gap [spacings] of a particle above a face, and their derivative by the density of the face.
- * field: density and mean rise of the face at the particle (rise: height of the surface above its particles); zero:
- * height at which contact begins [spacings]. */
+/* Computes the height of a particle above a face, the gap between both surfaces [spacings], and the derivative of both
+ * by the density of the face. field: density of the face at the particle, and mean rise of the face, the height of its
+ * surface above its particles minus 1/2; zero: height at which contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -166,8 +168,8 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
                                                                        : 0;
 }
 
-/* Returns the derivative of the contact energy of list entry k by the weight with which list entry l counts in the
- * density of the face at k [J]. The list contains the particles that may come into contact. */
+/* Returns the derivative [J] of the contact energy of the particle with entry k in the contact list by the weight with
+ * which another particle, with entry l, counts in the density of the face at the first one. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -192,9 +194,9 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
     return w;
 }
 
-/* Adds the contact force on the particle of row `row` of the contact list (particles that may come into contact) to
- * p->f. It consists of the derivatives of the contact energy of this row, and of the energies of all rows in whose
- * density of the face this particle counts. */
+/* Adds the contact force on the particle of row `row` of the contact list to p->f. The energy of a particle near a face
+ * depends on the density of the opposite face, a weighted sum over its particles. So the force has two parts: the
+ * derivative of the particle's own energy, and those of the energies of all particles in whose densities it counts. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -238,9 +240,9 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
 
 /* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* Returns the stiffness k of row `row` of the contact list (particles that may come into contact), for gaps in spacings
- * [J]. It is that of the softest of its pairs with other particles, or, without pairs, that of two particles like its
- * own. */
+/* Returns the contact stiffness [J] of the particle of row `row` of the contact list, for gaps in spacings. It is the
+ * smallest stiffness of its pairs with other particles. Without pairs it is that of a pair of two particles like this
+ * one. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -266,9 +268,10 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns a lower bound of the gap of row `row` of the contact list [spacings]. The gap contains the mean rise of a
- * face (height of its surface above its particles), which changes abruptly when a particle comes into range; the bound
- * contains the largest rise of the row's pairs instead. field: density of the face at the particle. */
+/* Returns a lower bound of the gap between the particle of row `row` of the contact list and a face [spacings]. The gap
+ * depends on the mean rise of the face, the height of its surface above its particles, which jumps when another
+ * particle comes into range. The bound uses the largest rise of the particle's pairs instead. field: density of the
+ * face at the particle. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
     struct face_field highest = *field;
@@ -288,11 +291,11 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* Determines, after a search, the height above the face at which contact of row `row` of the contact list begins
- * (c->face[row].zero). previous_entry: row of the particle in the previous list `previous`, -1 if it was not in it. A
- * row that is in contact already gets the overlap at which its energy does not change. For any other row, contact
- * begins where the surfaces of the bodies meet, or at a smaller height if the particle is closer in the reference or
- * the present configuration. */
+/* Computes, after a search, c->face[row].zero, the height above the opposite face at which contact of the particle of
+ * row `row` begins. For a particle already in contact it is such that its contact energy does not change. For others it
+ * is the height at which the surfaces of the bodies meet, or less if the particle is closer in the reference or the
+ * present configuration, so that contact begins without a force. previous: contact list before the search;
+ * previous_entry: row of the particle in it, -1 if none. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row)
 {

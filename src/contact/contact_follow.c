@@ -4,16 +4,16 @@
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Returns false if the faces near the particle of row `row` of the contact list are so far away that they cannot come
- * into contact with it before the next search. Until then both sides approach by at most half of CONTACT_SKIN
- * spacings. */
+/* Returns false if the faces near the particle of row `row` of the contact list are so far away that contact is
+ * impossible before the next search. Until then the particle and the faces move by at most half of CONTACT_SKIN
+ * spacings each. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Returns true if row `row` of the contact list (particles that may come into contact), or a row with which its
- * particle forms a pair, may come into contact before the next search. Returns false if the row has no pairs. */
+/* Returns true if contact is possible before the next search for the particle of row `row` of the contact list, or for
+ * one of the particles with which it forms a pair. Returns false if it has no pairs. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -40,9 +40,9 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if the other row of one of the pairs of row `row` is marked ROW_ACTIVE, i.e. its contact is evaluated.
- * Reads and writes of marks are atomic: meanwhile other threads may change marks from ROW_NEAR to ROW_SOURCE, which
- * does not change the answer. */
+/* Returns true if the contact of a particle that forms a pair with that of row `row` is evaluated: its row in the
+ * contact list is marked ROW_ACTIVE. Marks are read atomically, since other threads may change marks from ROW_NEAR to
+ * ROW_SOURCE meanwhile, which does not change the result. */
 static bool beside_active(const struct contact *c, int64_t row)
 {
     bool beside = false;
@@ -55,9 +55,9 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks as ROW_ACTIVE, so that their contact is evaluated, the rows of the contact list that may come into contact and
- * have a moving particle in their pairs. Marks the other rows of these pairs, on which contact forces act too, as
- * ROW_SOURCE. Returns true if a row was newly marked ROW_ACTIVE. */
+/* Marks the rows of the contact list whose contact has to be evaluated from now on as ROW_ACTIVE: contact is possible,
+ * and their particle or one of its pairs has begun to move. Marks the rows of their pairs, whose particles then
+ * experience contact forces as well, as ROW_SOURCE. Returns true if a row was newly marked ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;

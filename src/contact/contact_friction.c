@@ -66,9 +66,9 @@ struct contact_partner {
     real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
-/* Computes the normal force on the particle of row `row` of the contact list, and density, mean position and mean
- * velocity of the face near it, at the positions x - lag v of a time `lag` before now [s]. Other members of the result
- * are 0. */
+/* Computes the normal force on the particle of row `row` of the contact list, the density of the face near it, and the
+ * mean position and velocity of the particles of this face, weighted as in the density. All are those at the positions
+ * x - lag v, a time `lag` before now [s]. Other members of the result are 0. */
 static struct contact_partner partner_mean(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner sum = {.density = 0};
@@ -106,9 +106,10 @@ static real quadratic_form(const real *tensor, const real *e)
     return sum;
 }
 
-/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the particles of a face near a particle.
- * inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, which bounds
- * the forces that a moment causes on the particles. Axes with too small inertia, or too large forces, are left out. */
+/* Computes to->inverse, the pseudo-inverse of the inertia tensor I of the face near a particle. Principal axes are left
+ * out if their inertia is too small, or if a moment about them would cause too large forces on the particles of the
+ * face. inertia[6]: I, in the order xx, yy, zz, xy, yz, zx [m^2]; squares[6]: the same sum with squared weights, from
+ * which these forces are estimated. */
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
@@ -122,9 +123,9 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the rotation of the face near row `row` of the contact list about its mean position: to->inverse, the
- * pseudo-inverse of its inertia tensor, and omega[3], its angular velocity [1/s], at the positions x - lag v of a time
- * `lag` before now [s]. *to must contain density, arm and velocity of the face. */
+/* Computes the rotation of the face near the particle of row `row` of the contact list about its mean position. Stores
+ * the pseudo-inverse of its inertia tensor in to->inverse and its angular velocity in omega[3] [1/s]. Uses the
+ * positions x - lag v, a time `lag` before now [s]. to->density, arm and velocity must be set. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -145,8 +146,9 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Returns the rigid motion of the face near the particle of row `row` of the contact list, and the slip, the velocity
- * of the particle relative to it, at the positions x - lag v of a time `lag` before now [s]. */
+/* Returns the motion of the face near the particle of row `row` of the contact list, seen as a rigid body. Also returns
+ * the slip: the velocity of the particle relative to this motion at its position. Uses the positions x - lag v, a time
+ * `lag` before now [s]. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -183,8 +185,8 @@ void contact_face_advance_friction_spring(struct contact *c, const struct partic
     }
 }
 
-/* Adds to f[dim] the reaction on the particle of row `row` of the contact list to the friction on the particle of row l
- * [N]. The particle of row l touches the face that contains the particle of row `row`. */
+/* Adds to f[dim] [N] the reaction to the friction force on the particle of row l of the contact list. The reaction acts
+ * on the particle of row `row`, which is a part of the face that the particle of row l touches. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];

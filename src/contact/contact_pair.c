@@ -52,10 +52,11 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_pair_vector(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Returns the distance at which contact between the particles of list entries k and l begins [m]: the smaller of their
- * distance in the reference configuration and their mean spacing, minus the width of a notch between them. If a new
- * pair is closer than that, it is its present distance until the pair opens. previous_distance: that distance in the
- * list before the present search [m], NAN if the pair was not in it. Bitwise equal for (k, l) and (l, k). */
+/* Returns the distance at which contact between the particles of list entries k and l begins [m]. It is their distance
+ * in the reference configuration or their mean spacing, whichever is smaller, minus the width of a notch between them.
+ * A new pair that is closer than that begins contact at its present distance, without a force; when the pair opens,
+ * this distance grows with it up to the first value. previous_distance: result for this pair at the search before [m],
+ * NAN for a new pair. Bitwise equal for (k, l) and (l, k). */
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                                  real previous_distance)
 {

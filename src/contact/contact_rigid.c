@@ -45,8 +45,8 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_be_within_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Returns the entry that particle `particle` had in the list of particles near rigid body `body` before the present
- * search, or -1 if it was not in that list. before: contact before the search. */
+/* Returns the entry of particle `particle` in the list of particles near rigid body `body`, as it was before the
+ * present search. Returns -1 if the particle was not in it. before: contact before the search. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_list_find_particle(before, particle) : -1;
@@ -61,10 +61,10 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists in c->near[body] the rows of the contact list whose particles may come into contact with rigid body `body`
- * before the next search, those with a gap below `skin` [m]. before: contact before this search, from which friction
- * springs and gaps are copied. If a new particle overlaps the body already, its contact begins at that gap until the
- * gap opens. */
+/* Lists in c->near[body] the particles of the contact list that may come into contact with rigid body `body` before the
+ * next search: those with a gap below `skin` [m]. Friction springs and the gaps at which contact begins are copied from
+ * `before`, the contact before this search. For a new particle that already overlaps the body, contact begins at its
+ * present gap, without a force, and at larger gaps as the gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -132,9 +132,9 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of rigid body `body` with the particle of entry q in the list of particles near it [m]; 0 if
- * contact does not act. In equilibria, marks determine which contacts act, and the overlap can be negative. normal:
- * receives the outward unit normal of the body. */
+/* Returns the overlap [m] of rigid body `body` with a particle, entry q in the list of particles near the body; 0 if
+ * they are not in contact. While an equilibrium is computed, marks determine which contacts act, and the overlap of
+ * such a contact can be negative. normal: receives the outward unit normal of the body. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
@@ -156,8 +156,9 @@ real contact_patch_bounding_box_diagonal(const struct contact *c, const struct p
     return sqrt(width2);
 }
 
-/* Updates the account of the energy that contact gains or loses by time integration, for the contact of rigid body
- * `body` with the particle of entry q in the list of particles near it. Must be called once per time step. */
+/* Updates the energy error that time integration has made in the contact of rigid body `body` with a particle, and the
+ * small force that compensates it. q: entry of the particle in the list of particles near the body. Must be called once
+ * per time step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];

@@ -11,17 +11,17 @@ enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces op
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Returns the volume of bonded neighbours, relative to that of a full family, below which a particle counts as part of
- * the first layer of a body, next to a face [1]. Particles of the first layer have 0.50 (1D) to 0.67 (2D, horizon of
- * two spacings), those of the second layer 0.79 or more at horizons of 3 spacings. With bonds to nearest neighbours
- * alone the first layer has up to 5/6 and the second a full family. */
+/* Returns a limit by which particles at the surface of a body are recognised: the volume of the bonded neighbours over
+ * that of a full family [1]. The first layer of particles at a face is below the limit, the second above. In bodies
+ * with horizons of 2 to 3 spacings, the share is 0.50 (1D) to 0.67 (2D) in the first layer and 0.79 or more in the
+ * second. With bonds to nearest neighbours alone it is up to 5/6 in the first layer and 1 in the second. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Returns true if the volume of the neighbours in row `row` of the bonds, minus the volume `lost`, is below `least`
- * [m^3], or if there is no row (row = -1). */
+/* Returns true if a particle has few bonded neighbours: their volume minus `lost` is less than `least` [m^3]. row: row
+ * of the particle in the bonds b; -1 for a particle without bonds, which also returns true. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
@@ -72,8 +72,9 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* Returns the rise at particle i: the height of the body's surface above it, by the shape of the body in the scene,
- * minus 1/2 [spacings]; 0 at faces that cracks have made inside the body. size: spacing of the particle [m]. */
+/* Returns the rise at particle i: the height of the surface of the body's shape above the particle, minus 1/2
+ * [spacings], limited to -RISE_MOST from below. It is 0 on a lattice that fits the shape, and is set to 0 for particles
+ * deep inside the shape, at faces that cracks have made. size: spacing of the particle [m]. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -177,8 +178,8 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     }
 }
 
-/* Allocates c->other for all pairs, and makes c->first[row + 1] the end of the pairs of row `row` in it; before, the
- * entry is the number of these pairs. Rows are those of the contact list. */
+/* Converts c->first[row + 1] from the number of pairs of row `row` of the contact list to the end of these pairs in the
+ * array c->other, and allocates this array. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -217,8 +218,9 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Returns the distance at which contact of particle j with the particle of row `row` began in the list before the
- * present search, `before` [m]; NAN if that list does not contain the pair, or if row = -1. */
+/* Returns the distance [m] at which contact of particle j with the particle of row `row` began, according to the
+ * contact list before the present search, `before`. Returns NAN if that list does not contain the pair, or if row =
+ * -1. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;

@@ -10,8 +10,8 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-/* Allocates the marks of a new contact list, all 0; 1 will mark contacts that act in the equilibrium. There is one for
- * each row or pair, by the form of the law, and one for each particle listed near a rigid body. */
+/* Allocates the marks that select which contacts act in an equilibrium, all 0 (none). There is a mark for each particle
+ * near a face (form `surface`) or for each pair (form `pair`), and one for each particle near a rigid body. */
 static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
@@ -30,9 +30,9 @@ void contact_selection_activate_all(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets *touch, 1 for a contact that acts in the equilibrium, else 0, from the gap of the contact [spacings]. A contact
- * becomes active at gaps below `close`, and stays active up to gaps of KEPT [spacings]. Returns true if the mark has
- * changed. */
+/* Sets *touch, the mark of a contact, from its gap [spacings]: 1 if the contact acts in the equilibrium, else 0. An
+ * inactive contact becomes active at gaps below `close`, and an active one stays active up to gaps of KEPT or `close`,
+ * whichever is larger. Returns true if the mark has changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -40,17 +40,17 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns the gap below which contact of row `row` of the contact list with list entry l becomes active [spacings]:
- * `close` if their particles are in different bodies, 0 if they are in one body, since the faces of a crack coincide
- * without force. */
+/* Returns the gap below which the contact of the particles with the entries `row` and l in the contact list becomes
+ * active [spacings]. It is `close` for particles of different bodies. It is 0 within one body, because the faces of a
+ * crack are in contact without a gap and without force at first. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_source_particle(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
-/* Sets the marks of row `row` of the contact list, 1 for contacts that act in the equilibrium, from their gaps. close:
- * gap below which contacts of different bodies become active [spacings]. Returns the number of marks that have
- * changed. */
+/* Marks which contacts of the particle of row `row` of the contact list act in the equilibrium, according to their
+ * gaps. close: gap below which contacts of different bodies become active [spacings]. Returns the number of marks that
+ * have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -125,8 +125,8 @@ struct visit {
     struct contact_term term;
 };
 
-/* Calls v->visit for each active contact of the particle of row `row` of the contact list with another particle,
- * described as a linear spring. Only for laws of the form `pair`. */
+/* Calls the function v->visit for each pair that the particle of row `row` of the contact list forms in an active
+ * contact, which is passed as a linear spring. Only for laws of the form `pair`. */
 static void pair_terms(struct visit *v, int64_t row)
 {
     const struct contact *c = v->c;

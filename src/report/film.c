@@ -28,8 +28,8 @@ static void *copy_of(const void *from, int64_t n, size_t size)
     return to;
 }
 
-/* Returns true if a frame has the particles of the particle set s: their number, reference positions and sizes are
- * equal. */
+/* Returns true if the particles of a frame are those of the particle set s: their number, reference positions and sizes
+ * are equal. A particle set is what consecutive frames have in common until particles are added or removed. */
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
     bool same = s->n == frame->n && !s->size == !frame->spacing;
@@ -78,9 +78,9 @@ static void set_mark(struct film_set *s, const struct output_frame *frame, const
 
 /* ---- first reading ----------------------------------------------------------------------------------------------- */
 
-/* Adds a frame to the film f: finds or creates the particle set to which it belongs, and updates displacements and
- * ranges of fields. shown: entry of the frame in the film, in which set and step are stored; path: file of the
- * frame. */
+/* Adds a frame to the film f. Creates a new particle set if the frame does not have the particles of the last one, and
+ * extends the ranges of displacements and fields by the frame. shown: entry of the frame in the film, in which set and
+ * step are stored; path: file of the frame. */
 static void frame_scan(struct film *f, struct film_frame *shown, const struct output_frame *frame, const char *path)
 {
     if (f->sets == 0 || !set_is_of(&f->set[f->sets - 1], frame)) {

@@ -46,9 +46,9 @@ static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);
 }
 
-/* Merges particles of the set s into cubic cells with an edge of 2^level spacings. Sets s->level to `level` for the
- * particles of a cell if they fill it and have equal material, body and history of kinds and fragments. from[dim]:
- * lower corner of the lattice [m]. */
+/* Merges particles of the set s into cubic cells with an edge of 2^level spacings. For the particles of each cell that
+ * they fill completely, sets s->level to `level`, if all of them have the same material and body, and the same kinds
+ * and fragments in all frames. from[dim]: lower corner of the lattice [m]. */
 static void merge_cells(struct film_set *s, const struct film *f, const double *from, int level)
 {
     struct member *m = BARE("report.members", s->n, struct member);

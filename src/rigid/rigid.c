@@ -178,9 +178,10 @@ void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Rotates rigid body r by its rotation in a time step dt [s]. The angular velocity in the middle of the step depends on
- * the orientation at this time, which depends on the angular velocity. Both are found by a fixed-point iteration. Its
- * third iterate is exact to round-off for any time step that is stable for contact. */
+/* Rotates rigid body r by the angle of one time step dt [s]. The angular velocity in the middle of the step follows
+ * from the angular momentum and the orientation at that time, which in turn depends on this angular velocity. Both are
+ * found by fixed-point iteration, whose third iterate is exact to round-off for any time step that is stable for
+ * contact. */
 static void turn_on(struct rigid_body *r, real dt)
 {
     real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];

@@ -89,8 +89,8 @@ static int edge_crossing_add(const struct net *g, int64_t k, int bits, int d, re
     return 1;
 }
 
-/* Makes a point s->X for each cell that the surface crosses, in the middle of the crossings of its edges, and stores
- * its index in g->point. */
+/* Creates the points of the surface s->X: one for each grid cell that the surface crosses, at the mean of the positions
+ * at which it crosses the edges of the cell. Stores the index of the point in g->point. */
 static void surface_points_make(struct rigid_surface *s, struct net *g)
 {
     for (int64_t k = 0; k < g->nodes; k++) {

@@ -241,9 +241,9 @@ struct step {
     real scale;
 };
 
-/* Advances nodes first .. end - 1 by a step of conjugate gradients: x += scale d, and r -= scale K d on free
- * components, r = 0 on held ones (those with prescribed displacement). K d is in q->q. Adds r . r to *sum. context:
- * solver and scale (struct step). reproducible_sums calls it for each block of nodes. */
+/* Advances the nodes first .. end - 1 by a step of conjugate gradients: x += scale d for all components; r -= scale K d
+ * for free components; r = 0 for components with prescribed displacement. K d is in q->q. Adds r . r to *sum. context:
+ * solver and scale (struct step). Called by reproducible_sums for each block of nodes. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
@@ -334,10 +334,10 @@ static real line_search(struct newton_solver *q, real left, bool prescribed)
     return share;
 }
 
-/* Returns the work of all forces over the increment share q->x [J], by the trapezoidal rule, or by Simpson's rule if
- * the forces are not linear along the increment. Loads grow in proportion over the increment, from those of q->before.
- * share: factor of the line search [1]; left: norm of the residual before the increment [N]. Overwrites the vectors
- * q->at and q->r. */
+/* Returns the work of all forces over the displacement increment share q->x [J]. It is computed by the trapezoidal
+ * rule, or if the forces are not linear along the increment by Simpson's rule. The loads grow linearly along it, from
+ * their values in q->before. share: factor of the line search [1]; left: norm of the residual before the increment [N].
+ * Overwrites the vectors q->at and q->r. */
 static real work_along(struct newton_solver *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
@@ -380,10 +380,11 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
     return sum[1];
 }
 
-/* Corrects work and losses for the path between two equilibria. The first correction of the displacements assumed that
- * loads grow linearly along the path, later corrections that loads are complete. In fact the states form a curve c s +
- * d s^2 with the share s of the growth of loads. The work of the loads is then more/6 beyond that of the mean of both
- * ends, and no energy is lost. more: growth of loads times the displacement of later corrections [J]. */
+/* Corrects the work of the loads and the lost energy for the curved path between two equilibria. Each correction of the
+ * displacements was assumed to be a straight line: the first one with linearly growing loads, later ones with full
+ * loads. In fact the displacements are c s + d s^2, where s is the fraction of the growth of the loads. This path has
+ * no energy loss, and on it the work of the loads is more/6 larger than the mean of the loads at both ends times the
+ * displacement. more: growth of the loads times the displacement of all corrections but the first [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;
@@ -395,8 +396,8 @@ static bool is_balanced(const struct newton_solver *q)
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
-/* Updates what the forces depend on besides displacements, branches of material laws and active contacts, for the
- * present state, by the callback q->settle. Returns true if nothing has changed, so that the solution is valid; else
+/* Calls q->settle, which updates whatever the forces depend on besides displacements (branches of material laws, active
+ * contacts) for the present state. Returns true if it has changed nothing, so that the solution is valid. Otherwise
  * recomputes the forces and returns false. */
 static bool laws_settle(struct newton_solver *q)
 {

@@ -20,9 +20,10 @@ enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 /* Least diagonal entry of a node over the largest one [1]; a node below it has no stiffness. */
 #define STIFFNESS_LEAST 1e-12
 
-/* Computes the diagonal block of row i of the finest level l, its scale and its flag of constraint. The diagonal block
- * is replaced by minus the sum of the other entries of the row if both differ by round-off only, so that a rigid
- * translation has exactly no energy. Larger differences, of supports and foundations, are stored in l->rest. */
+/* Computes the diagonal block of row i on the finest level l. A rigid translation causes no bond forces, so the block
+ * should equal minus the sum of the other blocks of the row; it is set to this sum if they differ by round-off only. A
+ * larger difference is the stiffness of supports and foundations and is stored in l->rest. Also sets l->scale and
+ * l->unconstrained of the row. */
 static void diagonal_exact(const struct multigrid_level *l, int64_t i)
 {
     const int size = l->width * l->width;

@@ -11,8 +11,9 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* Subtracts row i of K x from sum[0], for the matrix K of the finest level in 1D. Bonds act on differences of
- * displacements, so that a body in rigid motion has exactly no forces; l->rest is the stiffness of supports. */
+/* Subtracts row i of the product K x from sum[0], on the finest level in 1D. It is computed from differences of
+ * displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of supports, which acts on the
+ * displacement itself. */
 static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -20,18 +21,18 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
     sum[0] -= force + l->rest[i] * x[i];
 }
 
-/* Returns the products of the four entries of matrix block q (2 x 2) with a difference of displacements: that of the
- * node of its column minus `own`, that of the node of its row. Lanes 0 and 1 belong to the first component of the
- * force, 2 and 3 to the second one. x: displacements of all nodes. */
+/* Returns the products of the entries of matrix block q (2 x 2) with a relative displacement: that of the node of the
+ * block's column minus `own`, that of the node of its row. Lanes 0 and 1 of the result sum to the first component of
+ * the force, lanes 2 and 3 to the second. x: displacements of all nodes. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
-/* Subtracts row i of K x, a node with two components, from sum[0 .. 1], for the matrix K of the finest level in 2D.
- * Bonds act on differences of displacements, so that a body in rigid motion has exactly no forces; l->rest is the
- * stiffness of supports. */
+/* Subtracts row i of the product K x, two components of one node, from sum[0 .. 1], on the finest level in 2D. It is
+ * computed from differences of displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of
+ * supports, which acts on the displacement itself. */
 static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
@@ -47,9 +48,9 @@ static ALWAYS_INLINE void row_single_2(const struct multigrid_level *l, int64_t 
     }
 }
 
-/* Subtracts row i of K x, a node with three components, from sum[0 .. 2], for the matrix K of the finest level in 3D.
- * Bonds act on differences of displacements, so that a body in rigid motion has exactly no forces; l->rest is the
- * stiffness of supports. */
+/* Subtracts row i of the product K x, three components of one node, from sum[0 .. 2], on the finest level in 3D. It is
+ * computed from differences of displacements, so that a rigid translation gives exactly no force. l->rest: stiffness of
+ * supports, which acts on the displacement itself. */
 static ALWAYS_INLINE void row_single_3(const struct multigrid_level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = lane_pair_load(x + i * 3);

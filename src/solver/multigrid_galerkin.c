@@ -107,9 +107,9 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of the product of the matrix and the prolongation of the level p->l into p->block. This array holds a
- * slab of the product, some successive rows. w, m: components per node of this and of the coarser level, compile-time
- * constants. */
+/* Computes row i of the product A P of the matrix A and the prolongation P of level p->l. Stores it in p->block, which
+ * holds some consecutive rows of the product at a time, a slab. w, m: components per node of this and of the coarser
+ * level, compile-time constants. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct multigrid_level *l = p->l;
@@ -131,8 +131,8 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds to row c of the coarser matrix what the present slab contributes (a slab is some successive rows of the product
- * of matrix and prolongation, in p->block). w, m: components per node of this and of the coarser level, compile-time
+/* Adds to row c of the coarser matrix P^T A P the contributions of the slab in p->block, some consecutive rows of the
+ * product A P of matrix and prolongation. w, m: components per node of this and of the coarser level, compile-time
  * constants. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
@@ -164,9 +164,8 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
-/* Computes rows p->first .. p->end - 1 of the product of matrix and prolongation, and adds their contributions to the
- * coarser matrix. The numbers of components per node of both levels are compile-time constants in each case, for
- * speed. */
+/* Computes the rows p->first .. p->end - 1 of the product A P of matrix and prolongation, and adds their contributions
+ * to the coarser matrix P^T A P. For speed there is a copy of the code for each combination of components per node. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;
@@ -182,8 +181,8 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Returns the largest number of blocks in SLAB successive rows of the product of matrix and prolongation, for which
- * memory is needed at a time. */
+/* Returns the largest number of blocks in SLAB consecutive rows of the product A P of matrix and prolongation. As many
+ * blocks must fit into the memory for these rows. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

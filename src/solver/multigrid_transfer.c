@@ -27,8 +27,8 @@ static int row_aggregates(const struct multigrid_level *l, int64_t i, int32_t *l
     return n;
 }
 
-/* Computes the pattern of the prolongation l->down, its arrays `first` and `column`: which aggregates (nodes of the
- * coarser level) each node depends on. The blocks of the prolongation are not allocated. */
+/* Determines which nodes of the coarser level, aggregates of nodes of level l, each node of level l depends on:
+ * computes the arrays `first` and `column` of the prolongation l->down. Its blocks are not allocated. */
 static void down_pattern(struct multigrid_level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
@@ -48,9 +48,9 @@ static void down_pattern(struct multigrid_level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* Computes force[k][w][m] for k < n: the product of matrix row i with the rigid motions of aggregate name[k]. An
- * aggregate is a set of nodes that form one node of the coarser level, and its rigid motions are the prolongation
- * before it is smoothed. w, m: components per node of this and of the coarser level, compile-time constants. */
+/* Computes force[k][w][m]: the product of row i of the matrix with the rigid motions of the aggregate name[k], for k <
+ * n. An aggregate is a set of nodes that form one node of the coarser level; its m rigid motions are columns of the
+ * prolongation before smoothing. w, m: components per node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i, const int32_t *name, int n,
                                       real *force, const int w, const int m)
 {

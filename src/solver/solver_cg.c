@@ -15,8 +15,9 @@
 /* Returns true if a support or a plane of symmetry constrains component d of particle i. */
 static bool is_constrained(const struct static_solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
-/* Adds the weighted product d . K d over free components of particles first .. end - 1 to sum[0]; K d is in s->q.
- * context: the solver (struct static_solver). reproducible_sums calls it for each block of particles. */
+/* Adds to sum[0] the sum of weight d . K d over the free components of the particles first .. end - 1, with the search
+ * direction d and K d in s->q. The weight is 1/2 for particles on a plane of symmetry, else 1. context: the solver
+ * (struct static_solver). Called by reproducible_sums for each block of particles. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -25,8 +26,9 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product u . K u over all components of particles first .. end - 1 to sum[0]; K u is in s->q.
- * context: the solver (struct static_solver). reproducible_sums calls it for each block of particles. */
+/* Adds to sum[0] the sum of weight u . K u over all components of the particles first .. end - 1, with the
+ * displacements u and K u in s->q. The weight is 1/2 for particles on a plane of symmetry, else 1. context: the solver
+ * (struct static_solver). Called by reproducible_sums for each block of particles. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -34,9 +36,9 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1], over particles first .. end -
- * 1, with the residual r and the diagonal matrix Lambda. context: the solver (struct static_solver). reproducible_sums
- * calls it for each block of particles. */
+/* Adds to sum[0] the sum of weight r . r/Lambda, and to sum[1] that of r . r, over the particles first .. end - 1, with
+ * the residual r and the diagonal preconditioner Lambda. The weight is 1/2 for particles on a plane of symmetry, else
+ * 1. context: the solver (struct static_solver). Called by reproducible_sums for each block of particles. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct static_solver *s = context;
@@ -59,9 +61,9 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes the residual b - K u from the displacements u into p->f [N], where b are the applied forces; it is not
- * updated by recurrence. Stores the norm of the reactions on constrained components, then sets these components to
- * 0. */
+/* Computes the residual b - K u from the displacements u, with the applied forces b, and stores it in p->f [N]. Unlike
+ * the residual of the recurrence it contains no accumulated round-off. Stores the norm of the reactions on constrained
+ * components, then sets these components to 0. */
 static void true_residual(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;

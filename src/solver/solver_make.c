@@ -48,9 +48,10 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes s->diagonal, the diagonal matrix Lambda of masses for relaxation: Lambda_i >= 1/4 sum_j |K_ij| for a unit
- * step (Kilic & Madenci 2010), with the stiffness K of the bonds as springs. If the model is stiffer than these
- * springs, it is multiplied by the largest eigenvalue of Lambda^-1 K/4. */
+/* Computes s->diagonal, the diagonal matrix Lambda of fictitious masses for dynamic relaxation. A unit time step is
+ * stable if Lambda_i >= 1/4 sum_j |K_ij| (Kilic & Madenci 2010), with the stiffness K of the bonds as springs.
+ * State-based models can be stiffer than these springs; Lambda is then multiplied by the largest eigenvalue of
+ * Lambda^-1 K/4, which is computed from the forces of the model. */
 static void make_diagonal(struct static_solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -94,9 +95,9 @@ static void make_weights(struct static_solver *s, const struct static_body *body
     }
 }
 
-/* Returns the number of steps in which supports move to their final positions; 0 if none moves. In a step of
- * relaxation, motion spreads by one spacing at most. If the number equals that of the spacings along the body, supports
- * strain bonds about as much as they strain the body. */
+/* Returns the number of steps of relaxation in which supports are moved to their final positions; 0 if none moves. It
+ * is the number of spacings along the body plus 1: in a step, motion spreads through the body by one spacing at most,
+ * so that supports that move faster would strain the bonds next to them more than the body. */
 static int64_t supports_ramp(const struct static_solver *s, const struct static_body *body)
 {
     const real most = field_largest_component(&s->driven, s->dim, s->n);

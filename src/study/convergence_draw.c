@@ -102,8 +102,9 @@ struct figures_layout {
 /* Sizes of the key, and of a panel with its texts in the usual picture [pixel]. */
 enum { KEY_WIDE = 250, KEY_HIGH = 52, CELL_WIDE = 420, CELL_HIGH = 360 };
 
-/* Lays out `shown` panels. g: size of the picture; NULL: the usual one. In a picture of a given size the panels are in
- * as many columns as make them largest. */
+/* Computes the layout of a picture with `shown` panels: its size, the size and margins of a panel, and the number of
+ * columns. In a picture of a given size the number of columns is chosen such that the panels are as large as possible.
+ * g: size of the picture, or NULL for a size that follows from the number of panels. */
 static struct figures_layout figures_layout_make(int shown, const struct gnuplot *g)
 {
     const bool narrow = picture_is_too_narrow_for_key();
@@ -127,7 +128,8 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     return best;
 }
 
-/* Writes the margins of panel number k, and the place of the key with the first one. */
+/* Writes the gnuplot commands for the margins of panel number k, and with panel 0 the position of the key, which serves
+ * all panels. */
 static void figure_place(FILE *to, const struct figures_layout *l, int k)
 {
     const double x = k % l->columns * l->cell_wide, y = l->height - k / l->columns * l->cell_high;
@@ -184,10 +186,10 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the crack tip whose position is the i-th one of *l. A tip can have moved from position k to
- * position i if their distance is at most 2 (l->grown[i] - l->grown[k]) + FLICKER * spacing. The index is that of the
- * tip whose last position is nearest among those from which this is possible, or a new index. spacing: spacing of the
- * run [m]. */
+/* Returns the index of the crack tip to which the i-th position of *l belongs. The history contains only the position
+ * of the longest tip, which is not always the same one. It is the tip whose last position is nearest, among those that
+ * can have moved to position i: from its last position, k, it can have moved by 2 (l->grown[i] - l->grown[k]) + FLICKER
+ * * spacing. If there is none, returns a new index. spacing: lattice spacing of the run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};

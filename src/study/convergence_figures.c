@@ -57,9 +57,10 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes resolution[levels] at each spacing level: half the step in which the figure called `name` changes because
- * cracks grow from particle to particle. It is half a spacing for positions and crack lengths [m], and for angles the
- * rotation of the crack by half a spacing [degree]. Returns false for figures that change continuously. */
+/* Computes resolution[levels], an error of the figure called `name` at each spacing level that results because cracks
+ * grow from particle to particle. It is half a spacing [m] for positions and lengths of cracks. For angles it is the
+ * rotation of the crack if its end moves by half a spacing [degree]. Returns false for figures that change
+ * continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -114,8 +115,9 @@ static bool figure_moves(const struct scalar_result_study *f)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a study that requests no figures reports the figure called `name`. It excludes technical figures,
- * figures of single crack tips, since the numbers of tips differ between runs, and angles in 1D. */
+/* Returns true if the number of summary.json called `name` is reported by a study that requests no particular numbers.
+ * Excluded are technical ones such as run times, those of single crack tips, since runs differ in the numbers of tips,
+ * and angles in 1D. */
 static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -123,8 +125,9 @@ static bool is_of_interest(const struct convergence_study *s, const char *name)
     return !study_result_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
-/* Returns true if the figure called `name` is a coordinate of an event that a run of the study finds at several
- * positions at once (its figure `tied` is above 1). Other runs may then report another of these positions. */
+/* Returns true if the number of summary.json called `name` is a coordinate of an event that occurred at several
+ * positions at once in some run of the study, so that its value is arbitrary: other runs may report another of these
+ * positions. summary.json counts such positions under the name `tied`. */
 static bool is_one_of_several(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');

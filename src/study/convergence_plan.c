@@ -23,8 +23,9 @@ struct places {
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Appends the absolute value of `distance` [m] to *p if it is n or n + 1/2 times `spacing` [m], the spacing of the
- * scene, with a whole number n. Ignores other distances, distances below one spacing and duplicates. */
+/* Appends the distance |distance| [m] of a face or crack to *p if it fits the lattice of the scene: if it is n or n +
+ * 1/2 spacings, with a whole number n. Ignores other distances, distances below one spacing and duplicates. spacing: of
+ * the scene [m]. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -59,9 +60,9 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Returns the largest deviation from the lattice [spacings] that the distances p would have with the spacing `spacing`
- * [m]. A distance deviates if it is not a whole number of spacings, or of spacings plus one half if it is so at the
- * spacing of the scene. */
+/* Returns by how much the faces and cracks p miss the lattice if the spacing is `spacing` [m]: the largest deviation of
+ * their distances from a whole number of spacings [spacings]. Distances that are a whole number plus one half at the
+ * spacing of the scene are compared with such numbers. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;

@@ -118,9 +118,9 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of the finest spacing level to `finest` and of the other levels to `runs`. The runs of a
- * level differ in their random particles, time steps or spacings. If neither of the first two varies, a level has at
- * most as many runs as spacings, since further runs would be equal. */
+/* Sets the number of runs of the finest spacing level to `finest`, and of the other levels to `runs`. Runs of one level
+ * differ in random positions of particles, time steps or slightly different spacings. If positions and time steps do
+ * not vary, a level has at most as many runs as spacings, since further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_is_dynamic(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -131,8 +131,8 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Chooses the largest number of runs per spacing level, at most `runs`, with which the study takes no longer than
- * `left` [s] with `jobs` runs at a time. If the time suffices for none, plans a single run at the finest level. Returns
+/* Chooses the largest number of runs of each spacing level, at most `runs`, with which the study takes at most `left`
+ * [s] with `jobs` runs at a time. If even RUNS_LEAST runs take longer, plans only one run at the finest level. Returns
  * false if this takes too long as well. Stores the predicted time in s->expected. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {

@@ -17,9 +17,10 @@ static bool of_contact(const struct scene *s) { return s->contact_between != CON
 /* Returns true if the runs of a scene have figures on fragments in summary.json. */
 static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
 
-/* Names of the figures of summary.json by group. group: name before the last point, in which # stands for a number, ""
- * for figures of the whole run; leaves: names after the last point, separated by blanks. had: returns true if scene s
- * can have the figures, NULL: always; needs: requirement on the scene, for messages. */
+/* Names of the numbers in summary.json, grouped by the part of the name before the last point. group: this part, with #
+ * in place of whole numbers; "" for names without a point; leaves: possible parts after the last point, separated by
+ * blanks; had: returns true if runs of scene s have these numbers, NULL: all runs have them; needs: what the scene
+ * requires to have them, for messages. */
 static const struct figure_group {
     const char *group, *leaves;
     bool (*had)(const struct scene *s);
@@ -58,7 +59,7 @@ static const struct figure_group {
     " velocity_z" end " stress_xx" end " stress_yy" end " stress_zz" end " stress_xy" end " stress_yz" end             \
     " stress_zx" end " damage" end
 
-/* Figures of each kind of probe, separated by blanks. */
+/* Names of the numbers that each kind of probe writes to summary.json, separated by blanks. */
 static const char *const probe_leaves[PROBES] = {
     [PROBE_TIP] = "x y z tied start_time arrest_time length_end angle_deg speed_max speed_mean",
     [PROBE_BREAK] = "x y z tied first_step first_time bonds",
@@ -84,8 +85,8 @@ struct nearest {
     int distance;
 };
 
-/* Proposes the name group.leaf to the search n for the name that is most similar to the text n->to. It replaces the
- * name found so far if it is more similar. */
+/* Compares the known name group.leaf with the misspelt name n->to. Stores it in n->name if it is more similar (by the
+ * edit distance) than the name stored there so far. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];
@@ -94,8 +95,9 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf`, the last part of the name of a figure, is in the list `leaves`, whose names are separated by
- * blanks. Also proposes each name group.LEAF, with LEAF from the list, to the search n for the most similar name. */
+/* Returns true if `leaf` is one of the blank-separated words of `leaves`, the names that numbers of a group in
+ * summary.json have after the last point. Also compares the name group.WORD for each of the words with the misspelt
+ * name in n, to find the most similar one. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -122,8 +124,9 @@ static void numbers_hidden(char *to, size_t capacity, const char *name)
     to[n] = '\0';
 }
 
-/* Returns true if `group` is the name probes.NAME of a probe of the scene whose kind has the figure `leaf`. Also
- * proposes the names of the figures of all probes to the search n for the most similar name. */
+/* Returns true if `group` is probes.NAME for a probe NAME of the scene that writes a number called `leaf` to
+ * summary.json. Also compares the names of the numbers of all probes with the misspelt name in n, to find the most
+ * similar one. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
     char own[NAME_ROOM];
@@ -136,9 +139,9 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* Returns the kind of space that a figure requires and the scene lacks, as a phrase for a message, or NULL if the scene
- * has it. It follows from the axes in `leaf`, the last part of the figure's name, such as velocity_y or
- * stress_zx_max. */
+/* Returns a phrase for a message, "a solid" or "a plane or a solid", if a number of summary.json refers to an axis that
+ * the scene does not have; else NULL. leaf: last part of the name of the number, such as velocity_y or stress_zx_max,
+ * whose letters x, y and z name the axes. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];
@@ -154,9 +157,9 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* Returns the kind of solver that a figure requires and the scene lacks, as a phrase for a message, or NULL if the
- * scene has it. leaf: last part of the figure's name. Times and speeds of cracks require a run in time, numbers of
- * steps require load steps. */
+/* Returns a phrase for a message that names the solver which a number of summary.json requires, if it is not the solver
+ * of the scene; else NULL. leaf: last part of the name of the number. Names that end in _step require load steps; names
+ * of times and speeds require a solver in time. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -165,9 +168,9 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_has_load_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* Returns what a figure with a known name requires and the scene lacks, as a phrase for a message, or NULL if runs of
- * the scene have the figure. name: name of the figure; group: its part before the last point, with # in place of
- * numbers; leaf: its part after the last point. */
+/* Returns a phrase for a message that says what the scene must have so that its runs write the number called `name` to
+ * summary.json. Returns NULL if they do. The name must be known. group: its part before the last point, with # in place
+ * of whole numbers; leaf: its part after the last point. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

@@ -51,9 +51,9 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 
 /* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
-/* Composes the text that identifies a study if its scene cannot be read without the varied keys: the contents of the
- * file `path`, and override[overrides] as comments. The caller releases *text with memory_free. Returns FAILED if the
- * file cannot be read. */
+/* Composes the text that identifies a study if its scene cannot be read because it is incomplete without the varied
+ * keys. The text is the contents of the scene file `path`, followed by override[overrides] as comments. The caller
+ * releases *text with memory_free. Returns FAILED if the file cannot be read. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -103,9 +103,9 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
 /* First line of the file STUDY_SCENE, by which Cleave recognises it. */
 static const char study_mark[] = "# study by cleave: the scene without what varies\n";
 
-/* Reads the text of the scene in the file `path` of a study, without the lines that mark the file and store options.
- * Studies of an earlier format have no such lines; their scene begins as every scene that Cleave writes. Returns NULL
- * if there is no such file or it begins otherwise. The caller releases the text with memory_free. */
+/* Reads the text of the scene of a study from the file `path`, without the first lines, which mark the file as that of
+ * a study and store options. Files of an earlier format begin with the scene itself, in the form in which Cleave writes
+ * scenes. Returns NULL if there is no file or it begins with neither. The caller releases the text with memory_free. */
 static char *study_scene_read(const char *path)
 {
     char *text;

@@ -40,8 +40,9 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Returns the points of a panel, an array [lines][values of the key along the axis] of mean and scatter of a figure.
- * The caller releases it with memory_free. figure: column of the figure in the table. */
+/* Computes the points of a panel: mean and standard deviation of a figure over the runs of each point. Returns them as
+ * an array [lines][values of the key along the horizontal axis], which the caller releases with memory_free. figure:
+ * column of the figure in the table of the study. */
 static struct point_of *means_find(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];
@@ -85,7 +86,8 @@ static void line_title(char *text, size_t capacity, const struct study_picture *
     }
 }
 
-/* Returns the unit of the values of a key that are numbers without a unit: an SI unit; "" for other values. */
+/* Returns the SI unit that numbers without a unit have as values of the key. Returns "" if the values of the key have
+ * units or are no numbers. */
 static const char *unit_unsaid(const struct varied_key *key)
 {
     const char *unit = "";
@@ -99,8 +101,9 @@ static void key_text(char *text, size_t capacity, const struct varied_key *key)
     snprintf(text, capacity, *unit ? "%s [%s]" : "%s%s", key->key, unit);
 }
 
-/* Writes the names of the keys with the given role, as `material.young, load`, into text[capacity]. with_value: adds
- * the first value of each key. */
+/* Writes the names of the varied keys that have the role `role` in the picture (on the axis, as lines, held at one
+ * value, or averaged over) to text[capacity], separated by commas: `material.young, load`. with_value: true to add the
+ * first value of each key. */
 static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
 {
     size_t used = 0;
@@ -123,8 +126,8 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Composes the notes below the panels: which keys have one value, and what points and bars mean. map: true for maps,
- * false for lines. */
+/* Composes the notes below the panels. The first lists the keys for which the picture shows only the first value, the
+ * second those over which it shows means, such as random seeds. map: true for maps, false for lines with error bars. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -175,8 +178,8 @@ static void panels_arrange(struct study_picture *p)
     if (given.width) p->wide = given.width / p->columns - NUMBERS;
 }
 
-/* Sets the size of the picture from that of the panels or, in a picture of a given size, the size of the panels from
- * that of the picture. */
+/* Computes the size of the picture from the size of a panel, its margins and the notes. If the user has chosen the size
+ * of the picture, computes the size of a panel from it instead. */
 static void size_settle(struct study_picture *p)
 {
     const struct picture_size given = picture_size_get();
