@@ -11,9 +11,9 @@ struct plane_wave {
     double complex s, a[2];
 };
 
-/* Computes the residuals of the two boundary conditions of dashpots (Lysmer & Kuhlemeyer 1969) at x = 0 for a plane
- * wave w, divided by i times its frequency: to[0] of stress_xx + rho c_p v_x, to[1] of stress_xy + rho c_s v_y. p:
- * slowness along y; mu: shear modulus, equal to c_s^2, since density and c_p are 1. */
+/* Computes by how much the plane wave w violates the boundary conditions of dashpots at x = 0 (Lysmer & Kuhlemeyer
+ * 1969), divided by i times its frequency. to[0]: stress_xx + rho c_p v_x; to[1]: stress_xy + rho c_s v_y, both of
+ * which should be 0. p: slowness along y. Density and c_p are 1; mu: shear modulus, thus c_s^2. */
 static void conditions(const struct plane_wave *w, double p, double mu, double complex *to)
 {
     to[0] = w->s * w->a[0] + (1 - 2 * mu) * p * w->a[1] - w->a[0];

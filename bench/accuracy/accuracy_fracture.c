@@ -25,9 +25,10 @@ enum { SAMPLES = 200 };
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the scene of point p: Kalthoff's plate, 100 mm wide, or a plate under tension, 50 mm wide, with `resolution`
- * particles across the width. The loads drive three layers of particles, or a layer as thick as in the files of inputs/
- * if that is thicker. Edges, notches and crack ends are midway between particles. */
+/* Writes the scene of point p, with `resolution` particles across the width of a plate: Kalthoff's impact test, 100 mm
+ * wide, or a plate under tension, 50 mm wide. The velocity of the load is prescribed in three layers of particles, or
+ * in a layer as thick as that of the scene files in inputs/ if this is thicker. Edges, notches and ends of cracks are
+ * midway between particles. */
 static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double h = (p->at == KALTHOFF ? 100.0 : 50.0) / p->resolution;
@@ -141,9 +142,9 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
     return OK;
 }
 
-/* Returns true if point p is run. Up to 100 particles all methods are run; above that only bond-based and adaptive
- * methods of --quick, and up to 200 those in the current frame, since others do not converge to the reference or take
- * too long. */
+/* Returns true if point p is run. With up to 100 particles across the plate all methods are run. With more, only the
+ * bond-based and adaptive methods of --quick are, since others do not converge to the reference or take too long; with
+ * more than 200, adaptive methods must be in the reference frame. */
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;

@@ -43,9 +43,9 @@ static bool line_ends_with(const char *line, const char *tail)
     return line[length] == '\n' && length >= wanted && strncmp(line + length - wanted, tail, wanted) == 0;
 }
 
-/* Reads the result of a point from a line of the file of results into *r. Ignores incomplete lines, and lines of
- * another program version or with settings other than r->settings. key: length of the columns that identify the point,
- * which are skipped. */
+/* Reads the result of a point from a line of the file of results into *r. Does nothing unless the line ends with the
+ * present program version and the settings r->settings; incomplete lines thus do not count either. key: length of the
+ * first columns, which identify the point and are skipped. */
 static void take_line(struct accuracy_result *r, const char *line, size_t key)
 {
     char tail[64];

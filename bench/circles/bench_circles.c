@@ -54,10 +54,12 @@ static status circle_take(void *row, const char *folder)
     return OK;
 }
 
-/* Returns true if the name of the circle of a case contains `only`, or if this is NULL. */
+/* Returns true if case c is selected by the text `only`: the name of its circle contains this text. NULL selects all
+ * cases. */
 static bool case_is_asked(const struct circle_case *c, const char *only) { return !only || strstr(c->circle, only); }
 
-/* Returns REFUSED if no case of the name `only` has runs (NULL: all cases). */
+/* Returns REFUSED, with a message, unless there is a case with runs whose circle has the text `only` in its name. NULL
+ * stands for all cases. */
 static status name_check(const char *only)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -66,7 +68,8 @@ static status name_check(const char *only)
                       "no circle of the name %s has runs; a part of a name is expected, as tension or notch 1.5", only);
 }
 
-/* Prints the problems among those of the name `only` for which there is no run, with the reasons. */
+/* Prints the cases that have no runs, each with the reason, if the name of their circle contains the text `only`. NULL
+ * stands for all cases. */
 static void reasons_print(const char *only)
 {
     for (int k = 0; k < circle_cases_count; k++) {
@@ -98,17 +101,19 @@ static status scene_prepare(const struct circles *c, const struct circle_specime
     return file_write_whole(path, s->text, strlen(s->text));
 }
 
-/* Returns the position x on which rows of a lattice turned by 45 degrees are centred [m]: 0 without a pre-crack. With
- * one its tip is a quarter of their distance behind a row, in the middle of the positions that cut the same bonds. */
+/* Returns the coordinate x [m] at which a lattice that is turned by 45 degrees has a row of particles. Without a
+ * pre-crack it is 0. With one it is such that the tip is a quarter of the distance of rows away from a row. All tips
+ * between two rows cut the same bonds, and this one is in the middle of them. */
 static double lattice_middle(const struct circle_run *r)
 {
     const double crack = r->of->crack;
     return crack > 0 ? 1e-3 * (crack + 0.25 * r->spacing / sqrt(2)) : 0;
 }
 
-/* Writes the particles of a run on a rotated lattice as a list, and adds overrides to *o that replace the body of
- * the scene by this list. Weights of bonds are uniform, since isotropic ones are those of a lattice along the axes.
- * Loads are those of the section that the list has. Returns FAILED if the list cannot be written. */
+/* Writes the particles of a run on a turned lattice to a file as a list, and appends overrides to *o that replace the
+ * body of the scene by this list. Bonds then have uniform weights, because isotropic weights are made for lattices
+ * along the axes. The load is scaled to the cross-section that the list has, which differs from that of the specimen.
+ * Returns FAILED if the list cannot be written. */
 static status body_turn(const struct circles *c, struct circle_run *r, struct bench_overrides *o)
 {
     const struct circle_specimen *s = &circle_specimen[r->of->specimen];
@@ -149,8 +154,9 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
 
 #define QUICK_LEAST 0.06 /* smallest spacing that is run with --quick [mm] */
 
-/* Adds the runs of the cases of the name `only` (NULL: all); with `quick` only the coarsest one of each lattice, unless
- * it is finer than QUICK_LEAST. Returns FAILED if a file cannot be written. */
+/* Adds the runs of all cases whose circle has the text `only` in its name (NULL: of all cases) to c. quick: true for
+ * only the coarsest run on each lattice, and none with a spacing of QUICK_LEAST or less. Returns FAILED if a file
+ * cannot be written. */
 static status circles_add(struct circles *c, const char *only, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
@@ -178,7 +184,8 @@ static void missed_print(const struct circles *c)
            missed, asked);
 }
 
-/* Runs the cases of the name `only` (NULL: all) and prints them; the table of all is also written. */
+/* Runs all cases whose circle has the text `only` in its name and prints their results. If `only` is NULL, runs all
+ * cases and also writes the table of results. quick: true for coarse runs only. */
 static status circles_measure(const char *only, bool quick)
 {
     static const char *const needed[] = {"inputs/strength_notch.yaml"};

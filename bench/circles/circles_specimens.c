@@ -178,8 +178,9 @@ static double notch_load(const char *folder, const struct circle_run *r)
     return load_at(folder, r, "tip.x", tip + 0.5e-3);
 }
 
-/* Returns the load of a notched strip at which the energy of a crack of 0.5 mm has been dissipated [MPa]. It serves for
- * notches so short that the body may break anywhere. folder: output of the run r; NAN if less energy is dissipated. */
+/* Returns the load of a notched strip [MPa] at which the body has dissipated the energy of a crack of 0.5 mm. It
+ * replaces the load at which the crack tip has advanced, for notches so short that the body may break elsewhere.
+ * folder: output of the run r; NAN if less energy is dissipated. */
 static double short_notch_load(const char *folder, const struct circle_run *r)
 {
     const double halves = r->degrees ? 2 : 1;
@@ -233,8 +234,9 @@ const struct circle_specimen circle_specimen[CIRCLE_SPECIMENS] = {
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-/* Adds a particle at y [m] to the sums of a list: of its section, weighted by a triangle over the middle half of the
- * body's height, and of its loaded layer. volume [m^3]. */
+/* Adds one particle of a list at the height y [m], with the volume `volume` [m^3], to two sums: list->section, the mean
+ * cross-section over that of the specimen, weighted by a triangle over the middle half of its height; and list->layer,
+ * the same for the loaded layer at its upper end. */
 static void circle_list_add(struct circle_list *list, const struct circle_specimen *s, double y, double volume)
 {
     const double reach = 0.5 * s->to[1], width = s->to[0] - s->from[0], section = 1e-3 * width;

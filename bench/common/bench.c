@@ -46,9 +46,9 @@ static const struct {
     const char *old, *name;
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
-/* Arguments NAME=WORD that select a part of a bench. The word of `accuracy`: the name of a problem, or another argument
- * of bench_accuracy_of. That of `stability`: `lasting`, or a part of the name of a case, of which only the long map is
- * then made. That of `circles`: a part of the names of circles. */
+/* Arguments of the form NAME=WORD, which run a part of the bench NAME. accuracy=WORD: name of a problem, or another
+ * word that bench_accuracy_of accepts. stability=WORD: `lasting`, or a part of the names of cases, of which only the
+ * map of long runs is then made. circles=WORD: a part of the names of circles. */
 struct bench_part {
     const char *start;
     status (*call)(const char *word, bool quick);
@@ -59,7 +59,8 @@ static const struct bench_part bench_parts[] = {{"circles=", bench_circles_of, N
                                                 {"accuracy=", bench_accuracy_of, NULL}};
 enum { PARTS = COUNT_OF(bench_parts) };
 
-/* Stores the word of an argument that selects a part of a bench in part[PARTS]. Returns false if it selects none. */
+/* Tests whether an argument has the form NAME=WORD with the NAME of an entry of part[PARTS], and stores WORD in this
+ * entry. Returns false if it does not. */
 static bool bench_part_mark(const char *argument, struct bench_part *part)
 {
     for (int k = 0; k < PARTS; k++) {

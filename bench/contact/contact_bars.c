@@ -90,9 +90,10 @@ status contact_striker(const struct contact_case *c, double *figure)
     return ran;
 }
 
-/* Runs a plane bar that moves between two rigid walls and hits them given[1] times in all; both gaps together are 5
- * spacings wide. The bar has given[0] x given[0]/5 particles and the speed given[2] [wave speeds]. Stores the largest
- * errors of energy and of momentum [1] in figure[0] and figure[1]. Returns FAILED if a step fails. */
+/* Runs a plane bar between two rigid walls, until it has hit them given[1] times in total. The gaps at its two ends sum
+ * to 5 spacings. given[0]: particles along the bar, with a fifth of this number across it; given[2]: speed [wave
+ * speeds]. Stores the largest error of the energy [1] in figure[0], and that of the momentum in figure[1]. Returns
+ * FAILED if a step fails. */
 status contact_bounces(const struct contact_case *c, double *figure)
 {
     struct run e;

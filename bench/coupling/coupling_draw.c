@@ -120,8 +120,9 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Sends the data of a bar to gnuplot: its position, its height `largest`, and the height `on_node` at which a line
- * crosses it. group: index of its group of bars; member: its index among the `members` bars of the group. */
+/* Sends the data of a bar of a bar chart to gnuplot: its position along the axis, its height `largest`, and the height
+ * `on_node` at which a line is drawn across it. group: index of its group of bars; member: its index among the
+ * `members` bars of the group. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);

@@ -101,10 +101,10 @@ static double beyond(const struct strip *s, const struct particles *p, int64_t i
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* Returns the largest mean difference of velocity from the run b without interface, over square blocks of BLOCK x BLOCK
- * particles in front of the interface [m/s]. Only blocks at least AWAY spacings from the interface count. Means are
- * compared since the grid does not resolve single particles: only a mean over two cells can travel as a wave. p:
- * particles of the run with interface; s: strip. */
+/* Returns the largest difference of velocity between a run with an interface and the run b without it, as the mean over
+ * a square block of BLOCK x BLOCK particles [m/s]. Counts only blocks in front of the interface and at least AWAY
+ * spacings from it. Means are compared because the grid does not resolve single particles: only a mean over two cells
+ * can travel as a wave. p: particles of the run with the interface; s: strip. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);

@@ -133,8 +133,8 @@ static void points_stress(struct run *e)
         for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
 }
 
-/* Updates the list of particle pairs in contact of run e. changed: 1 to require a new search for pairs, 0 to keep the
- * list if it is still valid. */
+/* Updates the list of pairs of particles in contact of the run e, as a step does. changed: 1 to enforce a new search
+ * for pairs, 0 to keep the list as long as it is valid. */
 static void faces_update(struct run *e, int changed)
 {
     contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,

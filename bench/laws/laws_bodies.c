@@ -24,8 +24,9 @@ static void points_have_own_dilatations(struct run *e)
     e->grid->transfer.mean_dilatation = false;
 }
 
-/* Computes length, radius, largest strain and temperature, and pressure of a bar from its particles p, and stores them
- * in *r, whose maxima must be 0 before. spacing: of the particles [m]. */
+/* Computes the shape and state of a bar that has hit a wall from its particles p: length, largest radius, plastic
+ * strain and temperature, and root mean square of the pressure. Stores them in *r, whose largest values must be 0
+ * before. spacing: of the particles [m]. */
 static void bar_measure(struct bar_rest *r, const struct particles *p, double spacing)
 {
     double length = 0, sum = 0, count = 0, squares = 0;

@@ -59,8 +59,8 @@ static const enum stability_region region[] = {HALF, SQUARE, DISC, CORNER, NOTCH
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Passes the cases of bodies with one method to the receiver t: only bonds, with all laws and models, and only cells of
- * the reference frame, with several Poisson's ratios. Returns the first status that is not OK. */
+/* Passes to the callback t->take each case of bodies with one method: with bonds only, for all laws and models, and
+ * with cells of the reference frame only, for several Poisson's ratios. Returns the first status that is not OK. */
 static status bodies(struct taker *t)
 {
     const struct stability_case plate = {.dim = 2, .edge = 14, .method = "pd"},
@@ -85,9 +85,9 @@ static status bodies(struct taker *t)
     return OK;
 }
 
-/* Passes the coupled cases in the reference frame to the receiver t: every law with every shape of the peridynamic
- * region, every second of them also with the handshake coupling, and variants of weights, constants and strains.
- * Returns the first status that is not OK. */
+/* Passes to the callback t->take each coupled case in the reference frame: every law with every shape of the
+ * peridynamic region, every second of these also with the handshake coupling, and variants of weights, constants and
+ * strains. Returns the first status that is not OK. */
 static status energy_drift_cases_reference(struct taker *t)
 {
     for (int l = 0; l < LAWS; l++)

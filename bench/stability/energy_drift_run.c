@@ -50,7 +50,7 @@ static struct mover mover_at(const struct run *e, int64_t k)
 
 static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 
-/* Stores the axes a and b of the plane of rotation number t = 0, 1, 2 (xy, yz, zx). */
+/* Stores in *a and *b the axes that span the plane of rotation number t: xy for t = 0, yz for 1, zx for 2. */
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
 /* Computes the angular momentum L[DIM_MAX] of all masses of the run e about centre[DIM_MAX] [m], one entry per plane of

@@ -22,8 +22,8 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Passes the peridynamic cases to the receiver t: several horizons for each dimension and model. Returns the first
- * status that is not OK. */
+/* Passes to the callback t->take each peridynamic case: several horizons for each dimension and model. Returns the
+ * first status that is not OK. */
 static status horizons(const struct taker *t)
 {
     static const double horizon[] = {3.015, 1, 2.015, 1.5, 4.015, 5.015, 6.015};
@@ -59,8 +59,8 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* Passes the cases with published stability limits to the receiver t: large lattices of complete families, without
- * surface correction. Returns the first status that is not OK. */
+/* Passes to the callback t->take each case with a published stability limit: large lattices of complete families,
+ * without surface correction. Returns the first status that is not OK. */
 static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
@@ -101,9 +101,10 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Returns the number of positions of the grid that are tried for `cell` points per cell: multiples of an eighth of a
- * cell, or of a twelfth for 1.5, 3 and 6 points per cell. Then some positions put points on nodes, the worst position
- * for linear shapes. t: receiver, fewer positions if t->quick; dim: dimension. */
+/* Returns the number of positions of the grid relative to the points that are tried with `cell` points per cell and
+ * direction. The positions differ by an eighth of a cell, or by a twelfth with 1.5, 3 or 6 points per cell, so that in
+ * some of them points are on nodes, the worst case for linear shape functions. t->quick: true for fewer positions; dim:
+ * dimension. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -146,8 +147,8 @@ static status stability_cases_points(const struct taker *t)
 
 /* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
-/* Passes the cases of bodies of which one half is peridynamic, in the current frame, to the receiver t: all couplings,
- * transfers and cell sizes. Returns the first status that is not OK. */
+/* Passes to the callback t->take each coupled case in the current frame: bodies of which one half is peridynamic, with
+ * all couplings, transfers and cell sizes. Returns the first status that is not OK. */
 static status coupled(const struct taker *t)
 {
     static const char *const couplings[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
@@ -200,9 +201,9 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Passes the coupled cases in the reference frame to the receiver t: borders of the peridynamic region inside cells,
- * and scattered peridynamic particles and material points, as conversion can leave them. Returns the first status that
- * is not OK. */
+/* Passes to the callback t->take each coupled case in the reference frame: borders of the peridynamic region inside
+ * cells, and scattered peridynamic particles and material points, as conversion can leave them. Returns the first
+ * status that is not OK. */
 static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {

@@ -119,8 +119,8 @@ static void put_balls(FILE *to, const struct stability_case *c, double edge, con
     }
 }
 
-/* Writes a box inside the block of the case c. share[0], share[1]: its lower and upper end along x and along the other
- * axes, over the edge of the block [1]; edge: of the block [m]. */
+/* Writes a box inside the block of case c as a shape of a scene. share[0]: its lower and upper end along x; share[1]:
+ * the same along all other axes, both over the edge of the block [1]; edge: edge of the block [m]. */
 static void put_shares(FILE *to, const struct stability_case *c, double edge, const double (*share)[2])
 {
     for (int end = 0; end < 2; end++) {
