@@ -92,9 +92,9 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of particle layers across a body, taken over those of its particles at which it has fewer
- * than `most` layers. Returns INFINITY if fewer than the share SHARE_LEAST of the particles are such, or if the
- * bounding box of the body has more than CELLS_MOST lattice sites. */
+/* Returns the median number of particle layers across the thin parts of a body: over those of its particles at which
+ * the body has fewer than `most` layers. Returns INFINITY if such particles are less than the share SHARE_LEAST of all,
+ * or if the bounding box of the body has more than CELLS_MOST lattice sites. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;

@@ -47,8 +47,8 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns the smallest number of layers L, at most LAYERS_MOST, such that at least the share THIN_SHARE of the
- * particles of a body have L or fewer layers of particles across the body. Tests a sample of some LOOKED_AT
+/* Returns a measure of how thin a body is: the smallest number L such that at least the share THIN_SHARE of its
+ * particles have L or fewer layers of particles across the body; at most LAYERS_MOST. Tests a sample of about LOOKED_AT
  * particles. */
 static int thinnest(const struct run *e, int body)
 {

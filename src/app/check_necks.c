@@ -157,10 +157,10 @@ struct chords {
 
 static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS_MOST + m]; }
 
-/* Measures the widths of the piece on parallel lines, SAMPLES lines per spacing: first through p->X (chord 0), then on
- * both sides, each line through the midpoint of the previous chord. reach[2]: largest number of chords on the lower and
- * on the upper side. A side ends earlier at a line that misses the piece. Returns false if the line through p->X misses
- * the piece. k: the piece and the axis of the widths. */
+/* Measures the widths of the piece (chords) on parallel lines, SAMPLES lines per spacing. The first line, chord 0,
+ * passes through p->X. Chords on both sides follow, each on a line through the midpoint of the previous chord.
+ * reach[2]: largest number of chords on the lower and on the upper side. A side ends earlier at a line that misses the
+ * piece. Returns false if the line through p->X misses the piece. k: the piece and the axis of the widths. */
 static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
 {
     real X[DIM_MAX];
@@ -211,10 +211,11 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece is a neck: it widens by GROWTH spacings on both sides of its chord `narrowest`, and its
- * midline shifts by less than its width grows. (Bent strips of constant width fail the second condition.) A side that
- * ends at a plane of symmetry counts as the mirror image of the other side. Sets *even to true if the width changes
- * only in steps: every change is below 0.001 or above 0.5 spacings. */
+/* Returns true if the piece, measured on parallel chords, is a neck at its narrowest chord `narrowest`: its width grows
+ * by at least GROWTH spacings on both sides. Bent strips of constant width are excluded by the condition that the
+ * midpoint of the chord shifts by less than the width grows. A side that ends at a plane of symmetry is taken as the
+ * mirror image of the other side. Sets *even to true if the width changes only in steps, each below 0.001 or above 0.5
+ * spacings. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -294,9 +295,9 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns the description of a neck: its position, width and error at its chord number `narrowest`. If the chords on
- * both sides are known, the width is taken at the minimum of the parabola through the three widths. rows: number of
- * particle rows across the neck. */
+/* Returns the description of a neck: its position, its width at the chord `narrowest`, and the error of this width. The
+ * width is reduced if a parabola through the widths of this chord and its two neighbours has its minimum between them,
+ * and the piece is narrower there. rows: number of particle rows across the neck. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -408,8 +409,9 @@ void uneven_add_necks(struct uneven_list *list, const struct run *e, const struc
     memory_free(k.stack);
 }
 
-/* Adds the part of a 1D body from `low` to `high` [m] to the list if its particles represent a length with a relative
- * error above LENGTH_OFF. first: coordinate of a particle of the body's lattice [m]. */
+/* Compares the length of a part of a 1D body, from `low` to `high` [m], with the length that its particles represent:
+ * their number times the spacing. Adds the part to the list if the relative difference exceeds LENGTH_OFF. first:
+ * coordinate of a particle of the body's lattice [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {
     const real h = list->piece.scene->spacing;

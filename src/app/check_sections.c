@@ -73,9 +73,10 @@ static int32_t larger(const struct sections *s, int32_t a, int32_t b)
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
 }
 
-/* Finds the sections of all slices normal to `axis`, and for each section the largest one that it touches in the next
- * and in the previous slice. A section is a connected set of cells in a slice that the body covers. named[cells]: marks
- * of parts that have been reported; s keeps this pointer. Release s with sections_free. */
+/* Divides a piece into slices one lattice cell thick, normal to `axis`, and each slice into sections. A section is a
+ * connected set of cells that the body covers. Finds for each section the largest section that it touches in the next
+ * and in the previous slice. c: lattice cells of the piece; named[cells]: marks of parts that have been reported; s
+ * keeps this pointer. Release s with sections_free. */
 static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
@@ -109,8 +110,8 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Returns true if section k exists (k >= 0), touches sections in the previous and next slice, and has the area `area`
- * [cells] to within the relative tolerance ALIKE. */
+/* Returns true if a part of constant width continues at section k: the section exists (k >= 0), touches sections in the
+ * previous and next slice, and has the area `area` [cells] to within the relative tolerance ALIKE. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
@@ -190,9 +191,9 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
-/* Sets s->named of the cells of a part, so that it counts as reported. The part consists of section `from` and the
- * sections that continue it on both sides with nearly equal area. axis: axis along which the width of the part is
- * wrong. */
+/* Marks the cells of a narrow part in s->named, so that it is reported only once. The part consists of section `from`
+ * and of the sections before and after it that have nearly the same area. axis: axis along which the width of the part
+ * is wrong. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -208,9 +209,10 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Compares the areas of shape and particles, summed over SLICES consecutive sections from section `first` on. If these
- * sections differ in their areas, the sum is over SLICES_SLANTING sections instead, because errors from the steps of
- * slanting faces average out. Adds the part that the sections form to the list if the summed areas differ too much. */
+/* Compares the area of the shape with the area of the particles, in the narrow part that begins with section `first`.
+ * Both areas are summed over SLICES consecutive sections. If the areas of these sections are not equal, as in parts
+ * with slanting faces, they are summed over SLICES_SLANTING sections, because errors by steps of such faces average
+ * out. Adds the part to the list if the sums differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];

@@ -49,9 +49,9 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* Returns true if the narrow voids v are symmetric: each particle is beside a void if and only if its mirror image
- * twin[i] is. Narrow voids separate particles without removing one. v: NULL if the scene has none, which returns true;
- * n: number of particles. */
+/* Returns true if narrow voids, which separate particles without removing any, are symmetric: a particle is beside a
+ * void if and only if its mirror image is. v: voids of the scene, or NULL if there are none, which returns true;
+ * twin[i]: index of the mirror image of particle i; n: number of particles. */
 static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
 {
     for (int64_t i = 0; i < n && v; i++)
@@ -117,8 +117,8 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
 }
 
 /* Stores in twin[i] the index of the mirror image of each particle i in the plane normal to `axis` at the coordinate
- * `at` [m]. Returns false if a particle has no image, or is its own image. In the latter case half of the scene would
- * cut a layer of particles. */
+ * `at` [m]. Returns false if a particle has no image. Also returns false if a particle is on the plane and thus its own
+ * image, because a scene of one half would have to cut it. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -172,8 +172,8 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 /* Returns true if two numbers are equal or both are NAN, which denotes a number that is not given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if every rule by which cracks of the scene grow has a mirror image with equal settings in the plane
- * normal to `axis` at the coordinate `at` [m]. */
+/* Returns true if the settings for growing cracks are symmetric about the plane normal to `axis` at the coordinate `at`
+ * [m]: each crack has a mirror image with equal speed, toughness and start. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {

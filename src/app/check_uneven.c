@@ -10,10 +10,10 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns true if a part of a body whose particles have the relative error of width `error` may be added to the list.
- * The list must not be full, or |error| must exceed 0.9 times the error |off| of its last part, the smallest in the
- * list. The factor is 0.9 because errors are estimated from samples, and errors of equal parts differ by up to a
- * tenth. */
+/* Returns true if a part of a body may be added to the list of the parts with the largest errors. error: relative error
+ * of the width of its particles [1]. The list must not be full, or |error| must exceed 0.9 times the smallest |error|
+ * in it. The factor 0.9 allows for errors of equal parts, which differ by up to a tenth because they are estimated from
+ * samples. */
 bool uneven_list_accepts_error(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);

@@ -175,8 +175,8 @@ void contact_allocate_force_record(struct contact *c, const struct particles *p)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
-/* Records the contact forces in c->push as the difference of p->f after and before they are added. after: false in the
- * call before, true in the call after. */
+/* Records the contact forces on all particles in c->push [N], for output. It is called twice: with `after` false before
+ * contact forces are added to p->f, and with `after` true afterwards. The record is the difference. */
 static void record(struct contact *c, const struct particles *p, bool after)
 {
     for (int d = 0; d < p->dim; d++)

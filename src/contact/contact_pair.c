@@ -9,9 +9,8 @@ struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
-/* Returns overlap, distance, stiffness and vector of pair q, which belongs to row `row` of the contact list (particles
- * that may come into contact). The vector is that between both particles. Overlap and stiffness are 0 if the pair is
- * not in contact. */
+/* Returns the state of pair q of row `row` of the contact list: the vector between both particles, its length, the
+ * overlap and the stiffness of the contact. Overlap and stiffness are 0 if the pair is not in contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};

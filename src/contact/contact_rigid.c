@@ -259,9 +259,9 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
     return sqrt(sum);
 }
 
-/* Returns the contact energy k overlap^2 of a rigid body with the particle of entry q in the list of particles near it
- * [J], as a term of a sum. k: stiffness of two particles like this one; context: the body and contact (struct
- * rigid_sum). */
+/* Returns the contact energy of a rigid body with one particle, entry q in the list of particles near it [J]: k
+ * overlap^2, with the stiffness k of a contact between two particles like this one. It is a term of a sum over entries.
+ * context: the body and contact (struct rigid_sum). */
 static real near_energy(const void *context, int64_t q)
 {
     const struct rigid_sum *s = context;

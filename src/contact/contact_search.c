@@ -157,9 +157,10 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Appends the pairs of list entry k to *to: list entries whose particles are within the range of the search. Depending
- * on the law, these are the particles without a bond to that of entry k, or only particles of other bodies. near:
- * working memory; marks: one bit per particle, all 0 before and after. */
+/* Finds the particles that may come into contact with that of entry k of the contact list, and appends their entries to
+ * *to. They are within the range of the search; depending on the law, only those of other bodies count, or only those
+ * without a bond to the particle of entry k. near: working memory; marks: one bit per particle, all 0 before and
+ * after. */
 static void row_pairs(const struct contact_search *s, struct neighbour_list *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -311,8 +312,8 @@ static bool has_come_far(const struct contact *c)
 }
 
 /* Requests a search for contact if one of the particles list[0 .. n - 1], which have just become peridynamic, is in the
- * first layer of a face. A particle that is near no face but has a few broken bonds requires no search at once; the
- * next search lists it. */
+ * first layer at a face. A particle elsewhere with a few broken bonds does not require a search at once; the next
+ * search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *list, int64_t n)
 {

@@ -100,10 +100,10 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the material points whose flags require it and, if rule->block is set, also all material points of their
- * body within the cutoff. Appends the converted points to `changed`, and clears the conversion flags of all particles.
- * map: map from lattice sites to particles, NULL: neighbours are searched for; t: present time [s], stored in *c at the
- * first conversion. */
+/* Converts the material points whose flags require it to peridynamic particles. If rule->block is set, also converts
+ * all material points of the same body within the cutoff of these. Appends the converted points to `changed`, and
+ * clears the conversion flags of all particles. t: time, stored in *c with the position at the first conversion [s].
+ * map: map from lattice sites to particles, or NULL to search for neighbours. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)

@@ -11,8 +11,9 @@
 
 #include "partial_parts.h"
 
-/* Computes zeta = (1/Q) sum w xi (x) xi over the intact bonds of point i, in symmetric components [1], with bond
- * weights w, bond vectors xi and weighted volume Q. zeta: 0 before. Returns false if the point has no bonds. */
+/* Computes the tensor zeta = (1/Q) sum w xi (x) xi over the intact bonds of material point i, in symmetric components
+ * [1]; zeta must be 0 before. w: weight of a bond; xi: its reference vector; Q: weighted volume of the family. Returns
+ * false if the point has no intact bond. */
 static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
@@ -85,9 +86,9 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on symmetric component c of a tensor, 1 for normal components, sqrt(2) for shear components, which
- * occur twice in a tensor. A matrix over symmetric components with these factors on its rows and columns has the
- * eigenvalues of its fourth-order tensor. */
+/* Returns 1 for a normal component c and sqrt(2) for a shear component of a symmetric tensor. If the rows and columns
+ * of a matrix over symmetric components are multiplied by these factors, the matrix has the eigenvalues of the
+ * fourth-order tensor, in which shear components occur twice. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
 /* Reduces T [J], the part of the stiffness of a material point that bonds replace, until V C + q L L - T has no

@@ -86,8 +86,8 @@ void partial_tensor_add_bond(real *tensor, const real *point_position, const rea
         }
 }
 
-/* Returns V/Q [m^-2] of particle or mirror image i: its volume V over the weighted volume Q of its family. For a
- * particle without a row of bonds Q is that of a full family. */
+/* Returns V/Q [m^-2] of a particle: its volume V over Q, the weighted volume of its family (sum of w xi^2 V). i: index
+ * of the particle or of its mirror image. Without a row of bonds, Q is that of a complete family. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_source_particle(p, s->image, i)];
@@ -335,8 +335,9 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores `size` values of the matrix M and `local` values of the tensor L, which follow them at M + size, for point i.
- * The point gets a new entry if it has none. */
+/* Stores the values computed for point i: `size` values of the matrix M (part of its stress that bonds carry), and
+ * `local` values of the tensor L (derivative of its mean strain by the strain of its cell), which follow at M + size.
+ * Creates an entry for the point if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -348,8 +349,9 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes the unused entries of the arrays once they are the majority: conversion creates entries, and reversion leaves
- * them unused. size, local: numbers of values of the matrix M and the tensor L in an entry. */
+/* Removes unused entries from the arrays of stored values if they are more than half of all. Points that have become
+ * peridynamic or have lost their bonds leave unused entries. size, local: numbers of values of the matrix M and the
+ * tensor L in an entry. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -387,8 +389,9 @@ static void touch(struct partial_stress *partial, int64_t i)
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Computes the values stored for all material points in the list r->list, in parallel. entry: receives r->n times the
- * values of an entry; crossed[k]: set to true if the point r->list[k] needs an entry. */
+/* Computes the values to be stored for the material points in the list r->list, in parallel. entry: receives r->n
+ * entries, each with the matrix M and for state-based models the tensor L; crossed[k]: set to true if the point
+ * r->list[k] needs an entry because bonds cross its cell. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {

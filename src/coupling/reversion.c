@@ -43,9 +43,10 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Returns true if the largest principal stress of particle i is less than rule->low_stress times the stress at which it
- * would be converted. The stress of a particle whose neighbours are incomplete, at a surface, is divided by the volume
- * share of those that exist. */
+/* Returns true if the stress of particle i is low enough for reversion to a material point: its largest principal value
+ * is less than rule->low_stress times the stress at which a point is converted. In bond-based models the stress of a
+ * particle near a surface is too small because neighbours are missing, and is divided by the volume share of those that
+ * exist. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -56,11 +57,11 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_largest_principal(stress, p->dim) < limit;
 }
 
-/* Finds the peridynamic particles that may not revert for reasons of their own. held[i] is set to 1 for particles with
- * a broken or softened bond, inside the region rule->kept, or whose stress has been low for less than the hold time,
- * else to 0. cut[i] is set to 1 for those with a broken or softened bond. Also updates low_since, the time from which
- * on the stress of a particle has been low [s]. t: present time [s]. Returns the number of peridynamic particles with
- * held[i] = 0. */
+/* Finds the peridynamic particles that may not revert to material points for reasons of their own. Sets held[i] to 1
+ * for particles with a broken or softened bond, for those in the region rule->kept, and for those whose stress has not
+ * been low for the hold time; to 0 for others. Sets cut[i] to 1 for particles with a broken or softened bond. Updates
+ * low_since, the time since when the stress of a particle is low [s]. t: present time [s]. Returns the number of
+ * peridynamic particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {

@@ -43,8 +43,8 @@ static real energy_now(struct run *e)
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Reverts the n peridynamic particles list[k] to material points. Adds the change of elastic and kinetic energy by this
- * to conversion.reversion_energy of e->coupling. */
+/* Turns the n peridynamic particles list[k] into material points. The change of elastic and kinetic energy that this
+ * causes is added to the quantity conversion.reversion_energy of the run [J]. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);

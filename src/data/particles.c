@@ -88,8 +88,9 @@ _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
-/* Returns the pointer to component k of the array that row f of the table describes. The pointer is copied byte by
- * byte, since a `real *` must not be read as a `void *`. */
+/* Returns the pointer to component k of a particle array. f: row of the table particle_fields, which has the offset of
+ * this pointer in struct particles. The pointer is copied byte by byte, since a `real *` must not be read as a `void
+ * *`. */
 static void *get(const struct particles *p, const struct particle_field *f, int k)
 {
     void *array;
@@ -97,7 +98,8 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
-/* Stores `array` as the pointer to component k of the array that row f of the table describes. */
+/* Stores `array` as the pointer to component k of a particle array. f: row of the table particle_fields, which has the
+ * offset of this pointer in struct particles. */
 static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);

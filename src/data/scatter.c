@@ -34,8 +34,9 @@ static real noise_of(uint64_t hash) { return normal_distribution_quantile(((real
  * length/2; omitted nodes have weights below exp(-8) of the largest. */
 enum { NODES = 8 };
 
-/* Computes weight[NODES], the Gaussian weights of the NODES lattice nodes nearest to the coordinate `place`, which is
- * in spacings of the lattice, half a correlation length each. Returns the index of the first of these nodes. */
+/* Computes weight[NODES], the Gaussian weights of those NODES nodes of a random field that are nearest to the
+ * coordinate `place` along one axis. The nodes are half a correlation length apart, which is the unit of `place`.
+ * Returns the index of the first of these nodes. */
 static int64_t weights_along(real place, real weight[NODES])
 {
     const int64_t first = (int64_t)floor(place) - NODES / 2 + 1;

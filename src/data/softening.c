@@ -88,17 +88,17 @@ struct directions {
     const struct softening_model *model;
 };
 
-/* Returns the force of a bond at the stretch s, divided by its stiffness, its weight and s_0, the stretch at which
- * softening begins [1]. s is in units of s_0. The force is s up to s = 1, then falls along the softening curve, and
- * is 0 beyond its end. */
+/* Returns the force of a softening bond at the stretch s, divided by its stiffness, its weight and s_0 [1], where s is
+ * in units of s_0, the stretch at which softening begins. The force equals s up to s = 1, then follows the softening
+ * curve, and is 0 where the curve has ended. */
 static real bond_tension(const struct directions *a, real s)
 {
     if (s <= 1) return s;
     return a->reach > 0 ? softening_curve_value(a->curve, (s - 1) / a->reach) : 0;
 }
 
-/* Returns the share of its stiffness that a bond has at the stretch s [1]. s is in units of s_0, the stretch at
- * which softening begins. */
+/* Returns the secant stiffness of a softening bond at the stretch s over its initial stiffness [1], where s is in units
+ * of s_0, the stretch at which softening begins. */
 static real bond_share(const struct directions *a, real s) { return s <= 1 ? 1 : bond_tension(a, s) / s; }
 
 /* Returns cos^2 of the angle between the axis of tension and direction number k of the quadrature over directions
@@ -208,9 +208,9 @@ static real shear_at(const struct directions *a, real strain)
     return family_stress(a, strain, strain_without_stress(a, -10 * strain, strain, stress_sum)).axial;
 }
 
-/* Returns the largest value of stress(a, strain) over growing strain. The search begins at the onset of softening and
- * ends when the stress has fallen by a fifth of its maximum or all bonds have failed. Returns NAN if the stress is not
- * defined in this space. */
+/* Returns the largest value of stress(a, strain) as the strain grows, which is the strength of the material. The search
+ * begins at the strain at which softening begins. It ends when the stress has fallen to 0.8 of the maximum, or when all
+ * bonds have failed. Returns NAN if the stress is not defined in this space. */
 static real peak(const struct directions *a, real (*stress)(const struct directions *, real))
 {
     real most = 0;

@@ -116,9 +116,10 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns by how much the level of a solid s at a point may be below the distance of the point from its bounding box
- * [m]: 0 for most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a
- * surface with holes, since points inside it may be far from it. The level is <= 0 inside (solid_level_set_value). */
+/* Returns the largest amount [m] by which the level of solid s at a point can be below the distance of the point from
+ * the bounding box of s. (The level of a solid is <= 0 inside, see solid_level_set_value.) It is 0 for most solids, the
+ * size of a voxel for voxel images, whose levels refer to voxel centres, and INFINITY for a surface with holes, for
+ * which points far from it can count as inside. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;

@@ -45,9 +45,9 @@ static void complete_state(const struct material *m, enum space space, real *str
     if (space == SPACE_PLANE_STRAIN) stress[2] = m->poisson * (stress[0] + stress[1]);
 }
 
-/* Returns the largest principal strain of a stress state that grows in proportion until it reaches the strength surface
- * of the material m, for the elasticity of the space [1]; INFINITY if it never does. stress[3]: principal stresses that
- * give the direction of the state; the one normal to a plane is set. */
+/* Returns the largest principal strain of a stress state of fixed direction when it reaches the strength surface of
+ * material m, for the elasticity of the space [1]. Returns INFINITY if it never does. stress[3]: principal stresses
+ * that give the direction; in a plane, the one normal to it is computed and stored. */
 static real largest_strain(const struct material *m, enum space space, real *stress)
 {
     const int dim = space_dim(space);

@@ -44,8 +44,9 @@ static int block_colour(const struct block_shape *s, int64_t block)
     return colour;
 }
 
-/* Stores in rank[s->n] the rank of each block (a box of cells) in the order by colour, then by number, and in
- * o->blocks_of the first rank of each colour. */
+/* Computes rank[s->n], the position of each block (a box of cells) in a list of all blocks that is sorted by colour,
+ * then by number. Blocks of one colour are not adjacent, so that threads can process them at the same time. Stores in
+ * o->blocks_of the first position of each colour. */
 static void rank_blocks(struct transfer_order *o, const struct block_shape *s, int32_t *rank)
 {
     int32_t next = 0;
@@ -189,8 +190,9 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
-/* Copies the points of a chunk of the list (the part of one thread) to s->bucket, sorted by block, and their cells to
- * s->sorted. s->fill gives the next free entry of each block. */
+/* Copies the points of one chunk (the part of the list that one thread sorts) to s->bucket, and the numbers of their
+ * cells to s->sorted, both sorted by block (a box of cells). On entry, s->fill[chunk][block] is the index of the first
+ * free entry for the points of this chunk in the block. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];

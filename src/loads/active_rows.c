@@ -32,9 +32,9 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Returns the row block of the neighbour of a bond, or -1 if the bond is padding or its neighbour has no row.
- * column: copy of one bond in each of the LANES rows of a row block; lane: which of these rows. A mirror image has
- * the row of its source particle. */
+/* Returns the row block (LANES rows of bonds) with the row of the neighbour of one bond, or with the row of its source
+ * if the neighbour is a mirror image. Returns -1 if the bond is padding or there is no such row. column: one bond of
+ * each of the LANES rows of some row block; lane: which of these bonds. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {

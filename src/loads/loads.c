@@ -10,9 +10,9 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Marks particles in l->loaded[p->n + LANES]: LOADED if a load acts on them, MOVES_LATER if bonds across a clamped
- * mirror plane may act on them. Lists the marked particles in l->list, in ascending order. Allocates both arrays,
- * unless no particle can be marked. */
+/* Lists in l->list, in ascending order, the particles on which loads act, or later may act through bonds across a
+ * clamped plane of symmetry. Marks them with LOADED or MOVES_LATER in l->loaded[p->n + LANES]. Allocates both arrays
+ * unless there are no such particles. */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -89,9 +89,9 @@ void loads_free(struct loads *l)
 
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Prescribes the velocity of the peridynamic particles of a load: replaces their force by m (v_prescribed -
- * v)/dt_velocity. The difference from the previous force is the force of the support. Its impulse is added to
- * l->impulse and its work to l->constraint_work; load->reaction becomes minus the sum of the previous forces. by:
+/* Replaces the force on the peridynamic particles of a load with prescribed velocity by the force that gives them this
+ * velocity, m (v_prescribed - v)/dt_velocity. The difference from the previous force is exerted by the support: adds
+ * its impulse to l->impulse and its work to l->constraint_work. load->reaction is reduced by the previous forces. by:
  * motion prescribed in this step; dt_velocity: duration of the velocity update [s]. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
@@ -199,9 +199,9 @@ void loads_apply_to_particle_forces(struct loads *l, struct particles *p, real t
 
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
-/* Sets the velocities of the driven material points of a grid to their prescribed values; points of a mesh are skipped.
- * The change of momentum is added to l->impulse and its work to l->constraint_work. by: motion that the load prescribes
- * in this step. */
+/* Sets the velocities of those particles of a load that are material points on a grid to the prescribed values. Points
+ * of a mesh are skipped. Adds the change of momentum to l->impulse and its work to l->constraint_work. by: motion that
+ * the load prescribes in this step. */
 static void velocities_set(struct loads *l, const struct load *load, struct particles *p,
                            const struct prescribed_motion *by)
 {
@@ -226,9 +226,10 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
  * driven. */
 #define OFF_PLACE 1e-6
 
-/* Moves the particles of a load with prescribed displacement to their positions at the end of the step, except points
- * of a mesh. A particle moved by bond forces is set to that position only if it is within OFF_PLACE spacings of it. by:
- * motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was moved. */
+/* Sets the positions of the particles of a load with prescribed displacement to those at the end of the step. Points of
+ * a mesh are skipped, and particles moved by bond forces that are more than OFF_PLACE spacings away from these
+ * positions. by: motion prescribed in this step; spacing: lattice spacing [m]. Returns true if a point of a grid was
+ * moved. */
 static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
                           real spacing)
 {

@@ -88,9 +88,10 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the coefficient of the dashpot on particle number q of an absorbing load for motion along axis d [kg/s]: area
- * of the particle times wave impedance of its material, normal or tangential to the face. by: what moves the particle
- * (bonds, grid or mesh); on grids the area extrapolated to the face is used. a: impedances of the materials. */
+/* Returns the coefficient of the dashpot on particle number q of an absorbing load, for motion along axis d [kg/s]: the
+ * area of the particle times the wave impedance of its material, for P waves normal to the face and for S waves along
+ * it. by: what moves the particle, on which the impedance depends (bonds, grid or mesh); for a grid the areas are those
+ * extrapolated to the face. a: impedances of the materials. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -273,10 +274,10 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     memory_free(value);
 }
 
-/* Returns the fraction of the face area of a particle that corner `corner` of its mesh cell receives [1]. A cell has
- * 2^dim integration points, one in each of its 2^dim parts of equal size. place: number of the part with the particle;
- * bit d of `place` and `corner` is 1 for the upper half along axis d. The face is half a spacing in front of the point,
- * along `axis` towards `side` (-1 or 1). */
+/* Returns the share of the face area of a particle that goes to node `corner` of its mesh cell [1]. A cell has 2^dim
+ * particles, one in each of its equal parts. place: number of the part of the particle; bit d of `place` and `corner`
+ * is 1 for the upper half along axis d. The face is half a spacing in front of the particle, along `axis` in the
+ * direction `side` (-1 or 1). */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);

@@ -192,9 +192,9 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the mean of the time function f over the velocity update from t - dt_velocity to t [s], by the trapezoidal
- * rule [1]. The value at the end of the update alone would be half a step late, a first-order error. With the mean, a
- * load that switches at a whole step keeps its full impulse: half of it is in the update that contains the switch. */
+/* Returns the factor of a load for the velocity update from t - dt_velocity to t [s]: the mean of the time function f
+ * over this interval by the trapezoidal rule [1]. The value at its end alone would be an error of first order, half a
+ * step late. The mean also preserves the impulse of a load that is switched at a whole step. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
@@ -220,10 +220,10 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
         }
 }
 
-/* Returns the factor of a load for its work over the position update of the step of size dt about t [s] [1]. It is the
- * mean of the time function f over the velocity updates before and after it, f(t)/2 + (f(t - dt) + f(t + dt))/4. With
- * the forces F_n of the velocity updates and position updates v dt between them, the change of m v- . v+/2 equals sum
- * (F_n + F_n+1)/2 . v dt exactly, however short a load is. */
+/* Returns the factor of a load with which its work over the position update about time t [s] is computed [1]. The work
+ * must equal the change of the energy m v- . v+/2, thus the mean of the forces of the velocity updates before and after
+ * it, times the displacement. Each of these is the mean of the time function f over its interval, so that the factor is
+ * f(t)/2 + (f(t - dt) + f(t + dt))/4. dt: time step [s]. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_value(f, t) +

@@ -43,9 +43,9 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Returns the edge of the cube (in 2D the square) that represents particle i [m]: (volume/section)^(1/dim), or the
- * spacing of the scene if the boundary has no section. For particles of body c->body with equal volumes the mean width
- * c->width is used. */
+/* Returns the edge of the cube (in 2D the square) that particle i stands for [m]: (volume/section)^(1/dim), with the
+ * thickness or area b->section. Without section it is the spacing of the scene. If all particles of body c->body have
+ * the same volume, it is their mean width c->width. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
@@ -267,9 +267,9 @@ static real behind(const struct columns *c, const struct boundary *b, const stru
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Returns the index in c->order of the highest exposed particle of column `column` among indices below `from`, or -1 if
- * there is none. A particle is exposed if it is selected and no particle is within GAP particle widths in front of it.
- * selected[p->n]: 1 for particles in the region of boundary b. */
+/* Returns the index in c->order of the highest exposed particle of column `column` among those with an index below
+ * `from`; -1 if there is none. A particle is exposed if it is selected, and the next particle in front of it in the
+ * column is more than GAP particle widths away. selected[p->n]: 1 for particles in the region of boundary b. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
 {

@@ -152,8 +152,9 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
     return most;
 }
 
-/* Returns the difference between the velocity that load l prescribes for its particle number k and the current velocity
- * of the particle [m/s]; for rotations, the difference of their speeds. by: motion that l prescribes in this step. */
+/* Returns the magnitude of the difference between the velocity that load l prescribes for its particle number k and the
+ * present velocity of the particle [m/s]. For a rotation, whose velocity changes direction, returns the difference of
+ * the two speeds instead. by: motion that l prescribes in this step. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
                              const struct prescribed_motion *by)
 {
@@ -190,9 +191,10 @@ real load_largest_driven_speed(const struct load *l, const struct particles *p, 
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
-/* Returns the change of the prescribed velocity of particle number k of load l between two times [m/s]; for rotations
- * the change of speed. by[0], by[1]: prescribed motion at the earlier and the later time. At times <= 0 the particle
- * has its initial velocity. */
+/* Returns the magnitude of the change of the velocity that load l prescribes for its particle number k between two
+ * times [m/s]. For a rotation, whose velocity changes direction, returns the change of the speed instead. by[0], by[1]:
+ * prescribed motion at the earlier and the later time; at times <= 0 the velocity is the initial velocity of the
+ * particle. */
 static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k,
                                const struct prescribed_motion by[2])
 {

@@ -6,11 +6,10 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Returns the step to which coordinates along `axis` of particles with mirror images are rounded [m], or 0 if all
- * mirrors of this axis are at 0. It is the last bit of twice the farthest coordinate plus `reach` [m], so that
- * reflection causes no rounding. The force of particle i on the image of j then cancels that of j on the image of i to
- * the last bit. Otherwise round-off of bond lengths would move slow bodies. boundary[n]: boundaries of the scene;
- * reach: length of the longest bonds. */
+/* Returns the step to which the coordinates along `axis` of particles with mirror images are rounded [m], so that
+ * reflection at a plane of symmetry causes no round-off. Then the force of particle i on the image of j cancels that of
+ * j on the image of i to the last bit; otherwise round-off would move slow bodies. Returns 0 (no rounding) if all such
+ * planes are at 0. boundary[n]: boundaries of the scene; reach: length of the longest bonds [m]. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
 {
     real farthest = 0;
@@ -29,9 +28,10 @@ static real stepped(const struct loads *l, int axis, real place)
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Appends the mirror images that mirror number `which` makes of its body to p and l->image: of all particles, and of
- * images made before (for corners), within `reach` of the plane [m]. Particles on the plane have no image. Positions of
- * the sources are rounded to multiples of l->place_step. optional: optional arrays of p, sum of WITH_*. */
+/* Appends to p and l->image the mirror images at the plane of symmetry of load number `which`: those of all particles
+ * of its body within `reach` of the plane [m], and those of images that other planes have made, for corners. Particles
+ * on the plane have no image. The positions of the sources are rounded to multiples of l->place_step. optional: set of
+ * the optional arrays of p, as sum of WITH_*. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;

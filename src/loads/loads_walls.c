@@ -55,8 +55,8 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Returns true if node I is beyond mirror planes and moves as the mirror image of another node, and stores image, signs
- * and mirror in *f. */
+/* Returns true if node I is beyond planes of symmetry and moves as the mirror image of another node. Stores this node,
+ * the signs of the components and the number of the plane's load in *f. */
 static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
@@ -234,9 +234,9 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
     }
 }
 
-/* Evaluates by[l->n], the motion that all loads prescribe in the step of size dt about t [s] and in the previous
- * step; in the first step both are equal. dim: dimensions; reference: true if nodes move with the material, as on a
- * mesh. */
+/* Computes by[l->n], the motion that each load prescribes in the step of size dt about time t [s], and in the step
+ * before. In the first step both are the same. dim: number of dimensions; reference: true if nodes move with the
+ * material, as on a mesh. */
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool reference, struct driven_by *by)
 {
     const real anywhere[DIM_MAX] = {0};
@@ -248,8 +248,9 @@ static void driven_by_all(const struct loads *l, int dim, real t, real dt, bool 
     }
 }
 
-/* Adds walls (prescribed velocities) to grid g for all node components of set s whose nodes have mass. mesh: the
- * mesh whose grid g is, or NULL; by[loads]: prescribed motion; reference: true if nodes move with the material. */
+/* Prescribes the velocities of all node components in the list s on grid g, except of nodes without mass. by[loads]:
+ * prescribed motion of each load; mesh: the mesh to which g belongs, or NULL; reference: true if nodes move with the
+ * material, as on a mesh. */
 static void constrained_walls(const struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                               const struct driven_by *by, bool reference)
 {

@@ -150,16 +150,17 @@ static real dot_all(const struct newton_solver *q, const struct field *a, const 
     return sum;
 }
 
-/* Returns the size of the region in which the nodes move by about as much as the largest component of a displacement
- * increment [m]. Bonds rotate by about this component over this length. most: the largest component [m]. */
+/* Returns the size [m] of the region that moves with the largest component of a displacement increment, estimated from
+ * the sum of squares of the increment. Bonds at the border of this region rotate by about this component over this
+ * size. most: the largest component [m]. */
 static real turning_width(const struct newton_solver *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor by which a displacement increment is multiplied to compute a difference of forces [1]. It is so
- * small that strains of bonds stay within DIFFERENCE_STRAIN and their rotations within DIFFERENCE_TURN. most: largest
- * component of the increment [m]. */
+/* Returns the factor by which a displacement increment is multiplied when the product with the stiffness is computed
+ * from a difference of forces [1]. With this factor, strains of bonds are at most DIFFERENCE_STRAIN and their rotations
+ * about DIFFERENCE_TURN. most: largest component of the increment [m]. */
 static real difference_step(const struct newton_solver *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
@@ -188,8 +189,9 @@ static void strain_note(struct newton_solver *q, const struct field *d, real cur
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Computes q->scale, the largest of the norms of applied forces, reactions and noise [N]; q->residual, the norm of the
- * unbalanced forces q->f over q->scale; and q->worst, the node with the largest unbalanced force. */
+/* Measures how far the forces q->f are from equilibrium. q->scale: the largest of the norms of applied forces,
+ * reactions and round-off [N]; q->residual: the norm of the unbalanced forces over q->scale [1]; q->worst: the node
+ * with the largest unbalanced force. */
 static void equilibrium_measure(struct newton_solver *q)
 {
     real sum[2], most = -1;
@@ -206,8 +208,9 @@ static void equilibrium_measure(struct newton_solver *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual q->r = f - K x of the initial increment x = q->x, which contains the motion of supports; f:
- * present forces, K: tangent stiffness. It is set to 0 on held components (those with prescribed displacement). */
+/* Computes the residual q->r = f - K x of the initial increment x = q->x, where f are the present forces q->f and K is
+ * the tangent stiffness. x may contain the motion of supports. The residual is set to 0 for components with prescribed
+ * displacement. */
 static void residual_of_guess(struct newton_solver *q)
 {
     if (field_largest_component(&q->x, q->dim, q->n) == 0) {
@@ -269,10 +272,10 @@ static void follow_negative(struct newton_solver *q)
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
-/* Solves K x = f for free components by preconditioned conjugate gradients, starting from x = q->x; held components of
- * x (those with prescribed displacement) do not change. Stops at a residual of `wanted` [N], at FORCING_LEAST times
- * that of the initial x, or if there is no progress. At a direction of negative stiffness x is extended along it
- * (Steihaug 1983), unless supports move. prescribed: true if they do. */
+/* Solves K x = f for the free components of x = q->x by preconditioned conjugate gradients, starting from the given x.
+ * Components with prescribed displacement do not change. Stops when the residual is `wanted` [N] or FORCING_LEAST times
+ * its initial value, whichever is larger, or when it makes no progress. If a direction with negative stiffness is
+ * found, x is extended along it (Steihaug 1983), unless `prescribed` is true, which means that supports move. */
 static void correction(struct newton_solver *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;

@@ -73,9 +73,9 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     return OK;
 }
 
-/* Computes l->mode, the displacements of each node in the rigid motions: translations, then rotations about the centre
- * of the nodes (displacement per angle). They are 0 on held components, those with prescribed displacement.
- * position[width][n]: positions of the nodes [m]. */
+/* Computes l->mode, the rigid-body motions of the nodes of the finest level: the displacement of each node in a unit
+ * translation along each axis, then in a rotation by a unit angle about the centre of the nodes. Displacements of
+ * constrained components are 0. position[width][n]: positions of the nodes [m]. */
 static void finest_modes(struct multigrid_level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;

@@ -20,8 +20,9 @@ static float entry_norm(const struct multigrid_level *l, int64_t q)
     return (float)sqrt(sum);
 }
 
-/* Returns the strength of each matrix entry of level l, an array [l->first[l->n]]: the norm of the entry if it connects
- * two free nodes strongly enough (WEAK), else 0. The caller frees the array. */
+/* Returns the strength of the connection between two nodes for each matrix entry of level l, an array [l->first[l->n]].
+ * It is the norm of the entry, but 0 if the norm is small compared with other entries of both nodes (WEAK), if it is a
+ * diagonal entry, or if one of the nodes has no stiffness. The caller frees the array. */
 static float *strengths_make(const struct multigrid_level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);

@@ -22,9 +22,10 @@ struct relaxing {
     const struct particles *part;
 };
 
-/* Adds over free components of particles first .. end - 1: u^T k u to sum[0], u^T u to sum[1], and v^T v to sum[2],
- * with displacements u, velocities v and the estimated stiffness k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}).
- * context: solver and particles (struct relaxing). reproducible_sums calls it for each block of particles. */
+/* Adds three sums over the free components of particles first .. end - 1, from which the damping coefficient follows:
+ * u^T k u to sum[0], u^T u to sum[1] and v^T v to sum[2]. u: displacements; v: velocities; k: diagonal estimate of
+ * stiffness over mass, -(f^n - f^{n-1})/(Lambda v), from the change of the forces in a step. context: solver and
+ * particles (struct relaxing). Called by reproducible_sums for each block of particles. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct relaxing *relaxing = context;
@@ -51,9 +52,9 @@ static real damping(const real *sum)
     return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
 }
 
-/* Moves the particles by a step of pseudo-time 1: v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c), x += v, or f/(2
- * Lambda) in the first half step from rest. Lambda: s->diagonal; step: number of the step; c: damping coefficient [1].
- * Stores the forces in s->before. */
+/* Makes one step of dynamic relaxation, with a pseudo-time step of 1: v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 +
+ * c) and x += v for free components. In the first step, which starts at rest, v = f/(2 Lambda). Lambda: fictitious
+ * masses s->diagonal; c: damping coefficient [1]; step: number of the step. Stores the forces in s->before. */
 static void particles_move(struct static_solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);

@@ -161,8 +161,9 @@ static real *damage_make(const struct particles *p, const struct bonds *bonds)
     return damage;
 }
 
-/* Returns for every particle the share of the strength surface that its stress reaches, an array of p->n values [1];
- * NULL if no material has a strength surface. The caller frees the array with memory_free. */
+/* Returns for every particle the ratio of its stress to the strength in the same direction of stress, according to the
+ * strength surface of its material: 1 on the surface [1]. It is an array of p->n values, which the caller frees with
+ * memory_free; NULL if no material has a strength surface. */
 static real *shares_make(const struct particles *p, const struct bonds *b, const struct bond_source *source)
 {
     if (!b->soft.near) return NULL;

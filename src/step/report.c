@@ -48,9 +48,9 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
     return s->frames < most ? s->frames : most;
 }
 
-/* Returns the step after which frame k of the body is written: the step nearest to its time in scene s or, if the scene
- * gives no times, that of evenly spread frames. A step writes at most one frame: frames closer together than a step are
- * moved to other steps, and their number does not change. */
+/* Returns the step after which frame k of the whole body is written. It is the step nearest to the time that scene s
+ * gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer together than
+ * the steps, some are written at later or earlier steps, so that each frame has a step of its own. */
 int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -105,9 +105,9 @@ static bool body_frame_due(const struct scene *s, const struct run_clock *clock,
     return frames <= report_count_frames(s, clock) && step >= report_step_of_frame(s, clock, frames);
 }
 
-/* Returns true if frame number `frames` of a region, counted from 0, is due after `step` steps. If several frames are
- * due in one step, one is written; the last frame is at the end of the run. every: time between frames [s]; duration:
- * of the run [s]. */
+/* Returns true if frame number `frames` of a region, counted from 0, is due after `step` steps. Frames are written
+ * every `every` [s] and at the end of the run; of several frames that are due in one step only one is written.
+ * duration: of the run [s]. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -197,8 +197,8 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
-/* Returns true if the wall-clock time that the scene allows is over, i.e. if less than twice the time of the longest
- * checkpoint remains. */
+/* Returns true if the run has to stop because of the wall-clock time that the scene allows: the time that remains is
+ * less than twice that of the longest checkpoint so far, which must still be written. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
     return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;

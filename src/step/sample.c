@@ -269,8 +269,8 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
         e->report->history_status = output_write_history(e->report->out, e->report->record);
 }
 
-/* Copies the velocities at the start of a step to sampling->before if points are on the grid. They are needed for
- * energies, because the grid transfers forces to points as changes of velocity only. kind: coupling method. */
+/* Copies the velocities at the start of a step to sampling->before if the grid moves particles. Samples need them for
+ * energies, since the grid changes velocities without forces on particles. kind: coupling method. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;

@@ -23,10 +23,10 @@ static real least_impedance(const struct scene *s, int b)
     return least;
 }
 
-/* Returns the closing speed of bodies a and b at which the front of their impact breaks or yields body a [m/s];
- * INFINITY if it never does. With the impedance Z = density times wave speed c, body a gets the share Z_b/(Z_a + Z_b)
- * of the closing speed v, because stress and velocity are equal at the common face. Its strain is this share of v/c:
- * v/(2 c) between bodies of one material, v/c beside a rigid body. */
+/* Returns the closing speed of bodies a and b at which the shock wave of their collision breaks or yields body a [m/s].
+ * Returns INFINITY if it never does. At a closing speed v, the velocity of body a changes by the share Z_b/(Z_a + Z_b)
+ * of v, with the impedances Z = density times wave speed c, because stress and velocity are equal at the common face.
+ * The strain of its wave is this change over c: v/(2 c) between bodies of one material, v/c beside a rigid body. */
 static real speed_limit(const struct scene *s, int a, int b)
 {
     const real other = least_impedance(s, b);

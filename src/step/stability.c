@@ -355,9 +355,10 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
  * may store more. */
 real diagnostics_excess_released_energy(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
-/* Returns true if the body has gained more energy than a stable run can: balance error > ENERGY_FROM_NOWHERE, or energy
- * released in excess > RELEASED_FROM_NOWHERE. The balance of the first ENERGY_STEPS steps is left out, since half a
- * step of a load is then a large share, unless the time step is above the critical one. */
+/* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance exceeds
+ * ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is not tested
+ * in the first ENERGY_STEPS steps, in which half a step of a load is a large share of the energy, unless the time step
+ * is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;

@@ -26,8 +26,9 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Returns the quantities that the phases of the next step share: middle of the step, damping factors, and duration of
- * the velocity update, which is also stored in *transfer. damping: rate c of bulk damping [1/s]. */
+/* Returns the quantities that all phases of the next step use: the time in its middle, the factors of bulk damping and
+ * the duration of the velocity update. The latter is half a time step in the first step and is also stored in
+ * *transfer. damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
     const real dt = clock->dt, decay = damping * dt, share = damping_increment_factor(decay);

@@ -259,9 +259,9 @@ void viscosity_add_nodal_forces(struct run *e)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest speed that load l gives to its particles within `duration` [s] [m/s]; 0 if the speed is unbounded
- * or the load is of another kind. A traction or pressure of size s moves a face at s/impedance. impedance: smallest
- * density times wave speed of the materials [Pa s/m]. */
+/* Returns the largest speed [m/s] that load l causes within `duration` [s]: the prescribed speed, or for a traction or
+ * pressure of size s the speed s/impedance at which it moves a face. Returns 0 for other loads, and if the speed is not
+ * finite. impedance: smallest density times wave speed of the materials [Pa s/m]. */
 static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
     const struct boundary *b = l->boundary;
