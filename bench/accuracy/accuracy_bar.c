@@ -56,8 +56,8 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
     return OK;
 }
 
-/* Returns false for methods with uniform weights of bonds: on a line all bonds have one direction, so that such
- * weights change nothing. */
+/* Returns true if the bar is run with the method of point p: with all methods except those with uniform weights of
+ * bonds. In 1D all bonds have the same direction, so that these weights give the results of others. */
 static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_bar = {

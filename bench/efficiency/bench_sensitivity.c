@@ -44,8 +44,8 @@ struct all_scatters {
     struct scatter *at;
 };
 
-/* Returns false for scenes in 3D at a finer spacing than their own, which take minutes per run. dim: dimension of the
- * scene. */
+/* Returns true if case c is run. Returns false for scenes in 3D with a finer spacing than that of the scene file, since
+ * their runs take minutes each. dim: dimension of the scene. */
 static bool is_short(const struct scene_case *c, int dim) { return !(c->spacing && dim == 3); }
 
 static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run / (runs - 1) - 1); }

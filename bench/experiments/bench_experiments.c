@@ -14,7 +14,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the result r has a range required by an experiment or another code. */
+/* Returns true if the result r is compared with a range of values, which an experiment or another code gives. */
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
 static bool experiment_is_held(const struct experiment_row *r) { return r->value >= r->low && r->value <= r->high; }

@@ -61,8 +61,9 @@ static void surf_field(const struct surf *s, const struct particles *p, int64_t 
     }
 }
 
-/* Sets all particles of e to the displacement and velocity of the prescribed field at t = 0. Lists the particles at the
- * edge of the plate, whose displacement is prescribed, in s->particle[s->held], and sets their velocity to 0. */
+/* Sets the displacement and velocity of all particles of e to those of the prescribed field at t = 0. The particles at
+ * the edge of the plate, which later follow this field, are listed in s->particle[s->held]; their velocity is set to
+ * 0. */
 static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;

@@ -210,8 +210,8 @@ status bench_targets_memory(struct targets *f)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the quantity a meets its target: the measured value over the limit of the machine is at most
- * a->asked, or at least that if a->at_least. */
+/* Returns true if the quantity a meets its target. The ratio of the measured value to the limit of the machine must be
+ * at most a->asked, or at least a->asked if a->at_least is true. */
 static bool met(const struct target_figure *a)
 {
     const double ratio = a->measured / a->limit;

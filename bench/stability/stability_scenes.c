@@ -77,7 +77,8 @@ static bool fails(const struct bench_table *t, int64_t row)
     return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
 }
 
-/* Returns true if row number `row` of the table is the first one of its scene. */
+/* Returns true if a scene begins in row number `row` of the table: the previous row belongs to another scene, or there
+ * is none. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
     return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));

@@ -26,8 +26,8 @@ struct sweep_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
-/* Reads a key with its values from the text of -s and appends it to a->key. Returns REFUSED if the key is given
- * twice. */
+/* Reads KEY=VALUES, the text of an option -s, which gives a scene key with the values that the sweep tries, and appends
+ * it to a->key. Returns REFUSED if the key is given twice or the text is invalid. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
     TRY(varied_key_read(&a->key[a->keys], text));

@@ -23,9 +23,9 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Computes the density of a face at height s [spacings] above one of its particles, and its derivative by s. The face
- * is one layer of a square or cubic lattice, in 1D a single particle. Its density at a position is the number of its
- * particles nearby, weighted by a kernel that decreases with their distance. */
+/* Computes the density of a flat face at the height s [spacings] above one of its particles, and its derivative by s.
+ * The density at a point is the number of particles of the face nearby, weighted by a kernel that decreases with their
+ * distance. The face is one layer of a square or cubic lattice, in 1D a single particle. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;

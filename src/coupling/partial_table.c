@@ -142,9 +142,10 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* Lists the lattice cells that the bond from the centre of the table to site k crosses. With `count` true, only counts
- * them in next[site + 1]; otherwise stores them in t->crossing, sorted by `site`, at the positions next[site], which
- * are incremented. `site` is the site of the bond's start if the crossed cell is at the centre of the table. */
+/* Lists the lattice cells that the bond from the centre of the table to site k crosses. Each crossing is listed as seen
+ * from the crossed cell: under the number of the site at which the bond starts if this cell is at the centre of the
+ * table. With `count` true, crossings are only counted, in next[site + 1]; otherwise they are stored in t->crossing at
+ * the positions next[site], which are incremented. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};

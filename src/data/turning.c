@@ -26,8 +26,8 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Compares two particles by the group of points to which they belong, then by position, then by number, for
- * array_sort. */
+/* Compares two particles, for array_sort: first by the group of points with which they rotate, then by position, then
+ * by number. Returns -1, 0 or 1. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -54,9 +54,10 @@ static int64_t group_place(real u, bool odd)
     return (int64_t)(u < 0 ? -far : far - !odd);
 }
 
-/* Returns the particles sorted by group and position, so that their order does not depend on their numbers. spacing
- * [m]; middle[3]: middle of the body [m]; one: for each body, the number of the joined body that it is part of.
- * Release the array with memory_free. */
+/* Returns an array of all particles, sorted by the group with which they rotate and by position, so that their order
+ * does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m]; middle[3]:
+ * middle of the body, from which groups are counted [m]; one: for each body the first of the bodies that are joined to
+ * it. */
 static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
@@ -95,7 +96,8 @@ static void groups_near(struct rotation_groups *t, int32_t g)
     }
 }
 
-/* Returns true if the particles a and b, neighbours in the sorted list, belong to different groups. */
+/* Returns true if the particles a and b, which are consecutive in the list of particles sorted by group, belong to
+ * different groups of points. */
 static bool groups_differ(const struct member *a, const struct member *b)
 {
     return order_of_places(a->place, a->body, b->place, b->body) != 0;

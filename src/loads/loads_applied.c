@@ -126,8 +126,8 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds `force` [N] to the force on particle i, which is number k of the list of a, and stores the current coordinate of
- * the particle in a->before[k]. Returns `force`. */
+/* Adds `force` [N] to the force on particle i, and returns `force`. Stores the present coordinate of the particle in
+ * a->before[k], from which work_one computes the displacement later. k: position of the particle in the list of a. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -135,8 +135,8 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
-/* Returns the work [J] of `force` [N] on particle i, which is number k of the list of a, over its displacement since
- * its coordinate was stored in a->before[k]. */
+/* Returns the work of `force` [N] over the displacement of particle i since push_one stored its coordinate in
+ * a->before[k] [J]. k: position of the particle in the list of a. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);

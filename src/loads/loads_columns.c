@@ -282,9 +282,9 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
     return -1;
 }
 
-/* Returns the index in c->order of the exposed particle of column `column`, the first one seen from outside the face of
- * boundary b. Returns -1 if the column has none, or if that particle belongs to another body. selected[p->n]: 1 for
- * particles in the region of b. */
+/* Returns the index in c->order of the exposed particle of column `column`: of its exposed particles, the first one
+ * seen from outside. Returns -1 if the column has none, or if this particle belongs to another body than c->body.
+ * selected[p->n]: 1 for particles in the region of boundary b. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {

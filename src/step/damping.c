@@ -71,8 +71,8 @@ static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_increment_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
-/* Stores in all[0] the particles and in all[1] the nodes of the mesh, whose velocities bulk damping changes. factor:
- * factor on their velocities [1]. Returns the number of entries used: 2, or 1 if the mesh has no points. */
+/* Stores what bulk damping acts on in all[2]: in all[0] the particles, in all[1] the nodes of the mesh. factor: factor
+ * on their velocities [1]. Returns the number of entries: 2, or 1 if the mesh has no points. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};

@@ -172,8 +172,9 @@ static real *shares_make(const struct particles *p, const struct bonds *b, const
     return share;
 }
 
-/* Returns the share of the strength surface that the stress reaches at every point that represents a coarse cell in
- * frames, an array of shown->n values [1]. The caller frees it with memory_free. */
+/* Returns the ratio of stress to strength, according to the strength surface of the material, for the points that
+ * represent coarse cells in frames: 1 on the surface [1]. It is an array of shown->n values, which the caller frees
+ * with memory_free. */
 static real *point_shares_make(const struct particles *shown, const struct scene *s)
 {
     real *share = NEW("report.share", shown->n, real);

@@ -92,8 +92,8 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Returns the force function of the elastic bonds of this scene. It also gives the critical step of bonds that yield,
- * which are not stiffer. */
+/* Returns the force function with which the critical time step of the scene's bonds is computed: that of elastic bonds.
+ * It serves yielding bonds, too, which are not stiffer than elastic ones. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;

@@ -24,10 +24,10 @@ enum { PRINTED_MOST = 24 };
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* Returns the change of a figure (a number in summary.json) if the time step is 10 % longer. It is b log(1.1), where b
- * is the slope of a least-squares line through the runs of all spacing levels: deviation of the figure from the mean of
- * its level over log(time step). c: means of the levels; value[k]: figure of run k. Returns NAN if the runs do not vary
- * the time step. */
+/* Returns by how much a figure (a number in summary.json) changes if the time step is 10 % longer: b log(1.1), with the
+ * slope b of the figure over log(time step). The slope is fitted by least squares to all runs, after the mean of its
+ * spacing level is subtracted from each figure. c: means of the levels; value[k]: figure of run k. Returns NAN if all
+ * runs have the same time step. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -140,8 +140,8 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Returns the position of the figure called `name` in the order of output: 0 for figures of cracks, 1 for others such
- * as probes, 2 for energies. */
+/* Returns by the name of a number in summary.json in which part of the output it is listed: 0 for numbers of cracks, 1
+ * for others such as those of probes, 2 for energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
 static bool is_wanted(const struct convergence_study *s, const char *name, const char *const *wanted, int wanteds)

@@ -37,8 +37,9 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
-/* Appends to *p the distances of the faces and cracks of each body from its lower corner, as far as they are n or n +
- * 1/2 spacings of the scene with a whole number n. */
+/* Appends to *p the distances of all faces and cracks of each body from its lower corner, if they fit the lattice of
+ * the scene: n or n + 1/2 spacings, with a whole number n. Other spacings of a study should fit these distances as
+ * well. */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
