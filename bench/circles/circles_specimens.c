@@ -23,8 +23,9 @@
 
 /* clang-format off */
 
-/* Scene of a strip under tension. The specimens loaded in the same manner begin at 0.9 of the strain at which their
- * strength is reached, and are strained further by half of that strain in 40 us, between grips that do not break. */
+/* Scene of a strip under tension. In this and similar scenes the specimen is strained at the start to 0.9 of the strain
+ * at which the strength is reached. Then it is strained further, by half of that strain in 40 us, between grips that do
+ * not break. */
 static const char strip[] =
     "space: plane stress\nthickness: 1 mm\n" PULLED("100 us") REACTION
     "variables: {h: 0.1 mm, e: 40 MPa/70 GPa, rate: 0.5*e/(40 us), nu: 1/3}\n"

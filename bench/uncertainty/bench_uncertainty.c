@@ -84,8 +84,8 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 /* Returns the absolute difference between the mean of a figure at the finest spacing and its exact value. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Returns the share of the figures in rows whose error interval with the probability `nominal` contains the exact value
- * [1]. */
+/* Returns the share of the values in rows [1] whose error interval contains the exact value. nominal: probability with
+ * which it should. */
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;

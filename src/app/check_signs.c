@@ -12,7 +12,7 @@
 #define FRAME_BYTES 60.0 /* of a frame with its usual fields, per particle; measured in 2D and 3D: 54 and 63 */
 #define FRAMES_MANY 10e9 /* bytes of all frames from which on they are reported */
 
-/* Returns true if the components of a boundary are given as numbers. */
+/* Returns true if the components of boundary b are given as numbers, none of them as a formula. */
 static bool is_number(const struct boundary *b) { return b->formula[0].n + b->formula[1].n + b->formula[2].n == 0; }
 
 /* Adds a hint to *to for each pressure that is negative, and for each pair of tractions on opposite faces that point in

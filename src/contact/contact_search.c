@@ -188,8 +188,9 @@ static void pairs_room(struct contact *c)
     c->other = BARE("contact.other", c->pairs, int32_t);
 }
 
-/* Finds the pairs of all rows of the contact list. Each thread finds those of its consecutive rows, then copies them
- * to their location in c->other. */
+/* Finds the pairs of all rows of the contact list and stores them in c->other, row by row. Each thread first collects
+ * the pairs of its own rows, because their final positions in c->other depend on the numbers of pairs of earlier
+ * rows. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     c->first = NEW("contact.first", c->rows + 1, int64_t);

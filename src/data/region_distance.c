@@ -38,11 +38,12 @@ void region_build_search_trees(struct region *r, int dim)
     }
 }
 
-/* Returns the number of runs of the region, which are sequences of solids that are all added or all subtracted. Without
- * trees of boxes (region_build_search_trees) each solid is a run. */
+/* Returns the number of runs of the region. A run is a sequence of consecutive solids that are all added or all
+ * subtracted; in a region without search trees (region_build_search_trees) each solid is a run. */
 static int region_runs(const struct region *r) { return r->run ? r->runs : r->n; }
 
-/* Returns run j of the region, a sequence of solids that are all added or all subtracted; 0 <= j < region_runs(r). */
+/* Returns run number j of the region, 0 <= j < region_runs(r). A run is a sequence of consecutive solids that are all
+ * added or all subtracted. */
 static struct region_run region_run(const struct region *r, int j)
 {
     return r->run ? r->run[j] : (struct region_run){.first = j, .count = 1};

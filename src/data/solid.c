@@ -36,7 +36,8 @@ static real box_from(const struct solid *s, const real *X, int dim, real *normal
     return box_surface(at, half, dim, normal);
 }
 
-/* Returns the largest of the signed distances of X[dim] from the planes of the faces of a box, <= 0 inside [m]. */
+/* Returns the level of a box at X[dim] [m], which is <= 0 inside: the largest of the signed distances of X from the
+ * planes of its faces. */
 static real box_level(const struct solid *s, const real *X, int dim)
 {
     real far = -INFINITY;
@@ -98,8 +99,8 @@ static real half_space_from(const struct solid *s, const real *X, int dim, real 
     return above;
 }
 
-/* Returns the signed distance of X[dim] from the face of a half-space, negative inside [m]; INFINITY if its normal has
- * no length. */
+/* Returns the level of a half-space at X[dim] [m], which is <= 0 inside: the signed distance of X from its face.
+ * Returns INFINITY if the normal of the half-space has no length. */
 static real half_space_level(const struct solid *s, const real *X, int dim)
 {
     real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
@@ -193,8 +194,8 @@ static real solid_direction(const real *a, const real *b, int dim, real unit[DIM
     return length;
 }
 
-/* Returns the larger of the signed distances of X[dim] from the mantle and from the ends of a cylinder, <= 0 inside
- * [m]. */
+/* Returns the level of a cylinder at X[dim] [m], which is <= 0 inside: the larger of the signed distances of X from its
+ * mantle and from the planes of its ends. */
 static real cylinder_level(const struct solid *s, const real *X, int dim)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = solid_direction(s->from, s->to, dim, axis);

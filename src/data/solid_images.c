@@ -201,7 +201,8 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
-/* Returns the level at X[dim] of the solid as described, before it is moved or copied [m]; <= 0 inside. */
+/* Returns the level of solid s at X[dim] [m], without its motions and copies: X is in the coordinates in which the
+ * solid was described. The level is <= 0 inside the solid. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -222,8 +223,8 @@ real solid_level_set_value(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
-/* Returns true if the level at X[dim] of the solid as described, before it is moved or copied, is at most `most`
- * [m]. The level is <= 0 inside. */
+/* Returns true if the level of solid s at X[dim] is at most `most` [m], without its motions and copies: X is in the
+ * coordinates in which the solid was described. The level is <= 0 inside the solid. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

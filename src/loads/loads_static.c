@@ -62,8 +62,8 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
     }
 }
 
-/* Computes the moment of the applied forces about the centre of mass in 2D, *turning, and its upper bound *most, the
- * sum of |arm| |force| [N m]. */
+/* Computes the moment of the applied forces about the centre of mass of a plane body, *turning [N m]. Stores in *most
+ * its largest possible magnitude, the sum of |arm| |force|, to which *turning can be compared [N m]. */
 static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
 {
     *turning = *most = 0;

@@ -183,8 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of the faces f, one number for a corner of several faces: sets a->corners and a->corner. Returns
- * all corners of faces, sorted by position, each with value = 4 face + corner; release the array with memory_free. */
+/* Numbers the corners of the faces f, one number for the common corner of several faces: sets a->corners and a->corner.
+ * Returns all faces' corners by position, each with value = 4 face + corner; release the array with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;

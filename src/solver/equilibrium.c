@@ -224,8 +224,9 @@ static void residual_of_guess(struct newton_solver *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Sets the free components of the initial increment q->x, which is predicted in proportion to the loads, to 0 if the
- * residual is smaller without them: a fragment that broke off and rotated does not move in proportion to the loads. */
+/* Sets the free components of the initial increment q->x to 0 if the residual is smaller without them. They were
+ * extrapolated in proportion to the loads, which is wrong, for example, for a fragment that has broken off and
+ * rotated. */
 static void guess_check(struct newton_solver *q)
 {
     residual_of_guess(q);
@@ -264,8 +265,8 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* Adds q->d, a direction of negative stiffness, to the correction q->x, times the factor at which bonds rotate by
- * TURN_MOST at most [rad]. */
+/* Extends the correction q->x along q->d, a direction in which the stiffness is negative. The factor of q->d is such
+ * that bonds rotate by about TURN_MOST [rad]. */
 static void follow_negative(struct newton_solver *q)
 {
     const real most = field_largest_component(&q->d, q->dim, q->n);
@@ -304,7 +305,8 @@ static void correction(struct newton_solver *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the displacements q->z = q->u + share q->x, and the forces there in q->q. */
+/* Computes the displacements q->z = q->u + share q->x, a share of the correction q->x beyond the present displacements,
+ * and stores the forces at q->z in q->q. */
 static void forces_along(struct newton_solver *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);

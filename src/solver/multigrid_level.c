@@ -106,8 +106,9 @@ struct three_vectors {
     const real *a, *b, *c;
 };
 
-/* Adds the products a b and b c of three vectors over entries first .. end - 1 to sum[0] and sum[1]. context: the
- * vectors (struct three_vectors). reproducible_sums calls it for each block of entries. */
+/* Adds to sum[0] the scalar product a . b and to sum[1] the scalar product b . c of three vectors, over their entries
+ * first .. end - 1. context: the vectors (struct three_vectors). Called by reproducible_sums for each block of
+ * entries. */
 static void three_vectors_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct three_vectors *v = context;
@@ -117,8 +118,8 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
     }
 }
 
-/* Computes l->d = D^-1 t for t = l->t, with the diagonal blocks D of the matrix of level l, and the scalar products
- * sum[0] = x . t with x = l->x, and sum[1] = t . d. */
+/* Computes l->d = D^-1 l->t, where D are the diagonal blocks of the matrix of level l. Stores two scalar products of
+ * the vectors of l: x . t in sum[0] and t . d in sum[1]. */
 static void lanczos_scale(struct multigrid_level *l, real *sum)
 {
     const int w = l->width;

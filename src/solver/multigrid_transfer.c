@@ -69,9 +69,9 @@ static ALWAYS_INLINE void down_forces(const struct multigrid_level *l, int64_t i
     }
 }
 
-/* Computes row i of the smoothed prolongation l->down, R - step D^-1 K R. R: rigid motions of the aggregates (sets of
- * nodes that form one node of the coarser level); K, D: matrix of the level and its diagonal blocks. w, m: components
- * per node of this and of the coarser level, compile-time constants. */
+/* Computes row i of the prolongation l->down = R - step D^-1 K R, in which the rigid motions R of the aggregates are
+ * smoothed. An aggregate is a set of nodes that form one node of the coarser level. K, D: matrix of level l and its
+ * diagonal blocks. w, m: components per node of this and of the coarser level, compile-time constants. */
 static ALWAYS_INLINE void down_row(const struct multigrid_level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;

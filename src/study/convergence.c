@@ -25,9 +25,9 @@ double student_t_quantile_975(int degrees_of_freedom)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the mean, the scatter and the mean spacing of the runs at spacing level k, and stores them in *l. Run i of
- * the n runs of the study has the spacing spacing[i] [m], the figure value[i] and the level level[i]. Runs whose figure
- * is not finite are left out. The scatter is NAN for a single run. */
+/* Computes the mean, the standard deviation and the mean spacing of the runs of spacing level k, and stores them in *l.
+ * Run i of all n runs has the spacing spacing[i] [m], the level level[i] and the measured value value[i]. Runs whose
+ * value is not finite are left out. The deviation is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
