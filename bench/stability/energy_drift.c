@@ -44,8 +44,9 @@ static void energy_drift_put(struct bench_table *t, const struct drift_case *l, 
     bench_text(t, r->why[0] ? r->why : "-");
 }
 
-/* Prints the result r of the drift case l with the label `label`. A case that fails is printed to standard output. A
- * case that holds or was refused is printed to standard error, where it shows progress. */
+/* Prints the result r of a long run, case l, and its label `label`. A case whose energy drifts too much is printed to
+ * standard output. Other cases, and those that were refused, are printed to standard error, where they show
+ * progress. */
 static void print(const struct drift_case *l, const struct lasting *r, const char *label)
 {
     FILE *to = r->refused || drift_holds(l, r) ? stderr : stdout;

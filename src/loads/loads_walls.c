@@ -136,8 +136,8 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     }
 }
 
-/* Returns true if the position of mesh node I makes `load` constrain its component `component`, by a region or a
- * mirror. */
+/* Returns true if `load` constrains the component `component` of mesh node I because of the node's position: in the
+ * region of a prescribed motion, or on a plane of symmetry. */
 static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {

@@ -39,8 +39,8 @@ static bool particles_are_alike(const struct film_set *s, int64_t i, int64_t j)
     return s->history[i] == s->history[j] && s->material[i] == s->material[j] && s->body[i] == s->body[j];
 }
 
-/* Returns true if particle i of the set s may be merged with others into a cell of the lattice: it is damaged or has
- * yielded in no frame, and its spacing is that of the film. */
+/* Returns true if particle i of the set s may be merged with others into a cubic cell of the lattice. It must be
+ * undamaged and elastic in all frames, and its spacing must be that of the film. */
 static bool is_of_lattice(const struct film_set *s, const struct film *f, int64_t i)
 {
     return !s->busy[i] && (!s->size || fabs(s->size[i] / f->spacing - 1) < 0.01);

@@ -385,11 +385,12 @@ static real dot_held(const struct newton_solver *q, const struct field *incremen
     return sum[1];
 }
 
-/* Corrects the work of the loads and the lost energy for the curved path between two equilibria. Each correction of the
- * displacements was assumed to be a straight line: the first one with linearly growing loads, later ones with full
- * loads. In fact the displacements are c s + d s^2, where s is the fraction of the growth of the loads. This path has
- * no energy loss, and on it the work of the loads is more/6 larger than the mean of the loads at both ends times the
- * displacement. more: growth of the loads times the displacement of all corrections but the first [J]. */
+/* Corrects the work of the loads and the lost energy after a step from one equilibrium to the next. The work was summed
+ * over straight lines: over the first correction of the displacements with linearly growing loads, over later
+ * corrections with full loads. In fact the displacements follow a curve c s + d s^2 while the fraction s of the growth
+ * of the loads increases from 0 to 1. Over this curve no energy is lost, and the work is more/6 larger than the mean of
+ * the loads at both ends times the displacement. more: growth of the loads times the displacement of all corrections
+ * but the first [J]. */
 static void loads_bend(struct newton_solver *q, real more)
 {
     q->bent = more / 6;

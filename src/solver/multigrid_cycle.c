@@ -21,9 +21,9 @@ static ALWAYS_INLINE void row_single_1(const struct multigrid_level *l, int64_t 
     sum[0] -= force + l->rest[i] * x[i];
 }
 
-/* Returns the products of the entries of matrix block q (2 x 2) with a relative displacement: that of the node of the
- * block's column minus `own`, that of the node of its row. Lanes 0 and 1 of the result sum to the first component of
- * the force, lanes 2 and 3 to the second. x: displacements of all nodes. */
+/* Multiplies matrix block q (2 x 2) by the displacement of the node of its column relative to `own`, the displacement
+ * of the node of its row. Returns the four products of an entry and a component: the first two sum to the first
+ * component of the force, the last two to the second. x: displacements of all nodes. */
 static ALWAYS_INLINE four single_2(const struct multigrid_level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(lane_pair_load(x + (int64_t)l->column[q] * 2) - own, two);
