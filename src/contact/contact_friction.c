@@ -160,8 +160,8 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
 }
 
 /* Advances the friction spring of row `row` of the contact list (particles that may come into contact) by a step dt
- * [s], and stores its reaction on the face. The slip is the mean of those at start and end of the step, because
- * leap-frog applies the forces of both times to it. */
+ * [s], and stores its effect on the face in c->reaction. The slip velocity in the step is the mean of those at its
+ * start and end, because leap-frog applies the forces of both times to it. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];

@@ -143,7 +143,8 @@ static void pair_terms(struct visit *v, int64_t row)
     }
 }
 
-/* Calls v->visit for each active contact of a particle with rigid body `body`, described as a linear spring. */
+/* Calls the function v->visit for each particle that touches rigid body `body`. The contact is passed as a linear
+ * spring. */
 static void rigid_terms(struct visit *v, int body)
 {
     const struct contact *c = v->c;

@@ -187,8 +187,9 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: for each direction of bonds and each part of their response to strain (struct response), the
- * stiffness T that a bond with this part equal to 1 has in the cell of a point, if all of its length is inside. */
+/* Computes t->tensor: the stiffness T of a cell (see partial_tensor_add_bond) that a single bond from its centre gives
+ * it if the whole bond is inside the cell. There is one T for each direction of bonds and each part of a bond's
+ * response to strain (struct response), with this part equal to 1 and the others to 0. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);

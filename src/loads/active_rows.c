@@ -95,10 +95,10 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Raises the activity levels of the row blocks (LANES rows of bonds each) that have begun to move since the last call,
- * and of their neighbours, and rebuilds the list of active row blocks. Tests only active row blocks below the highest
- * level, since motion reaches others only through these. Sets b->active.over when no active row block is below the
- * highest level. */
+/* Updates the activity levels of row blocks (LANES rows of bonds each) after a step. Blocks that have begun to move
+ * since the last call get the highest level, and the levels of their neighbours are raised. Then rebuilds the list of
+ * active blocks. Tests only active blocks below the highest level, since motion reaches others only through these. Sets
+ * b->active.over when there are no such blocks. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

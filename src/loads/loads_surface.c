@@ -183,8 +183,8 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of the faces f, one number for the common corner of several faces: sets a->corners and a->corner.
- * Returns all faces' corners by position, each with value = 4 face + corner; release the array with memory_free. */
+/* Gives each corner of the faces f a number, the same to corners that coincide: sets a->corners and a->corner. Returns
+ * the corners of all faces sorted by position, with value = 4 face + corner; release the array with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -278,9 +278,9 @@ static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
     }
 }
 
-/* Computes weights w[t->n] of the particles of a corner with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) .
- * C^-1 mean)/sum counts. r: position of a particle relative to the corner; counts: its weight in t; mean, C: weighted
- * mean and variance of r. SINGULAR is added to the diagonal of C, which for thin bodies has zeros. */
+/* Computes weights w[t->n] = counts (1 - (r - mean) . C^-1 mean)/sum counts, which interpolate linear fields exactly
+ * from particles to a corner. r: position relative to the corner; mean, C: mean and covariance of r with the weights
+ * `counts` in t. SINGULAR is added to the diagonal of C, which for thin bodies has zeros. */
 static void corner_weights(const struct around *t, int dim, real *w)
 {
     real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;

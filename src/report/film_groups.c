@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "film.h"
 
-/* Bits per axis in the key of a cell, and the largest number in them. */
+/* A number that identifies a cell holds the cell's index along each axis in KEY_BITS bits; KEY_MOST is the largest
+ * index. */
 enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
 
 /* A particle and the cell that it is in. */

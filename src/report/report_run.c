@@ -146,9 +146,9 @@ static void write_scene(struct page *p, const char *folder, const struct scene *
 
 /* ---- the page ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the frames of the run in `folder`, if there are any, to the page. scene: of the run; NULL: not known. Stores
- * the number of particles of the first frame in *particles, 0 without frames. Returns FAILED if a frame cannot be read.
- */
+/* Writes the frames of the run in `folder` to the page, which shows them as a film; writes nothing if there are none.
+ * scene: of the run; NULL: not known. Stores the number of particles of the first frame in *particles, 0 without
+ * frames. Returns FAILED if a frame cannot be read. */
 static status write_film(struct page *p, const char *folder, const struct scene *scene, int64_t *particles)
 {
     struct film f;

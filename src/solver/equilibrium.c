@@ -95,9 +95,9 @@ struct product {
     const struct field *a, *b;
 };
 
-/* Adds the products a b of two vectors over nodes first .. end - 1 to sum[0] for free components, and to sum[1] for
- * held components (those with prescribed displacement). context: the vectors (struct product). reproducible_sums calls
- * it for each block of nodes. */
+/* Adds the scalar product of two vectors over nodes first .. end - 1: the terms of free components to sum[0], those of
+ * held components (with prescribed displacement) to sum[1]. context: the vectors (struct product). reproducible_sums
+ * calls it for each block of nodes. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;

@@ -137,8 +137,9 @@ static void solver_cg_displace(const struct static_solver *s, const struct stati
 }
 
 /* Computes the residual from the displacements, and sets *done to true if it is at most the tolerance, else to false.
- * If by_recurrence, the residual of the recurrence [N], differs from it by round-off, the iteration is restarted. step:
- * number of the iteration. Returns FAILED, with a message, after STALLS_MOST restarts without progress. */
+ * The iteration is restarted if, by round-off, the residual exceeds twice by_recurrence, the value that the iteration
+ * itself has updated [N]. step: number of the iteration. Returns FAILED, with a message, after STALLS_MOST restarts
+ * without progress. */
 static status check(struct static_solver *s, const struct static_body *body, int64_t step, real by_recurrence,
                     bool *done)
 {

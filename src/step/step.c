@@ -68,8 +68,9 @@ static status sort(struct run *e)
     return lost ? divergence_check(e, true, false) : OK;
 }
 
-/* Applies the first half of interface damping to the velocities, before the forces, and adds the energy that it removes
- * to e->damped. Sets now->damps to true if interface damping acts. */
+/* Damps the velocities of points in the interface zone of the coupling, before the forces of the step are computed.
+ * Adds the first half of the energy that this removes to e->damped; the second half is added when the velocities after
+ * the step are known. Sets now->damps to true if the scene has such damping. */
 static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;

@@ -79,8 +79,8 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
-/* Evaluates the convergence of the figure in column `at` of the table s->table, and its sensitivity to time step,
- * spacing and horizon. Stores both in *f. Returns false if a spacing level has no value. */
+/* Evaluates the convergence of the number of summary.json in column `at` of the table s->table, and its sensitivity to
+ * time step, spacing and horizon. Stores both in *f. Returns false if a spacing level has no value. */
 static bool figure_make(struct scalar_result_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -104,7 +104,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if a figure differs between runs. Energies of mechanisms that the scene does not have are constant. */
+/* Returns true if a number of summary.json differs between the runs of a study. For example, energies of mechanisms
+ * that the scene does not have are constant. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;

@@ -43,10 +43,11 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Fits the value v at spacing 0 and the slope a of m_k = v + a (h_k/h_0)^p to the means m_k of the spacing levels k
- * with spacings h_k by least squares (level 0 is the finest). p: order of convergence; t: misfit, the standard
- * deviation of the means over `scale`. Stores the mean of the posterior of (v - m_0)/scale in *centre and its standard
- * deviation in *deviation. Returns the logarithm of the likelihood of the means. */
+/* Fits m_k = v + a (h_k/h_0)^p to the means m_k of a result at the spacing levels k with spacings h_k (level 0 is the
+ * finest), by Bayesian linear regression with broad normal priors of v and a. p: order of convergence; t: standard
+ * deviation, over `scale`, of the means about this law in addition to their own errors. Stores the mean of the
+ * posterior of (v - m_0)/scale in *centre and its standard deviation in *deviation. Returns the logarithm of the
+ * likelihood of the means for this p and t, up to a constant. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;

@@ -9,9 +9,9 @@
  * characters that labels omit. */
 enum { VALUE_SHOWN = LABEL_ROOM - 8, CUT_SHOWN = 20, LEFT_OUT_LEAST = 4 };
 
-/* Computes how many characters all values of a key have in common at their beginning (*begin) and at their end (*end),
- * so that labels may omit them. Both numbers are reduced to the next separator, so that no number is divided. A result
- * below LEFT_OUT_LEAST becomes 0. */
+/* Computes how many characters all values of a varied scene key have in common at their beginning (*begin) and at their
+ * end (*end), so that labels can omit them. Common characters are counted only up to a blank, comma, colon or bracket,
+ * so that no number is cut in two. A result below LEFT_OUT_LEAST becomes 0. */
 static void values_common(const struct varied_key *key, size_t *begin, size_t *end)
 {
     const char *first = key->value[0];
