@@ -23,10 +23,11 @@ struct absorbing_pulse {
     double reflected, balance, back;
 };
 
-/* Measures the reflection of a plane pulse that hits an absorbing face at normal incidence, and stores it in *figure.
+/* Measures the reflection of a plane pulse that hits an absorbing face at normal incidence, and stores it in *result.
  * m: numerical method; dim: number of dimensions, 1, 2 or 3; width: of the pulse [spacings]. Returns FAILED if a step
  * of a run fails, REFUSED if a scene is invalid. */
-status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure);
+status absorbing_measure_pulse_reflection(const struct absorbing_method *m, int dim, int width,
+                                          struct absorbing_pulse *result);
 
 /* ---- oblique waves ----------------------------------------------------------------------------------------------- */
 
@@ -38,15 +39,15 @@ struct absorbing_reflection {
 /* Computes in closed form the reflection of a plane wave at the face of a half space with dashpots normal and
  * tangential to the face (Lysmer & Kuhlemeyer 1969): the tractions of incident and reflected waves equal the forces of
  * the dashpots. shear: true if the incident wave is an S wave, false for a P wave; angle: between its direction and the
- * normal of the face [rad]; ratio: speed of P waves over that of S waves [1]. */
-struct absorbing_reflection absorbing_theory(bool shear, double angle, double ratio);
+ * normal of the face [rad]; wave_speed_ratio: speed of P waves over that of S waves [1]. */
+struct absorbing_reflection absorbing_reflection_in_closed_form(bool shear, double angle, double wave_speed_ratio);
 
 /* Measures the reflection of a plane wave at oblique incidence in plane strain at Poisson's ratio 1/4, and stores it in
  * *measured. The body is a strip between two mirrors. Their distance is half a wavelength along the face, so that waves
  * at +angle and -angle are superposed. m: numerical method; shear: true for an S wave, false for a P wave; angle:
  * between its direction and the normal of the face [rad]; wavelength [spacings]. Returns FAILED if a step of a run
  * fails, REFUSED if a scene is invalid. */
-status absorbing_oblique(const struct absorbing_method *m, bool shear, double angle, double wavelength,
-                         struct absorbing_reflection *measured);
+status absorbing_measure_oblique_reflection(const struct absorbing_method *m, bool shear, double angle,
+                                            double wavelength, struct absorbing_reflection *measured);
 
 #endif

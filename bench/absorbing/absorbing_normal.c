@@ -53,31 +53,32 @@ static status normal_run(const struct absorbing_method *m, int dim, int width, i
     double before = 0;
     normal_scene(text, sizeof text, m, dim, width, length);
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    status ran = report_start(&e);
+    status ran = report_start_before_first_step(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_step(&e);
+        ran = engine_adapt_refinement_and_step(&e);
         figure->back = fmax(figure->back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
         figure->balance = fmax(figure->balance, fabs(e.diagnostics->now.balance_error));
     }
     figure->back /= e.diagnostics->energy_start;
-    reference_frame_update_points(e.frame, &e.part, &e.loads);
+    reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
     *v = BARE("bench.v", e.part.n, real);
     array_copy(*v, e.part.v[0], e.part.n, sizeof(real));
     bench_engine_free(&e, &s);
     return ran;
 }
 
-status absorbing_pulse(const struct absorbing_method *m, int dim, int width, struct absorbing_pulse *figure)
+status absorbing_measure_pulse_reflection(const struct absorbing_method *m, int dim, int width,
+                                          struct absorbing_pulse *result)
 {
     struct absorbing_pulse twin = {0, 0, 0};
     const int64_t L = NORMAL_LENGTH, rows = dim == 1 ? 1 : dim == 2 ? 8 : 64;
     real *with = NULL, *without = NULL;
-    *figure = twin;
+    *result = twin;
     status ran = normal_run(m, dim, width, 2 * NORMAL_LENGTH, &without, &twin);
-    if (ran == OK) ran = normal_run(m, dim, width, NORMAL_LENGTH, &with, figure);
+    if (ran == OK) ran = normal_run(m, dim, width, NORMAL_LENGTH, &with, result);
     for (int64_t i = 0; i < L * rows && ran == OK; i++) /* row by row, x varies fastest */
-        figure->reflected = fmax(figure->reflected, fabs(with[i] - without[i / L * 2 * L + i % L]) / NORMAL_VELOCITY);
+        result->reflected = fmax(result->reflected, fabs(with[i] - without[i / L * 2 * L + i % L]) / NORMAL_VELOCITY);
     memory_free(with), memory_free(without);
     return ran;
 }

@@ -71,12 +71,12 @@ static status oblique_run(const struct oblique *o, const struct absorbing_method
              "  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: %.9g}}\noutput: {frames: 0, samples: 2}\n",
              o->until, m->keys, ABSORBING_SPEED * ABSORBING_SPEED / 1.2, along * h, o->across * h, h, o->across * h);
     TRY(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    bench_engine_start(&e, packet, o);
+    bench_engine_set_velocities(&e, packet, o);
     sum[0] = sum[1] = 0;
-    status ran = report_start(&e);
+    status ran = report_start_before_first_step(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_step(&e);
-        reference_frame_update_points(e.frame, &e.part, &e.loads);
+        ran = engine_adapt_refinement_and_step(&e);
+        reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
         const double complex turn = cexp(_Complex_I * o->frequency * (e.clock.t - 0.5 * e.clock.dt)) * e.clock.dt;
         for (int64_t i = 0; i < e.part.n; i++) {
             if (fabs(e.part.X[0][i] - o->station) > 0.1 * h) continue;
@@ -88,8 +88,8 @@ static status oblique_run(const struct oblique *o, const struct absorbing_method
     return ran;
 }
 
-status absorbing_oblique(const struct absorbing_method *m, bool shear, double angle, double wavelength,
-                         struct absorbing_reflection *measured)
+status absorbing_measure_oblique_reflection(const struct absorbing_method *m, bool shear, double angle,
+                                            double wavelength, struct absorbing_reflection *measured)
 {
     const struct oblique o = oblique_of(shear, angle, wavelength);
     const double w = o.frequency, cp = ABSORBING_SPEED, cs = cp / sqrt(3), p = o.k / w;

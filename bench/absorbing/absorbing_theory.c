@@ -20,9 +20,9 @@ static void conditions(const struct plane_wave *w, double p, double mu, double c
     to[1] = mu * (p * w->a[0] + w->s * w->a[1]) - sqrt(mu) * w->a[1];
 }
 
-struct absorbing_reflection absorbing_theory(bool shear, double angle, double ratio)
+struct absorbing_reflection absorbing_reflection_in_closed_form(bool shear, double angle, double wave_speed_ratio)
 {
-    const double cs = 1 / ratio, mu = cs * cs, p = sin(angle) / (shear ? cs : 1);
+    const double cs = 1 / wave_speed_ratio, mu = cs * cs, p = sin(angle) / (shear ? cs : 1);
     const double complex qp = csqrt(1 - p * p + 0 * _Complex_I), qs = csqrt(1 / mu - p * p + 0 * _Complex_I);
     const struct plane_wave in = shear ? (struct plane_wave){qs, {-p * cs, qs * cs}} : (struct plane_wave){qp, {qp, p}};
     const struct plane_wave as_p = {-qp, {-qp, p}}, as_s = {-qs, {-p * cs, -qs * cs}};

@@ -25,13 +25,14 @@ static void normal_row(const struct absorbing_method *m, int dim, struct bench_t
     printf("  %-14s %d D ", m->name, dim);
     for (int k = 0; k < (int)COUNT_OF(pulse_widths); k++) {
         struct absorbing_pulse figure = {NAN, NAN, NAN};
-        if (absorbing_pulse(m, dim, pulse_widths[k], &figure) != OK) printf(" %s", status_message());
+        if (absorbing_measure_pulse_reflection(m, dim, pulse_widths[k], &figure) != OK) printf(" %s", status_message());
         printf("  %6.2f %%", 100 * figure.reflected);
         if (k == 1) printf(" (balance %.0e, back %.0e)", figure.balance, figure.back);
         fflush(stdout);
-        bench_text(rows, m->name), bench_number(rows, dim), bench_number(rows, pulse_widths[k]);
-        bench_number(rows, figure.reflected);
-        bench_number(rows, figure.balance), bench_number(rows, figure.back);
+        bench_table_append_text(rows, m->name), bench_table_append_number(rows, dim),
+            bench_table_append_number(rows, pulse_widths[k]);
+        bench_table_append_number(rows, figure.reflected);
+        bench_table_append_number(rows, figure.balance), bench_table_append_number(rows, figure.back);
     }
     printf("\n");
 }
@@ -46,15 +47,18 @@ static void oblique_row(const struct absorbing_method *m, bool shear, int degree
 {
     struct absorbing_reflection seen = {NAN, NAN};
     const double angle = degrees * M_PI / 180;
-    const struct absorbing_reflection exact = absorbing_theory(shear, angle, sqrt(3));
-    if (absorbing_oblique(m, shear, angle, wavelength, &seen) != OK) printf("  %s\n", status_message());
+    const struct absorbing_reflection exact = absorbing_reflection_in_closed_form(shear, angle, sqrt(3));
+    if (absorbing_measure_oblique_reflection(m, shear, angle, wavelength, &seen) != OK)
+        printf("  %s\n", status_message());
     printf("  %-14s %s  %2d degrees  %3.0f spacings  as P %5.1f %% (theory %5.1f)  as S %5.1f %% (theory %5.1f)\n",
            m->name, shear ? "S" : "P", degrees, wavelength, 100 * seen.as_p, 100 * exact.as_p, 100 * seen.as_s,
            100 * exact.as_s);
     fflush(stdout);
-    bench_text(rows, m->name), bench_text(rows, shear ? "S" : "P"), bench_number(rows, degrees);
-    bench_number(rows, wavelength), bench_number(rows, seen.as_p), bench_number(rows, exact.as_p);
-    bench_number(rows, seen.as_s), bench_number(rows, exact.as_s);
+    bench_table_append_text(rows, m->name), bench_table_append_text(rows, shear ? "S" : "P"),
+        bench_table_append_number(rows, degrees);
+    bench_table_append_number(rows, wavelength), bench_table_append_number(rows, seen.as_p),
+        bench_table_append_number(rows, exact.as_p);
+    bench_table_append_number(rows, seen.as_s), bench_table_append_number(rows, exact.as_s);
 }
 
 static void oblique_rows(bool quick, struct bench_table *rows)
@@ -78,7 +82,7 @@ status bench_absorbing(bool quick)
             if (dim > 1 || m == 0 || m > 2) normal_row(&absorbing_methods[m], dim, &table[0]);
     printf("waves at an angle to the normal of the face, Poisson's ratio 1/4: amplitudes that come back\n");
     oblique_rows(quick, &table[1]);
-    const status s = bench_write("absorbing", table, 2);
+    const status s = bench_write_result_tables("absorbing", table, 2);
     bench_table_free(&table[0]), bench_table_free(&table[1]);
     return s;
 }

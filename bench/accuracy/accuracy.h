@@ -95,7 +95,7 @@ struct accuracy_problem {
     double seconds, quick_seconds;        /* predicted duration of all points [s], replaced by measured times */
     /* Writes the scene of a point. */
     void (*scene)(const struct accuracy_point *p, struct accuracy_scene *s);
-    /* Runs a point; NULL: engine_run. */
+    /* Runs a point; NULL: engine_run_to_end. */
     status (*run)(const struct accuracy_point *p, struct run *e);
     /* Computes the relative error and its parts of a finished run. */
     status (*measure)(const struct accuracy_point *p, struct run *e, double *error, double *part);
@@ -115,27 +115,27 @@ extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_squar
 /* Runs the cracks of the problem `fracture` with bond-based peridynamics at increasing resolution and prints the
  * results as the lines of the table in accuracy_reference.h (`cleave bench accuracy=reference`). quick: true for the
  * two coarsest resolutions only. Returns FAILED if a run fails. */
-status accuracy_reference(bool quick);
+status accuracy_compute_reference_cracks(bool quick);
 
 /* Computes displacement u [m] and stress components xx, yy, xy [Pa] at X [m] in a plate under tension along y with a
  * hole of radius 1 m around the origin (accuracy_hole.c). */
-void accuracy_hole_exact(const double X[2], double u[2], double stress[3]);
+void accuracy_hole_compute_exact_solution(const double position[2], double displacement[2], double stress[3]);
 
 /* Returns true if the material points in the run of point p use the reference frame (mpm.frame: reference). */
-bool accuracy_is_reference(const struct accuracy_point *p);
+bool accuracy_point_uses_reference_frame(const struct accuracy_point *point);
 
 /* Returns true if the method of point p can reach equilibrium by relaxation (solver: relaxation). */
-bool accuracy_relaxes(const struct accuracy_point *p);
+bool accuracy_point_can_use_relaxation(const struct accuracy_point *point);
 
 /* Returns true if the method has coarse grid cells besides the finest ones (mpm.levels: 1 or 2). */
-bool accuracy_is_coarse(const struct accuracy_method *method);
+bool accuracy_method_has_coarse_cells(const struct accuracy_method *method);
 
 /* Returns the value of the scene key `solver` with which the method of point p reaches equilibrium: "cg" for
  * peridynamics, "explicit" in the reference frame, where the load grows slowly, else "relaxation". */
-const char *accuracy_solver(const struct accuracy_point *p);
+const char *accuracy_solver_of_point(const struct accuracy_point *point);
 
 /* Returns a quantity of a probe of the finished run e; NAN if there is none. probe, quantity: their names. */
-double accuracy_figure(const struct run *e, const char *probe, const char *quantity);
+double accuracy_probe_value_of_run(const struct run *e, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
@@ -170,30 +170,30 @@ status accuracy_plan_make(struct accuracy_plan *plan);
 /* Releases the memory of the plan. */
 void accuracy_plan_free(struct accuracy_plan *plan);
 
-/* Composes *s, the scene of point p: the scene of its problem, with the keys of its method, its horizon and its time
- * step. */
-void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s);
+/* Composes *scene, the scene of point point: the scene of its problem, with the keys of its method, its horizon and its
+ * time step. */
+void accuracy_compose_scene_of_point(const struct accuracy_point *point, struct accuracy_scene *scene);
 
 /* Reads earlier results from results/bench/accuracy.csv into the points of the plan, as far as the settings (scene and
  * machine) and the program version are unchanged, and writes the file again without other lines (accuracy_store.c).
  * Returns FAILED if the file cannot be read or written. */
-status accuracy_store_read(struct accuracy_plan *plan);
+status accuracy_read_earlier_results(struct accuracy_plan *plan);
 
 /* Returns true if results/bench/accuracy.csv exists. */
-bool accuracy_store_exists(void);
+bool accuracy_results_file_exists(void);
 
 /* Reads the results of bench/accuracy/cost_accuracy.csv into the points of the plan. This file is the stored copy of
  * the last complete measurement and has neither parts of errors nor times on two threads. Returns FAILED if it cannot
  * be read. */
-status accuracy_stored_read(struct accuracy_plan *plan);
+status accuracy_read_recorded_results(struct accuracy_plan *plan);
 
 /* Appends the result of a point to results/bench/accuracy.csv and closes the file, so that an interrupted bench keeps
  * its results. Returns REFUSED or FAILED if the file cannot be written. */
-status accuracy_store_append(const struct accuracy_entry *entry);
+status accuracy_append_result_to_file(const struct accuracy_entry *entry);
 
 /* Writes all known results to results/bench/accuracy.csv and accuracy.json, and the problems with their errors to
  * accuracy_problems.csv. Returns REFUSED or FAILED if a file cannot be written. */
-status accuracy_store_write(const struct accuracy_plan *plan);
+status accuracy_write_all_results(const struct accuracy_plan *plan);
 
 /* Header of cost_accuracy.csv. keys: scene keys of the method besides spacing, horizon and step, as
  * key=value;key=value. */
@@ -202,7 +202,7 @@ status accuracy_store_write(const struct accuracy_plan *plan);
  * the Pareto front of its family in some case. A line consists of all points of a method at one horizon and time step,
  * a family of related methods (enum accuracy_family). bench/accuracy/cost_accuracy.csv is a copy of the last complete
  * measurement. Returns FAILED if the file cannot be written. */
-status accuracy_table_write(const struct accuracy_plan *plan);
+status accuracy_write_table_of_pareto_lines(const struct accuracy_plan *plan);
 
 /* ---- Pareto front (accuracy_front.c) ----------------------------------------------------------------------------- */
 
@@ -214,38 +214,40 @@ struct accuracy_dot {
 /* Finds the Pareto front of dot[n]: the points with no other point that is at least as good in both time and error and
  * better in one of them; of equal points the first. Stores their indices in front[], which has space for n, in the
  * order of ascending time and thus descending error. Returns their number. */
-int accuracy_front(const struct accuracy_dot *dot, int n, int *front);
+int accuracy_find_pareto_front(const struct accuracy_dot *dot, int dot_count, int *front);
 
-/* Returns the index of the point in dot[n] with the least time among those with an error of at most `error` [1]; -1 if
- * there is none. */
-int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error);
+/* Returns the index of the point in dot[n] with the least time among those with an error of at most `largest_error`
+ * [1]; -1 if there is none. */
+int accuracy_index_of_fastest_point(const struct accuracy_dot *dot, int dot_count, double largest_error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
 /* Writes the label of point p into text[size]: method and resolution, as in `pd bond 100`, followed by `h` and the
  * horizon, and by `dt` and the fraction of the critical step, unless these are the usual ones. */
-void accuracy_label(const struct accuracy_point *p, char *text, size_t size);
+void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity);
 
 /* Draws results/bench/accuracy_<problem>.png for every problem with known points, and the overview accuracy.png.
  * Returns FAILED if a picture cannot be drawn. */
-status accuracy_draw(const struct accuracy_plan *plan);
+status accuracy_draw_all_pictures(const struct accuracy_plan *plan);
 
 /* Draws results/bench/accuracy.png: for each problem the runs and the Pareto fronts of peridynamics, of material points
  * and of both together, and above them the number of problems on which each of the three is cheapest
  * (accuracy_chart.c). Returns FAILED if the picture cannot be drawn. */
-status accuracy_chart(const struct accuracy_plan *plan);
+status accuracy_draw_overview_chart(const struct accuracy_plan *plan);
 
 /* Writes the overview page results/bench/accuracy.md and prints its table of the fastest methods. Returns FAILED if the
  * page cannot be written. */
-status accuracy_page(const struct accuracy_plan *plan);
+status accuracy_write_overview_page(const struct accuracy_plan *plan);
 
-/* Collects time and error of the known points of a problem in dot[] and their entries in of[], both with space for
- * plan->n. at: index of the case; < 0: one dot for all cases together, with their longest time and largest error. part:
- * number of the part of the error whose magnitude is used; < 0: the whole error. Returns the number of dots. */
-int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
-                  struct accuracy_dot *dot, const struct accuracy_entry **of);
+/* Collects time and error of the known points of a problem in dot[] and their entries in dot_entry[], both with space
+ * for plan->n. case_index: index of the case; < 0: one dot for all cases together, with their longest time and largest
+ * error. part_index: number of the part of the error whose magnitude is used; < 0: the whole error. Returns the number
+ * of dots. */
+int accuracy_collect_times_and_errors(const struct accuracy_plan *plan, const struct accuracy_problem *problem,
+                                      int case_index, int part_index, struct accuracy_dot *dot,
+                                      const struct accuracy_entry **dot_entry);
 
 /* Returns the number of cases of a problem. */
-int accuracy_cases(const struct accuracy_problem *problem);
+int accuracy_case_count(const struct accuracy_problem *problem);
 
 #endif

@@ -30,8 +30,8 @@ static const char pulse_text[] =
 static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     snprintf(s->text, sizeof s->text, "%s", p->at == STEP ? step_text : pulse_text);
-    bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
-    if (p->at == PULSE) bench_override(&s->set, "pd.surface", "none");
+    bench_overrides_append(&s->set, "particles.spacing", "1/%d", p->resolution);
+    if (p->at == PULSE) bench_overrides_append(&s->set, "pd.surface", "none");
 }
 
 /* Returns the root mean square of a pulse amplitude * exp(-(x/r)^2) with r = 0.1 m over a bar of 1.6 m, in the unit of
@@ -45,13 +45,13 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
 {
     const double impedance = 100; /* rho c [Pa s/m] */
     if (p->at == STEP) {
-        part[0] = accuracy_figure(e, "exact", "L1") / 1;
-        part[1] = accuracy_figure(e, "exact", "L1_velocity") * impedance;
+        part[0] = accuracy_probe_value_of_run(e, "exact", "L1") / 1;
+        part[1] = accuracy_probe_value_of_run(e, "exact", "L1_velocity") * impedance;
         *error = 0.5 * (part[0] + part[1]);
         return OK;
     }
-    part[0] = accuracy_figure(e, "exact", "L2") / pulse_rms(1e-5 * impedance);
-    part[1] = accuracy_figure(e, "exact", "L2_velocity") / pulse_rms(1e-5);
+    part[0] = accuracy_probe_value_of_run(e, "exact", "L2") / pulse_rms(1e-5 * impedance);
+    part[1] = accuracy_probe_value_of_run(e, "exact", "L2_velocity") / pulse_rms(1e-5);
     *error = sqrt(0.5 * (part[0] * part[0] + part[1] * part[1]));
     return OK;
 }

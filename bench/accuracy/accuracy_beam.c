@@ -95,7 +95,7 @@ static void mode_at(const void *context, const real *X, real *v)
  * v_mode, where v_mode is the velocity of the mode at the particle [J]. */
 static double part_in_mode(const struct mode *m, const struct run *e)
 {
-    const struct particles *p = observed_run_of(e).part;
+    const struct particles *p = observed_run_view_of(e).part;
     double sum = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0}, v[DIM_MAX];
@@ -116,11 +116,11 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
     double before = 0, t_before = 0;
     int zeros = 0;
     measured = NAN;
-    bench_engine_start(e, mode_at, m);
+    bench_engine_set_velocities(e, mode_at, m);
     for (int k = 1; k <= 300; k++) {
         TRY(bench_engine_run(e, e->clock.steps * k / 300, NULL));
-        run_update_particles(e);
-        const double now = part_in_mode(m, e), t = observed_run_of(e).t_velocity;
+        run_update_particle_motion_and_stress(e);
+        const double now = part_in_mode(m, e), t = observed_run_view_of(e).t_velocity;
         zeros += k > 1 && now * before < 0;
         if (zeros == 2) {
             measured = 1.5 * M_PI / (t_before + (t - t_before) * before / (before - now));

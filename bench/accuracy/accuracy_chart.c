@@ -44,7 +44,7 @@ static void chart_make(struct chart *c, const struct accuracy_plan *plan, const 
     const struct accuracy_entry **of = NEW("bench.of", plan->n, const struct accuracy_entry *);
     *c = (struct chart){.problem = problem, .least = INFINITY, .soonest = INFINITY};
     c->dot = NEW("bench.dot", plan->n, struct accuracy_dot);
-    c->n = accuracy_dots(plan, problem, -1, -1, c->dot, of);
+    c->n = accuracy_collect_times_and_errors(plan, problem, -1, -1, c->dot, of);
     for (int g = 0; g < CLASSES; g++) {
         c->own[g] = NEW("bench.dot", plan->n, struct accuracy_dot);
         for (int k = 0; k < c->n; k++)
@@ -76,7 +76,7 @@ static int winner_of(const struct chart *c, double error)
     int best = -1;
     double least = INFINITY;
     for (int g = 0; g < CLASSES; g++) {
-        const int k = accuracy_cheapest(c->own[g], c->of_class[g], error);
+        const int k = accuracy_index_of_fastest_point(c->own[g], c->of_class[g], error);
         if (k >= 0 && c->own[g][k].time < least) least = c->own[g][k].time, best = g;
     }
     return best;
@@ -93,7 +93,7 @@ static void chart_send(FILE *to, const struct chart *c, int number)
         if (isfinite(c->dot[k].error)) fprintf(to, "%.4g %.4g\n", c->dot[k].time, 100 * fmin(c->dot[k].error, 1));
     fputs("NaN NaN\nEOD\n", to);
     for (int g = 0; g < CLASSES; g++) {
-        const int fronts = accuracy_front(c->own[g], c->of_class[g], front);
+        const int fronts = accuracy_find_pareto_front(c->own[g], c->of_class[g], front);
         fprintf(to, "$f%d_%d << EOD\n", number, g);
         for (int k = 0; k < fronts; k++)
             fprintf(to, "%.4g %.4g\n", c->own[g][front[k]].time, 100 * c->own[g][front[k]].error);
@@ -107,7 +107,7 @@ static void chart_send(FILE *to, const struct chart *c, int number)
 static void heading_line_write(FILE *to, int number, const char *text, double above, int height, const char *font)
 {
     fprintf(to, "set label %d ", number);
-    gnuplot_quote(to, text);
+    gnuplot_write_quoted_string(to, text);
     fprintf(to, " at screen 0.5,%.5g center font '%s' textcolor rgb '#111111'\n", 1 - above / height, font);
 }
 
@@ -147,7 +147,7 @@ static void chart_plot(FILE *to, const struct charts *p, int number)
             1 - (y + HEIGHT - BELOW) / height, c->soonest, c->latest, 100 * c->least, 100 * c->most,
             number + COLUMNS < p->n ? "" : "loop time on one thread", number % COLUMNS ? "" : "error [%]",
             (x + 16) / width, 1 - (y + 0.5 * (HEIGHT + ABOVE - BELOW)) / height);
-    gnuplot_quote(to, c->problem->title);
+    gnuplot_write_quoted_string(to, c->problem->title);
     fputs(" font 'Liberation Sans:Bold,14'\nplot ", to);
     for (size_t e = 0; e < COUNT_OF(asked); e++)
         fprintf(to, "%g with lines lw 1.2 dt (6,5) lc rgb '#999999' notitle, ", 100 * asked[e]);
@@ -192,7 +192,7 @@ static void charts_draw(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-status accuracy_chart(const struct accuracy_plan *plan)
+status accuracy_draw_overview_chart(const struct accuracy_plan *plan)
 {
     struct charts p = {0};
     for (int k = 0; k < accuracy_problems; k++) {

@@ -54,22 +54,22 @@ static void put_inclined(FILE *to, const char *time)
 
 static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
-    const bool waits = accuracy_is_reference(p);
+    const bool waits = accuracy_point_uses_reference_frame(p);
     const double duration = 200 * (p->at == EDGE ? 10e-3 : 20e-3) / sqrt(200e9 * 9 / 8 / 7850);
     char time[64] = "";
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     FILE *to = fmemopen(s->text, sizeof s->text, "w");
     fprintf(to, "%sduration: %.9g\nsolver_steps: 8000\n", text, waits ? duration : 1);
-    bench_override(&s->set, "solver", "%s", accuracy_solver(p));
+    bench_overrides_append(&s->set, "solver", "%s", accuracy_solver_of_point(p));
     if (p->at == EDGE)
         put_edge(to, p, 10.0 / p->resolution, time);
     else
         put_inclined(to, time);
     fclose(to);
-    bench_override(&s->set, "particles.spacing", "10/%d mm", p->resolution);
+    bench_overrides_append(&s->set, "particles.spacing", "10/%d mm", p->resolution);
     /* The setting that gave the smaller error for each family in inputs/edge_crack_k1.yaml and inclined_crack.yaml. */
     if (p->method->family & ACCURACY_STATES && (p->horizon == 1.5 || strcmp(p->method->name, "pd ospd") == 0))
-        bench_override(&s->set, "pd.normalisation", "local");
+        bench_overrides_append(&s->set, "pd.normalisation", "local");
 }
 
 /* Computes the errors of K_I, part[0], and K_II, part[1], in the run e of point p, both relative to the magnitude
@@ -79,7 +79,8 @@ static status accuracy_cracks_measure(const struct accuracy_point *p, struct run
     static const char *const factor[2] = {"K_I", "K_II"};
     const double size = pull * sqrt(M_PI * length[p->at]), *wanted = exact[p->at];
     for (int m = 0; m < 2; m++)
-        part[m] = (fabs(accuracy_figure(e, "sif", factor[m])) / size - wanted[m]) / hypot(wanted[0], wanted[1]);
+        part[m] =
+            (fabs(accuracy_probe_value_of_run(e, "sif", factor[m])) / size - wanted[m]) / hypot(wanted[0], wanted[1]);
     *error = hypot(part[0], part[1]);
     return OK;
 }
@@ -92,8 +93,8 @@ static bool accuracy_cracks_applies(const struct accuracy_point *p)
     if (p->method->family & ACCURACY_BONDS && p->horizon == 1.5) return false;
     if (p->resolution > (inclined ? 200 : 400)) return false;
     if (p->method->family & (ACCURACY_PD | ACCURACY_REFERENCE)) return true;
-    if (accuracy_is_reference(p)) return p->resolution <= (inclined ? 64 : 100);
-    return accuracy_relaxes(p) && p->resolution <= (inclined ? 64 : 100);
+    if (accuracy_point_uses_reference_frame(p)) return p->resolution <= (inclined ? 64 : 100);
+    return accuracy_point_can_use_relaxation(p) && p->resolution <= (inclined ? 64 : 100);
 }
 
 const struct accuracy_problem accuracy_cracks = {

@@ -15,12 +15,12 @@
 
 /* Writes the label of point p, a run of the cost-accuracy table, into text[size]: method and resolution, and horizon
  * and time step if they are not the usual ones. */
-void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
+void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity)
 {
     char more[48] = "", *end = more;
-    if (p->horizon > 0 && p->horizon != ACCURACY_HORIZON) end += snprintf(more, 24, ", h %.4g", p->horizon);
-    if (p->step != ACCURACY_STEP) snprintf(end, 24, ", dt %.3g", p->step);
-    snprintf(text, size, "%s %d%s", p->method->name, p->resolution, more);
+    if (point->horizon > 0 && point->horizon != ACCURACY_HORIZON) end += snprintf(more, 24, ", h %.4g", point->horizon);
+    if (point->step != ACCURACY_STEP) snprintf(end, 24, ", dt %.3g", point->step);
+    snprintf(text, capacity, "%s %d%s", point->method->name, point->resolution, more);
 }
 
 static bool same_but_case(const struct accuracy_point *a, const struct accuracy_point *b)
@@ -55,18 +55,21 @@ static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_po
         worst->time = fmax(worst->time, one.time);
         worst->error = isfinite(one.error) && isfinite(worst->error) ? fmax(worst->error, one.error) : NAN;
     }
-    return cases == accuracy_cases(p->problem);
+    return cases == accuracy_case_count(p->problem);
 }
 
-int accuracy_dots(const struct accuracy_plan *plan, const struct accuracy_problem *problem, int at, int part,
-                  struct accuracy_dot *dot, const struct accuracy_entry **of)
+int accuracy_collect_times_and_errors(const struct accuracy_plan *plan, const struct accuracy_problem *problem,
+                                      int case_index, int part_index, struct accuracy_dot *dot,
+                                      const struct accuracy_entry **dot_entry)
 {
     int n = 0;
     for (int k = 0; k < plan->n; k++) {
         const struct accuracy_entry *entry = &plan->entry[k];
-        if (entry->point.problem != problem || entry->point.at != (at < 0 ? 0 : at) || !entry->result.known) continue;
-        dot[n] = dot_of(&entry->result, part);
-        if (at >= 0 || worst_dot(plan, &entry->point, part, &dot[n])) of[n++] = entry;
+        if (entry->point.problem != problem || entry->point.at != (case_index < 0 ? 0 : case_index) ||
+            !entry->result.known)
+            continue;
+        dot[n] = dot_of(&entry->result, part_index);
+        if (case_index >= 0 || worst_dot(plan, &entry->point, part_index, &dot[n])) dot_entry[n++] = entry;
     }
     return n;
 }
@@ -100,8 +103,8 @@ static void panel_make(struct panel *q, const struct accuracy_plan *plan, const 
 {
     q->dot = NEW("bench.dot", plan->n, struct accuracy_dot), q->front = NEW("bench.front", plan->n, int);
     q->of = NEW("bench.of", plan->n, const struct accuracy_entry *);
-    q->n = accuracy_dots(plan, problem, at, part, q->dot, q->of);
-    q->front_n = accuracy_front(q->dot, q->n, q->front);
+    q->n = accuracy_collect_times_and_errors(plan, problem, at, part, q->dot, q->of);
+    q->front_n = accuracy_find_pareto_front(q->dot, q->n, q->front);
     panel_range(q);
 }
 
@@ -128,11 +131,11 @@ static const struct {
 static int group_of(const struct accuracy_point *p)
 {
     const enum accuracy_family family = p->method->family;
-    if (accuracy_is_coarse(p->method)) return COARSE;
+    if (accuracy_method_has_coarse_cells(p->method)) return COARSE;
     if (family == ACCURACY_BONDS) return BOND;
     if (family == ACCURACY_STATES) return STATE;
     if (family == ACCURACY_COUPLED) return COUPLED_HERE;
-    if (family == ACCURACY_ADAPTIVE) return accuracy_is_reference(p) ? ADAPTIVE_MESH : ADAPTIVE_GRID;
+    if (family == ACCURACY_ADAPTIVE) return accuracy_point_uses_reference_frame(p) ? ADAPTIVE_MESH : ADAPTIVE_GRID;
     return family == ACCURACY_REFERENCE ? REFERENCE_FRAME : CURRENT_FRAME;
 }
 
@@ -298,7 +301,7 @@ static void draw_page(FILE *to, const void *context)
             left + width * PANEL_LEFT / PANEL_WIDTH, left + width * (1 - (double)PANEL_RIGHT / PANEL_WIDTH),
             above - height * PANEL_ABOVE / PANEL_HEIGHT, above - height * (1 - (double)PANEL_BELOW / PANEL_HEIGHT));
         fputs("set title ", to);
-        gnuplot_quote(to, p->title[k]);
+        gnuplot_write_quoted_string(to, p->title[k]);
         fprintf(to, "\nset ylabel '%s' offset 0.8,0\nset xlabel '%s' offset 0,0.4\n", k % p->columns ? "" : "error",
                 k + p->columns < p->panels ? "" : "loop time on one thread");
         accuracy_draw_panel(to, &p->panel[k]);
@@ -317,17 +320,17 @@ static status draw_and_free(struct page *p, const char *name)
     return s;
 }
 
-status accuracy_draw(const struct accuracy_plan *plan)
+status accuracy_draw_all_pictures(const struct accuracy_plan *plan)
 {
     for (int k = 0; k < accuracy_problems; k++) {
         struct page one = {0};
         char name[64];
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++)
+        for (int at = 0; at < accuracy_case_count(accuracy_problem[k]); at++)
             add_panel(&one, plan, accuracy_problem[k], at, -1);
         for (int part = 0; part < ACCURACY_PARTS && accuracy_problem[k]->draws_parts; part++)
             if (accuracy_problem[k]->part[part]) add_panel(&one, plan, accuracy_problem[k], -1, part);
         snprintf(name, sizeof name, "accuracy_%s", accuracy_problem[k]->name);
         TRY(draw_and_free(&one, name));
     }
-    return accuracy_chart(plan);
+    return accuracy_draw_overview_chart(plan);
 }

@@ -58,10 +58,11 @@ static void accuracy_fracture_make_scene(const struct accuracy_point *p, struct 
                  "{until: 4.5 us}}}\n",
                  edge, edge);
     }
-    bench_override(&s->set, "particles.spacing", "%d/%d mm", p->at == KALTHOFF ? 100 : 50, p->resolution);
-    if (p->at == KALTHOFF) bench_override(&s->set, "pd.influence", "one");
-    if (p->method->family & ACCURACY_STATES) bench_override(&s->set, "pd.normalisation", "bulk");
-    if (p->at == KALTHOFF && accuracy_relaxes(p)) bench_override(&s->set, "mpm.transfer", "apic");
+    bench_overrides_append(&s->set, "particles.spacing", "%d/%d mm", p->at == KALTHOFF ? 100 : 50, p->resolution);
+    if (p->at == KALTHOFF) bench_overrides_append(&s->set, "pd.influence", "one");
+    if (p->method->family & ACCURACY_STATES) bench_overrides_append(&s->set, "pd.normalisation", "bulk");
+    if (p->at == KALTHOFF && accuracy_point_can_use_relaxation(p))
+        bench_overrides_append(&s->set, "mpm.transfer", "apic");
 }
 
 /* ---- observed cracks --------------------------------------------------------------------------------------------- */
@@ -148,7 +149,8 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;
-    if (p->resolution > 200 && p->method->family & ACCURACY_ADAPTIVE && !accuracy_is_reference(p)) return false;
+    if (p->resolution > 200 && p->method->family & ACCURACY_ADAPTIVE && !accuracy_point_uses_reference_frame(p))
+        return false;
     return p->method->quick && (p->method->family & (ACCURACY_BONDS | ACCURACY_ADAPTIVE));
 }
 
@@ -202,9 +204,9 @@ static status print_reference(const struct accuracy_point *p)
     struct accuracy_scene from;
     struct run e;
     struct scene s;
-    accuracy_scene_make(p, &from);
-    TRY(bench_engine_make(&e, &s, p->problem->name, from.text, bench_overrides_ready(&from.set), from.set.n));
-    const status ran = engine_run(&e);
+    accuracy_compose_scene_of_point(p, &from);
+    TRY(bench_engine_make(&e, &s, p->problem->name, from.text, bench_overrides_as_array(&from.set), from.set.n));
+    const status ran = engine_run_to_end(&e);
     const struct fracture f = accuracy_fracture_of(p, &e);
     printf("    {%.7g, %.5g, %.5g, {", f.start, f.speed, f.length);
     for (int r = 0; r < FRACTURE_RINGS; r++) printf("%.5g%s", f.angle[r], r < FRACTURE_RINGS - 1 ? ", " : "}},");
@@ -214,11 +216,11 @@ static status print_reference(const struct accuracy_point *p)
     return ran;
 }
 
-status accuracy_reference(bool quick)
+status accuracy_compute_reference_cracks(bool quick)
 {
-    team_set_threads(0);
+    team_set_thread_count(0);
     for (int resolution = 100; resolution <= (quick ? 200 : 800); resolution *= 2)
-        for (int at = 0; at < accuracy_cases(&accuracy_fracture); at++)
+        for (int at = 0; at < accuracy_case_count(&accuracy_fracture); at++)
             TRY(print_reference(&(struct accuracy_point){&accuracy_fracture, &accuracy_method[0], at, resolution,
                                                          ACCURACY_HORIZON, 0.4}));
     return OK;

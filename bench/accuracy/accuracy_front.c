@@ -19,11 +19,11 @@ static bool on_front(const struct accuracy_dot *dot, int n, int k)
     return true;
 }
 
-int accuracy_front(const struct accuracy_dot *dot, int n, int *front)
+int accuracy_find_pareto_front(const struct accuracy_dot *dot, int dot_count, int *front)
 {
     int found = 0;
-    for (int k = 0; k < n; k++) {
-        if (!on_front(dot, n, k)) continue;
+    for (int k = 0; k < dot_count; k++) {
+        if (!on_front(dot, dot_count, k)) continue;
         int at = found++;
         for (; at > 0 && dot[front[at - 1]].time > dot[k].time; at--) front[at] = front[at - 1];
         front[at] = k;
@@ -31,10 +31,10 @@ int accuracy_front(const struct accuracy_dot *dot, int n, int *front)
     return found;
 }
 
-int accuracy_cheapest(const struct accuracy_dot *dot, int n, double error)
+int accuracy_index_of_fastest_point(const struct accuracy_dot *dot, int dot_count, double largest_error)
 {
     int best = -1;
-    for (int k = 0; k < n; k++)
-        if (counts(&dot[k]) && dot[k].error <= error && (best < 0 || dot[k].time < dot[best].time)) best = k;
+    for (int k = 0; k < dot_count; k++)
+        if (counts(&dot[k]) && dot[k].error <= largest_error && (best < 0 || dot[k].time < dot[best].time)) best = k;
     return best;
 }

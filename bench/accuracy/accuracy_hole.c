@@ -36,13 +36,13 @@ static const double potential[POWERS][2] = {
     {-0.0033372314, -0.00298985703},    {0.000620108693, -0.00403252779},  {-0.000282598929, 0.00225840748},
 };
 
-/* Computes displacement u[2] [m] and stress xx, yy, xy [Pa] at X[2] [m] in a plate with a hole under tension along y
- * (Muskhelishvili 1953). With the complex potentials phi and psi at z = x + i y: 2 G (u + i v) = kappa phi - z
- * conj(phi') - conj(psi); sxx + syy = 4 Re phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
-void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
+/* Computes displacement displacement[2] [m] and stress xx, yy, xy [Pa] at position[2] [m] in a plate with a hole under
+ * tension along y (Muskhelishvili 1953). With the complex potentials phi and psi at z = x + i y: 2 G (u + i v) = kappa
+ * phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
+void accuracy_hole_compute_exact_solution(const double position[2], double displacement[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));
-    const double complex z = X[0] + I * X[1];
+    const double complex z = position[0] + I * position[1];
     double complex phi = 0, slope = 0, bend = 0, psi = 0, psi_slope = 0;
     for (int m = 0; m < POWERS; m++) {
         const int k = LEAST + 2 * m;
@@ -53,7 +53,7 @@ void accuracy_hole_exact(const double X[2], double u[2], double stress[3])
         bend += potential[m][0] * k * (k - 1) * power / (z * z);
     }
     const double complex move = kappa * phi - z * conj(slope) - conj(psi), part = 2 * (conj(z) * bend + psi_slope);
-    u[0] = pull * creal(move) / (2 * shear), u[1] = pull * cimag(move) / (2 * shear);
+    displacement[0] = pull * creal(move) / (2 * shear), displacement[1] = pull * cimag(move) / (2 * shear);
     stress[0] = 0.5 * pull * (4 * creal(slope) - creal(part)),
     stress[1] = 0.5 * pull * (4 * creal(slope) + creal(part));
     stress[2] = 0.5 * pull * cimag(part);
@@ -71,15 +71,15 @@ static const char plate[] =
 static void accuracy_hole_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     const double transit = 10 / sqrt(young / (1 - poisson * poisson)), duration = 30 * transit;
-    const bool waits = accuracy_is_reference(p);
+    const bool waits = accuracy_point_uses_reference_frame(p);
     char time[64] = "";
     if (waits) snprintf(time, sizeof time, ", time: {pulse: {until: %.9g}}", 2 * duration);
     snprintf(s->text, sizeof s->text,
              "%sduration: %.9g\nsolver_steps: 8000\nboundary: [{traction: [0, 1e4], face: y+%s}, {traction: [0, -1e4], "
              "face: y-%s}]\n",
              plate, waits ? duration : 1, time, time);
-    bench_override(&s->set, "solver", "%s", accuracy_solver(p));
-    bench_override(&s->set, "particles.spacing", "10/%d", p->resolution);
+    bench_overrides_append(&s->set, "solver", "%s", accuracy_solver_of_point(p));
+    bench_overrides_append(&s->set, "particles.spacing", "10/%d", p->resolution);
 }
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
@@ -95,7 +95,7 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
         const double X[2] = {q->X[0][i], q->X[1][i]}, r = hypot(X[0], X[1]);
         const double moved[2] = {q->x[0][i] - X[0], q->x[1][i] - X[1]};
         double u[2], stress[3];
-        accuracy_hole_exact(X, u, stress);
+        accuracy_hole_compute_exact_solution(X, u, stress);
         const bool end = fabs(X[1]) < 0.75 * h && fabs(X[0]) > 1 && fabs(X[0]) < rim;
         if (end) off += (moved[1] - u[1]) / X[1], size += u[1] / X[1];
         if (r < ring[0] || r > ring[1]) continue;
@@ -111,9 +111,9 @@ static status accuracy_hole_measure(const struct accuracy_point *p, struct run *
  * with short horizons. */
 static bool accuracy_hole_applies(const struct accuracy_point *p)
 {
-    if (accuracy_is_reference(p)) return true;
+    if (accuracy_point_uses_reference_frame(p)) return true;
     if (p->method->family & ACCURACY_PD) return (p->horizon > 2 || p->method->family & ACCURACY_STATES);
-    return accuracy_relaxes(p) && p->resolution <= 160;
+    return accuracy_point_can_use_relaxation(p) && p->resolution <= 160;
 }
 
 const struct accuracy_problem accuracy_hole = {

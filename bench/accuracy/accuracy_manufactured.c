@@ -39,9 +39,9 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
     for (int axis = 0; axis < dim; axis++)
         for (int at = 0; at < 2; at++)
             fprintf(to, "  - {name: %c%d, mirror: {axis: %c, at: %d}}\n", 'x' + axis, at, 'x' + axis, at);
-    manufactured_boundaries(to, accuracy_manufactured_motion_of(p));
+    manufactured_write_body_force(to, accuracy_manufactured_motion_of(p));
     fclose(to);
-    bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
+    bench_overrides_append(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
 /* Adds the squared difference between the stress of particle i and the exact stress, stiffness times strain, to *off,
@@ -61,7 +61,7 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
 {
     const struct manufactured *m = accuracy_manufactured_motion_of(q);
     const struct particles *p = &e->part;
-    const struct observed_run seen = observed_run_of(e);
+    const struct observed_run seen = observed_run_view_of(e);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);

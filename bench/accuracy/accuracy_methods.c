@@ -77,22 +77,27 @@ static bool sets(const struct accuracy_method *m, const char *key, const char *v
     return false;
 }
 
-bool accuracy_is_reference(const struct accuracy_point *p) { return sets(p->method, "mpm.frame", "reference"); }
+bool accuracy_point_uses_reference_frame(const struct accuracy_point *point)
+{
+    return sets(point->method, "mpm.frame", "reference");
+}
 
-bool accuracy_is_coarse(const struct accuracy_method *method)
+bool accuracy_method_has_coarse_cells(const struct accuracy_method *method)
 {
     return sets(method, "mpm.levels", "1") || sets(method, "mpm.levels", "2");
 }
 
-const char *accuracy_solver(const struct accuracy_point *p)
+const char *accuracy_solver_of_point(const struct accuracy_point *point)
 {
-    return accuracy_is_reference(p) ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation";
+    return accuracy_point_uses_reference_frame(point) ? "explicit"
+           : point->method->family & ACCURACY_PD      ? "cg"
+                                                      : "relaxation";
 }
 
 /* Returns true if the method of point p can be used with relaxation. With the transfer flip relaxation converges too
  * slowly. The couplings pm and pmg have linear shape functions, for which the transfer apic does not exist. */
-bool accuracy_relaxes(const struct accuracy_point *p)
+bool accuracy_point_can_use_relaxation(const struct accuracy_point *point)
 {
-    return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&
-           !sets(p->method, "coupling", "pmg");
+    return !sets(point->method, "mpm.transfer", "flip") && !sets(point->method, "coupling", "pm") &&
+           !sets(point->method, "coupling", "pmg");
 }

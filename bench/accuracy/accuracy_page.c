@@ -18,7 +18,7 @@ static const double wanted[] = {0.05, 0.01, 0.003};
 static void put_cheapest(FILE *to, const struct accuracy_dot *dot, const struct accuracy_entry *const *of, int n,
                          double error)
 {
-    const int k = accuracy_cheapest(dot, n, error);
+    const int k = accuracy_index_of_fastest_point(dot, n, error);
     char label[96];
     if (k < 0) {
         fputs(" – |", to);
@@ -32,7 +32,7 @@ static void put_row(FILE *to, const struct accuracy_plan *plan, const struct acc
 {
     struct accuracy_dot *dot = NEW("bench.dot", plan->n, struct accuracy_dot);
     const struct accuracy_entry **of = NEW("bench.of", plan->n, const struct accuracy_entry *);
-    const int n = accuracy_dots(plan, q, at, -1, dot, of);
+    const int n = accuracy_collect_times_and_errors(plan, q, at, -1, dot, of);
     if (n > 0) {
         fprintf(to, "| %s | %s |", q->name, at < 0 ? "worst of all" : q->cases[at]);
         for (size_t k = 0; k < COUNT_OF(wanted); k++) put_cheapest(to, dot, of, n, wanted[k]);
@@ -48,7 +48,7 @@ static void accuracy_page_put_table(FILE *to, const struct accuracy_plan *plan)
     for (size_t k = 0; k < COUNT_OF(wanted); k++) fprintf(to, " %g %% |", 100 * wanted[k]);
     fputs("\n|---|---|---|---|---|\n", to);
     for (int k = 0; k < accuracy_problems; k++) {
-        const int cases = accuracy_cases(accuracy_problem[k]);
+        const int cases = accuracy_case_count(accuracy_problem[k]);
         for (int at = 0; at < cases; at++) put_row(to, plan, accuracy_problem[k], at);
         if (cases > 1) put_row(to, plan, accuracy_problem[k], -1);
     }
@@ -95,7 +95,7 @@ static void put_page(FILE *to, const struct accuracy_plan *plan)
     }
 }
 
-status accuracy_page(const struct accuracy_plan *plan)
+status accuracy_write_overview_page(const struct accuracy_plan *plan)
 {
     char *text = NULL;
     size_t length = 0;

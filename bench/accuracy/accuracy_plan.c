@@ -11,7 +11,7 @@ const struct accuracy_problem *const accuracy_problem[] = {
     &accuracy_sudden, &accuracy_spall, &accuracy_fracture, &accuracy_beam, &accuracy_rod};
 const int accuracy_problems = COUNT_OF(accuracy_problem);
 
-int accuracy_cases(const struct accuracy_problem *problem)
+int accuracy_case_count(const struct accuracy_problem *problem)
 {
     int n = 0;
     while (n < ACCURACY_CASES && problem->cases[n]) n++;
@@ -22,18 +22,18 @@ int accuracy_cases(const struct accuracy_problem *problem)
 
 /* Composes the scene of a point (a run of the cost-accuracy table): the scene of its problem, with the keys of its
  * method, its horizon and its time step. */
-void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s)
+void accuracy_compose_scene_of_point(const struct accuracy_point *point, struct accuracy_scene *scene)
 {
-    memset(s, 0, sizeof *s);
-    p->problem->scene(p, s);
-    for (int k = 0; k < ACCURACY_SETTINGS && p->method->set[k].key; k++)
-        bench_override(&s->set, p->method->set[k].key, "%s", p->method->set[k].value);
-    if (p->horizon > 0) bench_override(&s->set, "particles.horizon", "%.9g", p->horizon);
-    bench_override(&s->set, "time.step", "auto");
-    bench_override(&s->set, "time.safety", "%.9g", p->step);
-    bench_override(&s->set, "contact.between", "none"); /* no bodies come into contact in these problems */
-    bench_override(&s->set, "output.frames", "0");
-    bench_override(&s->set, "output.samples", "%d", p->problem->samples ? p->problem->samples : 1);
+    memset(scene, 0, sizeof *scene);
+    point->problem->scene(point, scene);
+    for (int k = 0; k < ACCURACY_SETTINGS && point->method->set[k].key; k++)
+        bench_overrides_append(&scene->set, point->method->set[k].key, "%s", point->method->set[k].value);
+    if (point->horizon > 0) bench_overrides_append(&scene->set, "particles.horizon", "%.9g", point->horizon);
+    bench_overrides_append(&scene->set, "time.step", "auto");
+    bench_overrides_append(&scene->set, "time.safety", "%.9g", point->step);
+    bench_overrides_append(&scene->set, "contact.between", "none"); /* no bodies come into contact in these problems */
+    bench_overrides_append(&scene->set, "output.frames", "0");
+    bench_overrides_append(&scene->set, "output.samples", "%d", point->problem->samples ? point->problem->samples : 1);
 }
 
 /* Adds a text to an FNV-1a hash. The hash of a point is made of the text of its scene with all defaults and of the name
@@ -48,8 +48,8 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
     struct accuracy_scene from;
     struct scene s;
     uint64_t hash = 14695981039346656037u;
-    accuracy_scene_make(&entry->point, &from);
-    const struct scene_override *set = bench_overrides_ready(&from.set);
+    accuracy_compose_scene_of_point(&entry->point, &from);
+    const struct scene_override *set = bench_overrides_as_array(&from.set);
     TRY(from.path[0] ? scene_read(&s, from.path, set, from.set.n)
                      : scene_read_text(&s, from.text, strlen(from.text), entry->point.problem->name, set, from.set.n));
     add_to_hash(&hash, s.text);
@@ -96,7 +96,7 @@ static status add_case(struct accuracy_plan *plan, const struct accuracy_problem
     const int varied = q->varied ? q->varied - 1 : 1;
     for (int m = 0; m < accuracy_methods; m++) {
         const struct accuracy_method *method = &accuracy_method[m];
-        if (!(method->family & q->families) || (accuracy_is_coarse(method) && !q->levels)) continue;
+        if (!(method->family & q->families) || (accuracy_method_has_coarse_cells(method) && !q->levels)) continue;
         struct accuracy_point p = {.problem = q,
                                    .method = method,
                                    .at = at,
@@ -116,7 +116,7 @@ static bool is_here(const struct accuracy_problem *q)
     const struct accuracy_point any = {
         .problem = q, .method = accuracy_method, .resolution = q->resolution[0], .step = ACCURACY_STEP};
     struct accuracy_scene s;
-    accuracy_scene_make(&any, &s);
+    accuracy_compose_scene_of_point(&any, &s);
     return !s.path[0] || bench_scene_exists(s.path);
 }
 
@@ -130,7 +130,7 @@ status accuracy_plan_make(struct accuracy_plan *plan)
         const struct accuracy_problem *q = accuracy_problem[k];
         if (!is_here(q)) continue;
         for (int r = 0; r < ACCURACY_RESOLUTIONS && q->resolution[r]; r++)
-            for (int at = 0; at < accuracy_cases(q); at++) TRY(add_case(plan, q, at, r));
+            for (int at = 0; at < accuracy_case_count(q); at++) TRY(add_case(plan, q, at, r));
     }
     return OK;
 }

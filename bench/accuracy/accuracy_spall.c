@@ -28,8 +28,8 @@ static void accuracy_spall_make_scene(const struct accuracy_point *p, struct acc
     const bool adaptive = p->method->family & ACCURACY_ADAPTIVE;
     snprintf(s->text, sizeof s->text, "%s%s", text,
              adaptive ? "" : "pd: {region: {box: {from: [0], to: [0.5]}}}\nconversion: {criteria: none}\n");
-    bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
-    if (adaptive) bench_override(&s->set, "conversion.alpha", "0.5");
+    bench_overrides_append(&s->set, "particles.spacing", "1/%d", p->resolution);
+    if (adaptive) bench_overrides_append(&s->set, "conversion.alpha", "0.5");
 }
 
 /* Computes the relative errors of the time, part[0], and the position, part[1], at which the bar breaks in the run e.
@@ -37,8 +37,8 @@ static void accuracy_spall_make_scene(const struct accuracy_point *p, struct acc
 static status accuracy_spall_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p;
-    part[0] = accuracy_figure(e, "spall", "time") / time_exact - 1;
-    part[1] = accuracy_figure(e, "spall", "position") / place_exact - 1;
+    part[0] = accuracy_probe_value_of_run(e, "spall", "time") / time_exact - 1;
+    part[1] = accuracy_probe_value_of_run(e, "spall", "position") / place_exact - 1;
     *error = isfinite(part[0]) ? sqrt(0.5 * (part[0] * part[0] + part[1] * part[1])) : 1;
     return OK;
 }

@@ -84,7 +84,7 @@ static void take_lines(struct accuracy_plan *plan, const char *text,
     }
 }
 
-status accuracy_stored_read(struct accuracy_plan *plan)
+status accuracy_read_recorded_results(struct accuracy_plan *plan)
 {
     char *text;
     size_t length;
@@ -94,7 +94,7 @@ status accuracy_stored_read(struct accuracy_plan *plan)
     return OK;
 }
 
-bool accuracy_store_exists(void) { return path_is_file(STORE); }
+bool accuracy_results_file_exists(void) { return path_is_file(STORE); }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
@@ -118,9 +118,9 @@ static void put_line(FILE *to, const struct accuracy_entry *entry)
     fprintf(to, "%d,%s,%s\n", r->stable, CLEAVE_VERSION, r->settings);
 }
 
-status accuracy_store_append(const struct accuracy_entry *entry)
+status accuracy_append_result_to_file(const struct accuracy_entry *entry)
 {
-    TRY(bench_begin("accuracy"));
+    TRY(bench_prepare_result_files("accuracy"));
     const bool fresh = !path_is_file(STORE);
     FILE *to = fopen(STORE, "a");
     if (!to) return file_report_write_failure(STORE, errno);
@@ -138,10 +138,12 @@ static void fill_points(struct bench_table *t, const struct accuracy_plan *plan)
         if (!r->known) continue;
         const double figures[] = {r->error,      r->part[0],   r->part[1], r->part[2], r->seconds[0],
                                   r->seconds[1], r->particles, r->steps,   r->stable};
-        bench_text(t, p->problem->name), bench_text(t, p->problem->cases[p->at]), bench_text(t, p->method->name);
-        bench_number(t, p->resolution), bench_number(t, p->horizon), bench_number(t, p->step);
-        for (size_t c = 0; c < COUNT_OF(figures); c++) bench_number(t, figures[c]);
-        bench_text(t, CLEAVE_VERSION), bench_text(t, r->settings);
+        bench_table_append_text(t, p->problem->name), bench_table_append_text(t, p->problem->cases[p->at]),
+            bench_table_append_text(t, p->method->name);
+        bench_table_append_number(t, p->resolution), bench_table_append_number(t, p->horizon),
+            bench_table_append_number(t, p->step);
+        for (size_t c = 0; c < COUNT_OF(figures); c++) bench_table_append_number(t, figures[c]);
+        bench_table_append_text(t, CLEAVE_VERSION), bench_table_append_text(t, r->settings);
     }
 }
 
@@ -157,16 +159,16 @@ static void fill_problems(struct bench_table *t)
                                      q->part[1] ? q->part[1] : "-",
                                      q->part[2] ? q->part[2] : "-",
                                      q->counts};
-        for (size_t c = 0; c < COUNT_OF(words); c++) bench_text(t, words[c]);
+        for (size_t c = 0; c < COUNT_OF(words); c++) bench_table_append_text(t, words[c]);
     }
 }
 
-status accuracy_store_write(const struct accuracy_plan *plan)
+status accuracy_write_all_results(const struct accuracy_plan *plan)
 {
     struct bench_table table[2];
     fill_points(&table[0], plan);
     fill_problems(&table[1]);
-    status s = bench_write("accuracy", table, COUNT_OF(table));
+    status s = bench_write_result_tables("accuracy", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
 }
@@ -174,13 +176,13 @@ status accuracy_store_write(const struct accuracy_plan *plan)
 /* Reads the known results of all points of the plan from the file of results, and writes the file again with only the
  * lines that belong to a point of the plan. Does nothing if there is no such file. Returns FAILED if it cannot be read,
  * REFUSED or FAILED if it cannot be written. */
-status accuracy_store_read(struct accuracy_plan *plan)
+status accuracy_read_earlier_results(struct accuracy_plan *plan)
 {
     char *text;
     size_t length;
-    if (!accuracy_store_exists()) return OK;
+    if (!accuracy_results_file_exists()) return OK;
     TRY(file_read_whole(STORE, &text, &length));
     take_lines(plan, text, take_line);
     memory_free(text);
-    return accuracy_store_write(plan);
+    return accuracy_write_all_results(plan);
 }

@@ -29,7 +29,7 @@ static const char text[] =
 
 static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
-    const double h = 20.0 / p->resolution, half = accuracy_is_reference(p) ? h : 2 * h;
+    const double h = 20.0 / p->resolution, half = accuracy_point_uses_reference_frame(p) ? h : 2 * h;
     char crack[512];
     if (p->method->family & ACCURACY_MPM)
         snprintf(crack, sizeof crack,
@@ -45,7 +45,7 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
             "probes: [sif: {contours: [8 mm]}]\n",
             p->at == MOVING ? "growth: [{at: [30 mm, 0], direction: [1, 0], speed: 1000 m/s, start: 4.4 us}]\n" : "");
     snprintf(s->text, sizeof s->text, "%s%s", text, crack);
-    bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
+    bench_overrides_append(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
 /* Runs the scene of point p to each of the times instant[] in turn, and stores in factor[] the stress-intensity factor
@@ -53,15 +53,15 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
  * have the same time, since cells of coarser levels have longer time steps. Returns FAILED if a step fails. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
-    const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
-    const double slower = p->at == MOVING ? crack_sif_ratio_at_speed(&m, SPEED_EXACT, speed) : 1;
+    const struct crack_medium m = crack_medium_of_material(&e->scene->material[0], e->scene->space);
+    const double slower = p->at == MOVING ? crack_moving_to_resting_sif_ratio(&m, SPEED_EXACT, speed) : 1;
     const int64_t stride = levels_steps_per_cycle(&e->frame->levels);
     for (int k = 0; k < INSTANTS; k++) {
         const int64_t whole = stride * llround(instant[k] / (e->clock.dt * (double)stride));
         const int64_t until = k < INSTANTS - 1 ? whole : e->clock.steps;
         TRY(bench_engine_run(e, until, NULL));
         /* Forces are those at the beginning of the last step. */
-        factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
+        factor[k] = accuracy_probe_value_of_run(e, "sif", "K_I") / slower /
                     crack_sif_after_plane_wave(&m, stress, e->clock.t - e->clock.dt - path_length / m.longitudinal);
     }
     return OK;

@@ -40,7 +40,7 @@ static void mark_front(const struct accuracy_plan *plan, const struct accuracy_p
         dot[n] = (struct accuracy_dot){e->result.seconds[0], e->result.error};
         of[n++] = k;
     }
-    const int found = accuracy_front(dot, n, front);
+    const int found = accuracy_find_pareto_front(dot, n, front);
     for (int k = 0; k < found; k++) kept[of[front[k]]] |= dot[front[k]].error <= WORST;
     memory_free(dot), memory_free(of), memory_free(front);
 }
@@ -49,7 +49,7 @@ static bool *kept_points(const struct accuracy_plan *plan)
 {
     bool *marked = NEW("bench.chart", plan->n, bool), *kept = NEW("bench.chart", plan->n, bool);
     for (int k = 0; k < accuracy_problems; k++)
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++)
+        for (int at = 0; at < accuracy_case_count(accuracy_problem[k]); at++)
             for (int family = ACCURACY_BONDS; family <= ACCURACY_ADAPTIVE; family *= 2)
                 mark_front(plan, accuracy_problem[k], at, family, marked);
     for (int k = 0; k < plan->n; k++)
@@ -72,7 +72,7 @@ static void put_keys(FILE *to, const struct accuracy_point *p)
 {
     struct accuracy_scene s;
     const char *between = "";
-    accuracy_scene_make(p, &s);
+    accuracy_compose_scene_of_point(p, &s);
     for (int k = 0; k < s.set.n; k++) {
         bool again = accuracy_table_is_apart(s.set.at[k].key);
         for (int j = k + 1; j < s.set.n; j++) again |= strcmp(s.set.at[j].key, s.set.at[k].key) == 0;
@@ -92,10 +92,10 @@ static void put_entry(FILE *to, const struct accuracy_entry *e)
     fputc('\n', to);
 }
 
-status accuracy_table_write(const struct accuracy_plan *plan)
+status accuracy_write_table_of_pareto_lines(const struct accuracy_plan *plan)
 {
     static const char path[] = BENCH_FOLDER "/cost_accuracy.csv";
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     FILE *to = fopen(path, "w");
     if (!to) return file_report_write_failure(path, errno);
     bool *kept = kept_points(plan);

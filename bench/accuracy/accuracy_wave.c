@@ -51,7 +51,7 @@ static void accuracy_wave_make_scene(const struct accuracy_point *p, struct accu
         "velocity: %g}}]\n",
         text, w.at[0], w.at[1], w.direction[0], w.direction[1], w.polarisation[0], w.polarisation[1], w.width,
         w.velocity);
-    bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
+    bench_overrides_append(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
@@ -114,7 +114,7 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);
-    const struct observed_run seen = observed_run_of(e);
+    const struct observed_run seen = observed_run_view_of(e);
     const struct material *m = seen.material;
     const double gone = (w.transverse ? m->shear_speed : m->wave_speed) * seen.t_velocity;
     const double shift = best_shift(&w, seen.part, gone);

@@ -12,10 +12,10 @@
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
 /* Returns the quantity called `quantity` of the probe called `probe` of the finished run e; NAN if there is none. */
-double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
+double accuracy_probe_value_of_run(const struct run *e, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
-    bench_figures_take(e, &figure, 1);
+    bench_figures_read_from_probes(e, &figure, 1);
     return figure.value;
 }
 
@@ -42,12 +42,12 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     struct accuracy_scene from;
     const struct accuracy_point *p = &entry->point;
     struct accuracy_result *r = &entry->result;
-    accuracy_scene_make(p, &from);
-    team_set_threads(team + 1);
+    accuracy_compose_scene_of_point(p, &from);
+    team_set_thread_count(team + 1);
     TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : p->problem->name, from.path[0] ? NULL : from.text,
-                          bench_overrides_ready(&from.set), from.set.n));
+                          bench_overrides_as_array(&from.set), from.set.n));
     const double before = processor_seconds();
-    status ran = p->problem->run ? p->problem->run(p, &e) : engine_run(&e);
+    status ran = p->problem->run ? p->problem->run(p, &e) : engine_run_to_end(&e);
     const double busy = team == 0 ? processor_seconds() - before : INFINITY;
     r->seconds[team] = fmin(r->seconds[team], fmin(report_wall_clock_times(e.report, &e.timers).loop, busy));
     r->particles = (double)e.part.n, r->steps = (double)e.clock.step, r->stable = ran == OK;
@@ -74,7 +74,7 @@ static status run_point(struct accuracy_entry *entry)
             spent += r->seconds[team];
         }
     if (!isfinite(r->error)) r->stable = false;
-    return accuracy_store_append(entry);
+    return accuracy_append_result_to_file(entry);
 }
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
@@ -148,9 +148,9 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
         const int problem = accuracy_number_of(plan->entry[k].point.problem);
-        const double before = wall_clock();
+        const double before = wall_clock_seconds();
         TRY(run_point(&plan->entry[k]));
-        g.spent[problem] += wall_clock() - before, g.done[problem] += work_of(&plan->entry[k].point);
+        g.spent[problem] += wall_clock_seconds() - before, g.done[problem] += work_of(&plan->entry[k].point);
         print_point(&plan->entry[k], &g, quick);
     }
     return OK;
@@ -161,25 +161,25 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
 static status write_known(struct accuracy_plan *plan)
 {
     TRY(accuracy_plan_make(plan));
-    if (!accuracy_store_exists()) {
-        TRY(accuracy_stored_read(plan));
-        return accuracy_draw(plan);
+    if (!accuracy_results_file_exists()) {
+        TRY(accuracy_read_recorded_results(plan));
+        return accuracy_draw_all_pictures(plan);
     }
-    TRY(accuracy_store_read(plan));
-    TRY(accuracy_table_write(plan));
-    return accuracy_draw(plan);
+    TRY(accuracy_read_earlier_results(plan));
+    TRY(accuracy_write_table_of_pareto_lines(plan));
+    return accuracy_draw_all_pictures(plan);
 }
 
 static status accuracy_measure_all(struct accuracy_plan *plan, const char *only, bool quick)
 {
     TRY(accuracy_plan_make(plan));
-    TRY(accuracy_store_read(plan));
+    TRY(accuracy_read_earlier_results(plan));
     TRY(accuracy_run_all(plan, only, quick));
-    team_set_threads(0);
-    TRY(accuracy_store_write(plan));
-    TRY(accuracy_table_write(plan));
-    TRY(accuracy_page(plan));
-    return accuracy_draw(plan);
+    team_set_thread_count(0);
+    TRY(accuracy_write_all_results(plan));
+    TRY(accuracy_write_table_of_pareto_lines(plan));
+    TRY(accuracy_write_overview_page(plan));
+    return accuracy_draw_all_pictures(plan);
 }
 
 static bool is_problem(const char *name)
@@ -189,17 +189,18 @@ static bool is_problem(const char *name)
     return false;
 }
 
-status bench_accuracy_of(const char *only, bool quick)
+status bench_accuracy_of_problem(const char *problem_name, bool quick)
 {
     struct accuracy_plan plan = {0};
-    const bool chart = only && strcmp(only, "chart") == 0;
-    if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
-    if (only && !chart && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
+    const bool chart = problem_name && strcmp(problem_name, "chart") == 0;
+    if (problem_name && strcmp(problem_name, "reference") == 0) return accuracy_compute_reference_cracks(quick);
+    if (problem_name && !chart && !is_problem(problem_name))
+        return status_set(REFUSED, "bench accuracy: there is no problem %s", problem_name);
     printf("accuracy\n");
-    bench_print_machine(team_set_threads(0));
-    const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, only, quick);
+    bench_print_machine(team_set_thread_count(0));
+    const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, problem_name, quick);
     accuracy_plan_free(&plan);
     return s;
 }
 
-status bench_accuracy(bool quick) { return bench_accuracy_of(NULL, quick); }
+status bench_accuracy(bool quick) { return bench_accuracy_of_problem(NULL, quick); }

@@ -22,12 +22,12 @@ static double relative_horizon(const struct circle_run *r)
     return CIRCLE_HORIZON * 1e-3 * r->spacing / length;
 }
 
-const char *circle_verdict(const struct circle_run *r)
+const char *circle_verdict(const struct circle_run *run)
 {
-    const struct circle_case *c = r->of;
-    if (c->horizon > 0 && relative_horizon(r) > c->horizon) return "-";
-    if (c->horizon == 0 && c->crack > 0 && c->crack < 3 * 0.999 * CIRCLE_HORIZON * r->spacing) return "-";
-    return fabs(r->found - c->expected) <= c->tolerance ? "holds" : "MISSED";
+    const struct circle_case *c = run->of;
+    if (c->horizon > 0 && relative_horizon(run) > c->horizon) return "-";
+    if (c->horizon == 0 && c->crack > 0 && c->crack < 3 * 0.999 * CIRCLE_HORIZON * run->spacing) return "-";
+    return fabs(run->found - c->expected) <= c->tolerance ? "holds" : "MISSED";
 }
 
 /* Prints the measured value of the run r beside the expected one, and adds a row with both to the table of the run. */
@@ -39,11 +39,12 @@ static void circle_report(const struct circle_run *r)
     printf("  %-15s %-21s %6.2f l %4d deg %8.4g +- %-6.3g %8.4g %-5s %s%s%s\n", c->circle, c->figure,
            relative_horizon(r), r->degrees, c->expected, c->tolerance, found, c->unit, verdict, c->why ? ": " : "",
            c->why ? c->why : "");
-    bench_text(r->table, c->circle), bench_text(r->table, c->figure);
-    bench_text(r->table, circle_specimen[c->specimen].name), bench_text(r->table, c->unit);
-    bench_number(r->table, r->spacing), bench_number(r->table, relative_horizon(r));
-    bench_number(r->table, r->degrees), bench_number(r->table, c->expected);
-    bench_number(r->table, c->tolerance), bench_number(r->table, found), bench_text(r->table, verdict);
+    bench_table_append_text(r->table, c->circle), bench_table_append_text(r->table, c->figure);
+    bench_table_append_text(r->table, circle_specimen[c->specimen].name), bench_table_append_text(r->table, c->unit);
+    bench_table_append_number(r->table, r->spacing), bench_table_append_number(r->table, relative_horizon(r));
+    bench_table_append_number(r->table, r->degrees), bench_table_append_number(r->table, c->expected);
+    bench_table_append_number(r->table, c->tolerance), bench_table_append_number(r->table, found),
+        bench_table_append_text(r->table, verdict);
 }
 
 static status circle_take(void *row, const char *folder)
@@ -121,15 +122,15 @@ static status body_turn(const struct circles *c, struct circle_run *r, struct be
     struct circle_list list;
     snprintf(file, sizeof file, "%s_%.4g_%.4g_%d.csv", s->name, r->of->crack, r->spacing, r->degrees);
     snprintf(path, sizeof path, "%s/%s", c->folder, file);
-    TRY(circle_list_write(path, s, 1e-3 * r->spacing, r->degrees, lattice_middle(r), &list));
+    TRY(circle_write_particle_list(path, s, 1e-3 * r->spacing, r->degrees, lattice_middle(r), &list));
     r->section = list.section;
-    bench_override(o, "bodies.0.shape", "%s", "");
-    bench_override(o, "bodies.0.particles", "%s", file);
-    bench_override(o, "pd.surface", "volume");
-    bench_override(o, "pd.weights", "uniform");
-    if (s->turned.key) bench_override(o, s->turned.key, "%s", s->turned.value);
+    bench_overrides_append(o, "bodies.0.shape", "%s", "");
+    bench_overrides_append(o, "bodies.0.particles", "%s", file);
+    bench_overrides_append(o, "pd.surface", "volume");
+    bench_overrides_append(o, "pd.weights", "uniform");
+    if (s->turned.key) bench_overrides_append(o, s->turned.key, "%s", s->turned.value);
     const struct scene_override load = r->of->set[CIRCLE_LOAD];
-    if (s->loaded > 0) bench_override(o, load.key, "%.12g*(%s)", list.section / list.layer, load.value);
+    if (s->loaded > 0) bench_overrides_append(o, load.key, "%.12g*(%s)", list.section / list.layer, load.value);
     return OK;
 }
 
@@ -145,10 +146,10 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     c->run[k] = (struct circle_run){of, spacing, 1, NAN, degrees, table};
     c->job[k].path = c->scene[k], c->job[k].row = &c->run[k], c->job[k].take = circle_take;
     TRY(scene_prepare(c, s, c->scene[k]));
-    bench_override(o, s->path ? "particles.spacing" : "variables.h", "%.12g mm", spacing);
-    if (of->surface) bench_override(o, "materials.0.compressive_strength", "1 GPa");
+    bench_overrides_append(o, s->path ? "particles.spacing" : "variables.h", "%.12g mm", spacing);
+    if (of->surface) bench_overrides_append(o, "materials.0.compressive_strength", "1 GPa");
     for (int j = 0; j < CIRCLE_OVERRIDES && of->set[j].key; j++)
-        bench_override(o, of->set[j].key, "%s", of->set[j].value);
+        bench_overrides_append(o, of->set[j].key, "%s", of->set[j].value);
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
@@ -191,19 +192,19 @@ static status circles_measure(const char *only, bool quick)
     static const char *const needed[] = {"inputs/strength_notch.yaml"};
     struct bench_table rows;
     TRY(name_check(only));
-    TRY(bench_scenes_needed("circles", needed, COUNT_OF(needed)));
+    TRY(bench_check_scenes_exist("circles", needed, COUNT_OF(needed)));
     struct circles *c = NEW("bench.circles", 1, struct circles);
     printf("nine circles of elastic brittle fracture (Kamarei et al. 2025): glass, l = E G_c/strength^2 = 0.4375 mm\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     printf("  %-15s %-21s %8s %8s %19s %14s\n", "circle", "figure", "horizon", "lattice", "expected", "found");
     bench_table_make(&rows, "", COLUMNS);
-    status s = bench_folder_make();
+    status s = bench_create_results_folder();
     strcpy(c->folder, BENCH_FOLDER "/circles-XXXXXX");
     if (s == OK && !mkdtemp(c->folder)) s = file_report_write_failure(c->folder, errno), c->folder[0] = 0;
     if (s == OK) s = circles_add(c, only, quick, &rows);
     if (s == OK) s = bench_jobs_run(c->job, c->n, 2);
     if (s == OK) reasons_print(only), missed_print(c);
-    if (s == OK && !only) s = bench_write("circles", &rows, 1);
+    if (s == OK && !only) s = bench_write_result_tables("circles", &rows, 1);
     if (c->folder[0]) bench_folder_remove(c->folder);
     bench_table_free(&rows);
     memory_free(c);
@@ -212,4 +213,7 @@ static status circles_measure(const char *only, bool quick)
 
 status bench_circles(bool quick) { return circles_measure(NULL, quick); }
 
-status bench_circles_of(const char *only, bool quick) { return circles_measure(only, quick); }
+status bench_circles_of_name(const char *circle_name_part, bool quick)
+{
+    return circles_measure(circle_name_part, quick);
+}

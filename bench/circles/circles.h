@@ -82,7 +82,7 @@ struct circle_run {
 static inline bool circle_has_runs(const struct circle_case *c) { return c->spacing[0] > 0 || c->turned[0] > 0; }
 
 /* Returns "holds" or "MISSED" by the tolerance of the case, or "-" where its expected value does not apply. */
-const char *circle_verdict(const struct circle_run *r);
+const char *circle_verdict(const struct circle_run *run);
 
 /* Particles of a specimen on a turned lattice. section: mean area of its section over the nominal one [1]; layer:
  * volume of its loaded layer over the nominal one [1], or 1 if the specimen has none. */
@@ -90,10 +90,10 @@ struct circle_list {
     double section, layer;
 };
 
-/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `degrees`; columns
- * x, y, volume. x = `middle` [m] is half-way between rows of a lattice turned by 45 degrees.
- * spacing [m]; the thickness is 1 mm. Stores the sizes of the body in *list. FAILED if the file cannot be written. */
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees, double middle,
-                         struct circle_list *list);
+/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `lattice_degrees`;
+ * columns x, y, volume. x = `middle_x` [m] is half-way between rows of a lattice turned by 45 degrees. spacing [m]; the
+ * thickness is 1 mm. Stores the sizes of the body in *body_sizes. FAILED if the file cannot be written. */
+status circle_write_particle_list(const char *path, const struct circle_specimen *specimen, double spacing,
+                                  int lattice_degrees, double middle_x, struct circle_list *body_sizes);
 
 #endif

@@ -245,27 +245,29 @@ static void circle_list_add(struct circle_list *list, const struct circle_specim
     if (s->loaded > 0 && y > s->to[1] - s->loaded) list->layer += volume / (s->loaded * section);
 }
 
-status circle_list_write(const char *path, const struct circle_specimen *s, double spacing, int degrees, double middle,
-                         struct circle_list *list)
+status circle_write_particle_list(const char *path, const struct circle_specimen *specimen, double spacing,
+                                  int lattice_degrees, double middle_x, struct circle_list *body_sizes)
 {
     char *text = NULL;
     size_t length = 0;
-    const double along = cos(degrees * M_PI / 180), across = sin(degrees * M_PI / 180);
-    const int most = (int)ceil((hypot(s->to[0] - s->from[0], s->to[1] - s->from[1]) + fabs(middle)) / spacing);
+    const double along = cos(lattice_degrees * M_PI / 180), across = sin(lattice_degrees * M_PI / 180);
+    const int most = (int)ceil(
+        (hypot(specimen->to[0] - specimen->from[0], specimen->to[1] - specimen->from[1]) + fabs(middle_x)) / spacing);
     FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
     fprintf(to, "x,y,volume\n");
-    *list = (struct circle_list){0, s->loaded > 0 ? 0 : 1};
+    *body_sizes = (struct circle_list){0, specimen->loaded > 0 ? 0 : 1};
     for (int p = -most; p <= most; p++)
         for (int q = -most; q <= most; q++) { /* no particle is on y = 0 */
-            const double x = middle + spacing * (along * (p + 0.5) - across * q);
+            const double x = middle_x + spacing * (along * (p + 0.5) - across * q);
             const double y = spacing * (across * (p + 0.5) + along * q), volume = 1e-3 * spacing * spacing;
-            const bool in = x > s->from[0] && x < s->to[0] && y > s->from[1] && y < s->to[1];
-            if (!in || (s->radius > 0 && hypot(x, y) >= s->radius)) continue;
+            const bool in =
+                x > specimen->from[0] && x < specimen->to[0] && y > specimen->from[1] && y < specimen->to[1];
+            if (!in || (specimen->radius > 0 && hypot(x, y) >= specimen->radius)) continue;
             fprintf(to, "%.17g,%.17g,%.17g\n", x, y, volume);
-            circle_list_add(list, s, y, volume);
+            circle_list_add(body_sizes, specimen, y, volume);
         }
-    if (s->radius > 0) list->section = 1; /* a triangle over a disc is no section */
+    if (specimen->radius > 0) body_sizes->section = 1; /* a triangle over a disc is no section */
     const status written = fclose(to) == 0 ? file_write_whole(path, text, length)
                                            : status_set(FAILED, "cannot write %s: out of memory", path);
     free(text);

@@ -21,11 +21,11 @@ static const struct bench benches[] = {
     {"sif", bench_sif, false, "stress-intensity factors beside closed forms and tables"},
     {"threads", bench_threads, false, "speed-up by threads, with the memory bandwidth"},
     {"scale", bench_scale, false, "time and memory per particle, from 1e4 to 1e7 particles"},
-    {"scale=growth", bench_growth, false, "cost by resolution in Kalthoff's plate"},
-    {"scale=finest", bench_growth_finest, true, "the same at the finest spacing"},
-    {"scale=field", bench_far_field, false, "coarse cells and absorbing faces far from a crack"},
+    {"scale=growth", bench_growth_of_cost_with_resolution, false, "cost by resolution in Kalthoff's plate"},
+    {"scale=finest", bench_growth_of_cost_to_finest_spacing, true, "the same at the finest spacing"},
+    {"scale=field", bench_cost_of_coarse_far_field, false, "coarse cells and absorbing faces far from a crack"},
     {"peers", bench_peers, false, "the same plate and block in LAMMPS"},
-    {"peers=bar", bench_bar, false, "a copper Taylor bar beside the recorded time of MPM3D-F90"},
+    {"peers=bar", bench_taylor_bar, false, "a copper Taylor bar beside the recorded time of MPM3D-F90"},
     {"accuracy", bench_accuracy, false, "error against computing time; accuracy=PROBLEM, =chart, =auto: a part"},
     {"stability", bench_stability, false, "largest stable time steps; stability=lasting, =CASE: a part"},
     {"sensitivity", bench_sensitivity, false, "scatter of crack paths with the time step"},
@@ -47,16 +47,16 @@ static const struct {
 } renamed[] = {{"factors", "sif"}, {"scatter", "sensitivity"}};
 
 /* Arguments of the form NAME=WORD, which run a part of the bench NAME. accuracy=WORD: name of a problem, or another
- * word that bench_accuracy_of accepts. stability=WORD: `lasting`, or a part of the names of cases, of which only the
- * map of long runs is then made. circles=WORD: a part of the names of circles. */
+ * word that bench_accuracy_of_problem accepts. stability=WORD: `lasting`, or a part of the names of cases, of which
+ * only the map of long runs is then made. circles=WORD: a part of the names of circles. */
 struct bench_part {
     const char *start;
     status (*call)(const char *word, bool quick);
     const char *word; /* the word that is given, or NULL */
 };
-static const struct bench_part bench_parts[] = {{"circles=", bench_circles_of, NULL},
-                                                {"stability=", bench_stability_of, NULL},
-                                                {"accuracy=", bench_accuracy_of, NULL}};
+static const struct bench_part bench_parts[] = {{"circles=", bench_circles_of_name, NULL},
+                                                {"stability=", bench_stability_of_energy, NULL},
+                                                {"accuracy=", bench_accuracy_of_problem, NULL}};
 enum { PARTS = COUNT_OF(bench_parts) };
 
 /* Tests whether an argument has the form NAME=WORD with the NAME of an entry of part[PARTS], and stores WORD in this
@@ -98,7 +98,7 @@ static status bench_call(const struct bench *b, bool quick, bool readme)
     struct bench_results r;
     char files[64]; /* name of its files: of a part of a bench that of the whole */
     snprintf(files, sizeof files, "%.*s", (int)strcspn(b->name, "="), b->name);
-    TRY(bench_guard(files)); /* before minutes of measurement */
+    TRY(bench_check_files_may_be_replaced(files)); /* before minutes of measurement */
     if (!readme) return b->call(quick);
     TRY(bench_results_begin(&r, b->name, quick));
     return bench_results_end(&r, b->name, b->call(quick));

@@ -34,40 +34,41 @@ void bench_table_make(struct bench_table *t, const char *name, const char *heade
 
 /* Appends a text as the next cell of table t; cells are filled row by row. In files commas and quotation marks become
  * semicolons. */
-void bench_text(struct bench_table *t, const char *text);
+void bench_table_append_text(struct bench_table *t, const char *text);
 
 /* Appends a number as the next cell of table t. A number that is not finite is an empty cell in CSV files and null in
  * JSON. */
-void bench_number(struct bench_table *t, double number);
+void bench_table_append_number(struct bench_table *t, double number);
 
 /* Releases the memory of t. */
 void bench_table_free(struct bench_table *t);
 
 /* Creates the folder results/bench unless it exists. Returns REFUSED if it is a symbolic link, FAILED if it cannot be
  * created. */
-status bench_folder_make(void);
+status bench_create_results_folder(void);
 
-/* Checks that the bench `name` (NAME) may write its files, so that no file of a user is overwritten. Returns REFUSED if
- * results/bench has a file NAME.json that no bench wrote, or, without NAME.json, such a NAME.csv, .png or .svg. */
-status bench_guard(const char *name);
+/* Checks that the bench `bench_name` (NAME) may write its files, so that no file of a user is overwritten. Returns
+ * REFUSED if results/bench has a file NAME.json that no bench wrote, or, without NAME.json, such a NAME.csv, .png or
+ * .svg. */
+status bench_check_files_may_be_replaced(const char *bench_name);
 
-/* Prepares the files of the bench `name` (NAME): creates results/bench and, unless it exists, a NAME.json without rows,
- * by which files of the bench are recognised later. Returns REFUSED if files with these names were not written by a
- * bench, FAILED if the file cannot be written. */
-status bench_begin(const char *name);
+/* Prepares the files of the bench `bench_name` (NAME): creates results/bench and, unless it exists, a NAME.json without
+ * rows, by which files of the bench are recognised later. Returns REFUSED if files with these names were not written by
+ * a bench, FAILED if the file cannot be written. */
+status bench_prepare_result_files(const char *bench_name);
 
-/* Writes the results of the bench `name` (NAME) to results/bench: NAME.csv for the table named "", NAME_<table>.csv for
- * others and NAME.json with all of table[tables]. Returns REFUSED if files with these names were not written by a
- * bench, FAILED if a file cannot be written. */
-status bench_write(const char *name, const struct bench_table *table, int tables);
+/* Writes the results of the bench `bench_name` (NAME) to results/bench: NAME.csv for the table named "",
+ * NAME_<table>.csv for others and NAME.json with all of table[tables]. Returns REFUSED if files with these names were
+ * not written by a bench, FAILED if a file cannot be written. */
+status bench_write_result_tables(const char *bench_name, const struct bench_table *table, int table_count);
 
-/* Draws the pictures results/bench/NAME.png and NAME.svg of the bench `name` (NAME), width x height pixels. draw(to,
- * context): writes the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
-status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
+/* Draws the pictures results/bench/NAME.png and NAME.svg of the bench `bench_name` (NAME), width x height pixels.
+ * draw(to, context): writes the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
+status bench_draw(const char *bench_name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context);
 
 /* Prints a line with the processor, the version of the program, its kernels and the number of threads. */
-void bench_print_machine(int threads);
+void bench_print_machine(int thread_count);
 
 /* ---- bench_results.c: figures in bench/results ------------------------------------------------------------------- */
 
@@ -78,17 +79,17 @@ struct bench_results {
     int output;
     char head[1024];
 };
-/* Begins to collect what the bench `name` prints and the tables that it writes, and makes the folder bench/results.
- * quick: true if the bench runs with --quick, which is stated in the results. Returns REFUSED outside a source tree,
- * FAILED if a file cannot be created. */
-status bench_results_begin(struct bench_results *r, const char *name, bool quick);
-/* Ends the collection and prints what was collected. If the bench succeeded (`measured` is OK), also writes it to
- * bench/results/NAME.txt, where NAME is `name`. Returns `measured` if it is not OK, FAILED if the file cannot be
- * written. */
-status bench_results_end(struct bench_results *r, const char *name, status measured);
+/* Begins to collect what the bench `bench_name` prints and the tables that it writes, and makes the folder
+ * bench/results. quick: true if the bench runs with --quick, which is stated in the results. Returns REFUSED outside a
+ * source tree, FAILED if a file cannot be created. */
+status bench_results_begin(struct bench_results *r, const char *bench_name, bool quick);
+/* Ends the collection and prints what was collected. If the bench succeeded (`bench_status` is OK), also writes it to
+ * bench/results/NAME.txt, where NAME is `bench_name`. Returns `bench_status` if it is not OK, FAILED if the file cannot
+ * be written. */
+status bench_results_end(struct bench_results *r, const char *bench_name, status bench_status);
 /* Writes a copy of a table to bench/results/FILE while results are collected; does nothing otherwise, or if the table
- * has more than 250 lines. file: FILE; text: the table as CSV. Returns FAILED if the file cannot be written. */
-status bench_results_table(const char *file, const char *text);
+ * has more than 250 lines. file_name: FILE; text: the table as CSV. Returns FAILED if the file cannot be written. */
+status bench_results_copy_table(const char *file_name, const char *text);
 
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 
@@ -97,7 +98,7 @@ status bench_results_table(const char *file, const char *text);
  * bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the run cannot be created; both are then
  * already released. */
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
-                         const struct scene_override *override, int overrides);
+                         const struct scene_override *override, int override_count);
 
 /* Releases the run e and its scene s. */
 void bench_engine_free(struct run *e, struct scene *s);
@@ -108,15 +109,16 @@ typedef void bench_field(const void *context, const real *X, real *v);
 
 /* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the field at their reference
  * positions. context: passed to the field. */
-void bench_engine_start(struct run *e, bench_field *field, const void *context);
+void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context);
 
-/* Runs e to the end of step `until` or, with levels of coarse cells, of the next step at which all levels have the same
- * time. In between the energy is not balanced, and a sample of results would disturb the run. The last step is sampled.
- * spent: the times of the sections of a step are added to it; NULL: not wanted. Returns FAILED if a step fails. */
-status bench_engine_run(struct run *e, int64_t until, struct timers *spent);
+/* Runs e to the end of step `last_step` or, with levels of coarse cells, of the next step at which all levels have the
+ * same time. In between the energy is not balanced, and a sample of results would disturb the run. The last step is
+ * sampled. section_times: the times of the sections of a step are added to it; NULL: not wanted. Returns FAILED if a
+ * step fails. */
+status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times);
 
 /* Overrides of scene keys whose values are composed one by one. at[n]: keys, and pointers to the values that
- * bench_overrides_ready sets; value[n]: the values. */
+ * bench_overrides_as_array sets; value[n]: the values. */
 enum { OVERRIDES_MAX = 24, OVERRIDE_LENGTH = 160 };
 struct bench_overrides {
     int n;
@@ -126,12 +128,12 @@ struct bench_overrides {
 
 /* Appends an override to *o. key: scene key, kept by reference; value: its value, a format of printf followed by its
  * arguments. */
-void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
+void bench_overrides_append(struct bench_overrides *o, const char *key, const char *value, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Sets the pointers to the values of the overrides and returns them as an array of o->n entries, as functions that read
- * scenes expect it. The array is part of *o and valid until the next bench_override. */
-const struct scene_override *bench_overrides_ready(struct bench_overrides *o);
+ * scenes expect it. The array is part of *list and valid until the next bench_overrides_append. */
+const struct scene_override *bench_overrides_as_array(struct bench_overrides *list);
 
 /* A quantity of a probe. */
 struct bench_figure {
@@ -141,54 +143,56 @@ struct bench_figure {
 
 /* Stores the current values of those of the n quantities in figure[] that probes of the run e have; other entries keep
  * their value. */
-void bench_figures_take(const struct run *e, struct bench_figure *figure, int n);
+void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count);
 
 /* Runs a scene to its end and stores n quantities of its probes in figure[]; NAN if no probe has them. If a pulse probe
  * compares its results with those of material points alone, the scene is also run with material points alone. The scene
- * is `text` or, if `text` is NULL, the file `path`; o: overrides of the scene. Returns REFUSED or FAILED if the scene
- * is invalid or a step fails. */
-status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n);
+ * is `text` or, if `text` is NULL, the file `path`; overrides: overrides of the scene. Returns REFUSED or FAILED if the
+ * scene is invalid or a step fails. */
+status bench_run_scene_and_read_figures(const char *path, const char *text, struct bench_overrides *overrides,
+                                        struct bench_figure *figure, int figure_count);
 
 /* Returns true if the scene file `path` exists; else prints that it is left out. */
 bool bench_scene_exists(const char *path);
 
-/* Checks that all n scene files path[] exist. bench: name of the bench for the message. Returns REFUSED if a file is
- * missing. */
-status bench_scenes_needed(const char *bench, const char *const *path, size_t n);
+/* Checks that all n scene files path[] exist. bench_name: name of the bench for the message. Returns REFUSED if a file
+ * is missing. */
+status bench_check_scenes_exist(const char *bench_name, const char *const *path, size_t path_count);
 
 /* Removes a folder with its contents. Failures are ignored. */
 void bench_folder_remove(const char *folder);
 
-/* A run as a separate process (`cleave run`). Its output remains in `folder` until bench_child_free. */
+/* A run as a separate process (`cleave run`). Its output remains in `folder` until bench_child_wait_and_remove_output.
+ */
 struct bench_child {
     int process;      /* process id; 0: not running */
     char folder[64];  /* "": none */
     double processor; /* processor time of all its threads, after its end [s] */
 };
 
-/* Starts a run of the scene file `path` with override[overrides] on `threads` threads as a separate process, whose
+/* Starts a run of the scene file `path` with override[overrides] on `thread_count` threads as a separate process, whose
  * output goes to a new folder c->folder. Returns FAILED if the folder or the process cannot be created. Release with
- * bench_child_free. */
-status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
-                         int threads);
+ * bench_child_wait_and_remove_output. */
+status bench_child_start(struct bench_child *child, const char *path, const struct scene_override *override,
+                         int override_count, int thread_count);
 
 /* Waits for the end of the process c and stores its processor time in c->processor. Returns FAILED unless it exited
  * with status 0. */
-status bench_child_wait(struct bench_child *c);
+status bench_child_wait(struct bench_child *child);
 /* Waits for the process c if it has not ended, and removes its output folder. */
-void bench_child_free(struct bench_child *c);
+void bench_child_wait_and_remove_output(struct bench_child *child);
 /* Runs the scene file `path` with override[overrides] as a separate process on one thread and reads n numbers of its
  * summary.json into value[]. key[n]: names of the numbers. The output of the run is removed. Returns FAILED if the run
  * fails or a number is missing. */
-status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
-                           const char *const *key, double *value, int n);
+status bench_child_run_and_read_summary(const char *path, const struct scene_override *override, int override_count,
+                                        const char *const *key, double *value, int value_count);
 
 /* Returns a pseudo-random number, uniform in [-1, 1) and equal on all machines, from a linear congruential generator,
- * which suffices to perturb particles. seed: state of the generator, which is advanced. */
-static inline double bench_random(uint64_t *seed)
+ * which suffices to perturb particles. generator_state: state of the generator, which is advanced. */
+static inline double bench_random(uint64_t *generator_state)
 {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-52 - 1;
+    *generator_state = *generator_state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*generator_state >> 11) * 0x1p-52 - 1;
 }
 
 /* ---- bench_blocks.c: blocks of any size -------------------------------------------------------------------------- */
@@ -202,12 +206,12 @@ struct bench_block {
 enum { BENCH_BLOCKS = 10 };
 extern const struct bench_block bench_blocks[BENCH_BLOCKS];
 
-/* Creates the run e of a block for timing, with its scene in *s. b: method and dimension; particles: approximate number
- * of particles, at least 12 along an edge; steps: number of time steps; frames: number of frames in the output `out`,
- * which may be NULL for a run without output. Returns REFUSED or FAILED if the scene is invalid. Release with
- * bench_engine_free. */
-status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
-                        int frames, struct output *out);
+/* Creates the run e of a block for timing, with its scene in *s. b: method and dimension; approximate_particle_count:
+ * approximate number of particles, at least 12 along an edge; step_count: number of time steps; frame_count: number of
+ * frames in the output `output`, which may be NULL for a run without output. Returns REFUSED or FAILED if the scene is
+ * invalid. Release with bench_engine_free. */
+status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double approximate_particle_count,
+                        int64_t step_count, int frame_count, struct output *output);
 
 /* ---- the benches ------------------------------------------------------------------------------------------------- */
 
@@ -235,20 +239,20 @@ struct targets {
     struct bench_table timers;
 };
 
-/* Runs scenes as separate processes and adds their peak memory per particle with its target to *f. Call before this
- * process allocates much memory, since a child process inherits the high-water mark of its parent. Returns FAILED if a
- * run fails. */
-status bench_targets_memory(struct targets *f);
+/* Runs scenes as separate processes and adds their peak memory per particle with its target to *targets. Call before
+ * this process allocates much memory, since a child process inherits the high-water mark of its parent. Returns FAILED
+ * if a run fails. */
+status bench_targets_measure_memory(struct targets *targets);
 
-/* Measures the time per step of whole runs and the memory bandwidth, and adds them with their targets to *f. quick: few
- * repetitions. Returns FAILED if a run fails. */
-status bench_targets_speed(struct targets *f, bool quick);
+/* Measures the time per step of whole runs and the memory bandwidth, and adds them with their targets to *targets.
+ * quick: few repetitions. Returns FAILED if a run fails. */
+status bench_targets_measure_speed(struct targets *targets, bool quick);
 
 /* Prints the measured quantities of f beside their targets. */
-void bench_targets_print(const struct targets *f);
+void bench_targets_print(const struct targets *targets);
 
 /* Adds a row per measured quantity of f to the table t. */
-void bench_targets_table(const struct targets *f, struct bench_table *t);
+void bench_targets_add_to_table(const struct targets *targets, struct bench_table *table);
 
 /* Measures the effect of an interface between material points and bonds on waves and on uniform strain
  * (bench_coupling.c). quick: fewer cases. */
@@ -258,10 +262,10 @@ status bench_coupling(bool quick);
  * earlier, interrupted measurement are used (bench_accuracy.c). quick: coarse resolutions and few methods. */
 status bench_accuracy(bool quick);
 
-/* Runs a part of bench_accuracy. only: NULL for all, the name of a problem, `chart` to draw the known results without
- * runs, or `reference` to recompute the cracks in accuracy_reference.h. quick: coarse resolutions and few methods.
- * Returns REFUSED if there is no such problem. */
-status bench_accuracy_of(const char *only, bool quick);
+/* Runs a part of bench_accuracy. problem_name: NULL for all, the name of a problem, `chart` to draw the known results
+ * without runs, or `reference` to recompute the cracks in accuracy_reference.h. quick: coarse resolutions and few
+ * methods. Returns REFUSED if there is no such problem. */
+status bench_accuracy_of_problem(const char *problem_name, bool quick);
 
 /* Compares stress-intensity factors, static and dynamic, with closed forms and published tables (bench_sif.c). quick:
  * fewer cases and coarse spacings. */
@@ -276,15 +280,15 @@ status bench_scale(bool quick);
 
 /* Measures how the numbers of particles, memory and time of Kalthoff's plate grow as the spacing decreases
  * (scale_growth.c). quick: few and short runs. */
-status bench_growth(bool quick);
+status bench_growth_of_cost_with_resolution(bool quick);
 
 /* Makes the measurements of `scale=growth` (Kalthoff's plate at decreasing spacing) including the finest spacing in 3D,
  * which takes long. quick: few and short runs. */
-status bench_growth_finest(bool quick);
+status bench_growth_of_cost_to_finest_spacing(bool quick);
 
 /* Measures the cost of a crack in a large plate, whose area is a hundred times that of the region around the crack,
  * with coarse grid cells or absorbing faces far from the crack (scale_field.c). quick: coarse spacing. */
-status bench_far_field(bool quick);
+status bench_cost_of_coarse_far_field(bool quick);
 
 /* Compares speed and results of a block and a plate in Cleave and in LAMMPS, if its program `lmp` is installed
  * (bench_peers.c). quick: small cases. */
@@ -293,16 +297,16 @@ status bench_peers(bool quick);
 /* Times a copper Taylor bar of material points that yields and one that does not, prints both beside the recorded time
  * of MPM3D-F90 and writes peers_bar.csv (peers_bar.c). quick: coarse and short runs. Returns FAILED if a run or a file
  * fails. */
-status bench_bar(bool quick);
+status bench_taylor_bar(bool quick);
 
 /* Compares the observed critical time step with the predicted one for every method, and runs scenes in which methods
  * fail, with their thresholds and remedies (bench_stability.c). quick: fewer cases and steps. */
 status bench_stability(bool quick);
 
-/* Runs only the long runs of bench_stability, which measure the drift of the energy (energy_drift.c). only: `lasting`
- * for all cases, whose results are written to files, or a part of the names of the cases, whose results are only
- * printed. quick: shorter runs, of `lasting` only a quarter of the cases. */
-status bench_stability_of(const char *only, bool quick);
+/* Runs only the long runs of bench_stability, which measure the drift of the energy (energy_drift.c). case_name_part:
+ * `lasting` for all cases, whose results are written to files, or a part of the names of the cases, whose results are
+ * only printed. quick: shorter runs, of `lasting` only a quarter of the cases. */
+status bench_stability_of_energy(const char *case_name_part, bool quick);
 
 /* Compares the computing times of adaptive runs and of full peridynamics, and with Table 1 of Zeng et al. 2022
  * (bench_efficiency.c). quick: short scenes and one repetition. */
@@ -337,9 +341,9 @@ status bench_laws(bool quick);
  * only. */
 status bench_circles(bool quick);
 
-/* Runs and prints only those cases of bench_circles whose circle's name contains `only`, as `notch 1.5`. REFUSED if
- * there is none. */
-status bench_circles_of(const char *only, bool quick);
+/* Runs and prints only those cases of bench_circles whose circle's name contains `circle_name_part`, as `notch 1.5`.
+ * REFUSED if there is none. */
+status bench_circles_of_name(const char *circle_name_part, bool quick);
 
 /* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
 status bench_slow(bool quick);

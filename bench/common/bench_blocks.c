@@ -72,18 +72,18 @@ static void block_text(FILE *to, const struct bench_block *b, double particles, 
     block_parts(to, b, edge);
 }
 
-status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double particles, int64_t steps,
-                        int frames, struct output *out)
+status bench_block_make(struct run *e, struct scene *s, const struct bench_block *b, double approximate_particle_count,
+                        int64_t step_count, int frame_count, struct output *output)
 {
     char text[2048];
     FILE *to = fmemopen(text, sizeof text, "w");
     if (!to) return status_set(FAILED, "bench: out of memory");
-    block_text(to, b, particles, steps, frames);
+    block_text(to, b, approximate_particle_count, step_count, frame_count);
     fclose(to);
     *e = (struct run){0};
     *s = (struct scene){0};
     TRY(scene_read_text(s, text, strlen(text), "block", NULL, 0));
-    status made = engine_make(e, s, out);
+    status made = engine_set_up_run(e, s, output);
     e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;

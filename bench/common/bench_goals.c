@@ -13,7 +13,7 @@
  * no process can be started. */
 static status job_start(struct bench_job *job, struct bench_child *child, int threads)
 {
-    return bench_child_start(child, job->path, bench_overrides_ready(&job->overrides), job->overrides.n, threads);
+    return bench_child_start(child, job->path, bench_overrides_as_array(&job->overrides), job->overrides.n, threads);
 }
 
 static status job_end(struct bench_job *job, struct bench_child *child)
@@ -24,19 +24,19 @@ static status job_end(struct bench_job *job, struct bench_child *child)
     return OK;
 }
 
-status bench_jobs_run(struct bench_job *job, int n, int at_once)
+status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs)
 {
-    const int threads = at_once > 1 ? 1 : team_set_threads(0);
-    struct bench_child *child = NEW("bench.children", n, struct bench_child);
+    const int threads = parallel_jobs > 1 ? 1 : team_set_thread_count(0);
+    struct bench_child *child = NEW("bench.children", job_count, struct bench_child);
     status s = OK;
     int started = 0;
-    for (int k = 0; k < n && s == OK; k++) {
-        while (started < n && started < k + at_once && s == OK)
+    for (int k = 0; k < job_count && s == OK; k++) {
+        while (started < job_count && started < k + parallel_jobs && s == OK)
             s = job_start(&job[started], &child[started], threads), started++;
         if (s == OK) s = job_end(&job[k], &child[k]);
-        bench_child_free(&child[k]);
+        bench_child_wait_and_remove_output(&child[k]);
     }
-    for (int k = 0; k < started; k++) bench_child_free(&child[k]);
+    for (int k = 0; k < started; k++) bench_child_wait_and_remove_output(&child[k]);
     memory_free(child);
     return s;
 }
@@ -49,25 +49,27 @@ double bench_summary_figure(const char *folder, const char *key)
 
 /* ---- goals ------------------------------------------------------------------------------------------------------- */
 
-/* Adds a goal to the table *t. unit: unit of the printed values; measured: measured value; asked: largest value that
- * meets the goal, in the unit of `measured`; name: name of the goal, a format of printf with its arguments. */
-void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
+/* Adds a goal to the table *goals. unit: unit of the printed values; measured: measured value; largest_allowed: largest
+ * value that meets the goal, in the unit of `measured`; name: name of the goal, a format of printf with its arguments.
+ */
+void bench_add_goal(struct bench_goals *goals, const char *unit, double measured, double largest_allowed,
+                    const char *name, ...)
 {
     va_list more;
-    INVARIANT(t->n < BENCH_GOALS_MAX);
-    struct bench_goal *new = &t->goal[t->n++];
+    INVARIANT(goals->n < BENCH_GOALS_MAX);
+    struct bench_goal *new = &goals->goal[goals->n++];
     va_start(more, name);
     vsnprintf(new->name, sizeof new->name, name, more);
     va_end(more);
     snprintf(new->unit, sizeof new->unit, "%s", unit);
-    new->measured = measured, new->asked = asked;
+    new->measured = measured, new->asked = largest_allowed;
 }
 
-void bench_goals_print(const struct bench_goals *t)
+void bench_goals_print(const struct bench_goals *goals)
 {
     printf("\n  what is asked%-46s %10s %10s\n", "", "measured", "at most");
-    for (int k = 0; k < t->n; k++) {
-        const struct bench_goal *g = &t->goal[k];
+    for (int k = 0; k < goals->n; k++) {
+        const struct bench_goal *g = &goals->goal[k];
         const double factor = strcmp(g->unit, "%") == 0 ? 100 : 1;
         printf("  %-59s %8.2f %s %8.2f %s%s\n", g->name, factor * g->measured, g->unit, factor * g->asked, g->unit,
                g->measured <= g->asked ? "" : "   missed");
@@ -79,12 +81,12 @@ static status goals_write(const char *name, const struct bench_goals *t)
     struct bench_table rows;
     bench_table_make(&rows, "", "figure,unit,measured,asked_at_most");
     for (int k = 0; k < t->n; k++) {
-        bench_text(&rows, t->goal[k].name);
-        bench_text(&rows, strcmp(t->goal[k].unit, "%") == 0 ? "1" : t->goal[k].unit);
-        bench_number(&rows, t->goal[k].measured);
-        bench_number(&rows, t->goal[k].asked);
+        bench_table_append_text(&rows, t->goal[k].name);
+        bench_table_append_text(&rows, strcmp(t->goal[k].unit, "%") == 0 ? "1" : t->goal[k].unit);
+        bench_table_append_number(&rows, t->goal[k].measured);
+        bench_table_append_number(&rows, t->goal[k].asked);
     }
-    status s = bench_write(name, &rows, 1);
+    status s = bench_write_result_tables(name, &rows, 1);
     bench_table_free(&rows);
     return s;
 }
@@ -105,8 +107,8 @@ static void goals_draw(FILE *to, const void *context)
             t->n + 0.7);
 }
 
-status bench_goals_write(const char *name, const struct bench_goals *t)
+status bench_goals_write(const char *bench_name, const struct bench_goals *goals)
 {
-    TRY(goals_write(name, t));
-    return bench_draw(name, 1100, 120 + 32 * t->n, goals_draw, t);
+    TRY(goals_write(bench_name, goals));
+    return bench_draw(bench_name, 1100, 120 + 32 * goals->n, goals_draw, goals);
 }

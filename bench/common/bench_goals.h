@@ -13,10 +13,10 @@ struct bench_job {
     status (*take)(void *row, const char *folder);
 };
 
-/* Runs n jobs as separate processes and calls `take` of each after its end, in the order of the jobs. at_once: number
- * of jobs in parallel, with one thread each; 1: one after another, each with all threads. Returns FAILED if a run
- * fails, else the first status of a `take` that is not OK. */
-status bench_jobs_run(struct bench_job *job, int n, int at_once);
+/* Runs n jobs as separate processes and calls `take` of each after its end, in the order of the jobs. parallel_jobs:
+ * number of jobs in parallel, with one thread each; 1: one after another, each with all threads. Returns FAILED if a
+ * run fails, else the first status of a `take` that is not OK. */
+status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs);
 
 /* Returns the number `key` of the file summary.json in `folder`; NAN if it has none. */
 double bench_summary_figure(const char *folder, const char *key);
@@ -35,14 +35,14 @@ struct bench_goals {
 /* Adds a goal to the table *t. unit: unit of the values, "%" for values that are printed times 100; measured: measured
  * value; asked: largest value that meets the goal; name: name of the goal, a format of printf followed by its
  * arguments. */
-void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
+void bench_add_goal(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
     __attribute__((format(printf, 5, 6)));
 
 /* Prints all goals with measured and required values, and marks those that are missed. */
-void bench_goals_print(const struct bench_goals *t);
+void bench_goals_print(const struct bench_goals *goals);
 
-/* Writes the goals to results/bench/NAME.csv and .json, where NAME is `name`, and draws a bar for each in NAME.png and
- * .svg. Returns FAILED if a file cannot be written. */
-status bench_goals_write(const char *name, const struct bench_goals *t);
+/* Writes the goals to results/bench/NAME.csv and .json, where NAME is `bench_name`, and draws a bar for each in
+ * NAME.png and .svg. Returns FAILED if a file cannot be written. */
+status bench_goals_write(const char *bench_name, const struct bench_goals *goals);
 
 #endif

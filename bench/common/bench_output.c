@@ -29,13 +29,16 @@ static struct bench_cell *add_cell(struct bench_table *t)
     return &t->cell[t->cells++];
 }
 
-void bench_text(struct bench_table *t, const char *text)
+void bench_table_append_text(struct bench_table *t, const char *text)
 {
     struct bench_cell *c = add_cell(t);
     snprintf(c->text, sizeof c->text, "%s", text);
 }
 
-void bench_number(struct bench_table *t, double number) { *add_cell(t) = (struct bench_cell){.number = number}; }
+void bench_table_append_number(struct bench_table *t, double number)
+{
+    *add_cell(t) = (struct bench_cell){.number = number};
+}
 
 void bench_table_free(struct bench_table *t)
 {
@@ -119,7 +122,7 @@ static status bench_folder_guard(void)
     return OK;
 }
 
-status bench_folder_make(void)
+status bench_create_results_folder(void)
 {
     TRY(bench_folder_guard());
     if (mkdir("results", 0777) != 0 && errno != EEXIST) return file_report_write_failure("results", errno);
@@ -134,21 +137,21 @@ static void json_begin(char *text, size_t room, const char *name)
     snprintf(text, room, "{\n  \"name\": \"%s\",\n  \"version\"", name);
 }
 
-status bench_guard(const char *name)
+status bench_check_files_may_be_replaced(const char *bench_name)
 {
     static const char *const ending[] = {"csv", "png", "svg"};
     char path[256], begin[128], *text;
     size_t length;
     TRY(bench_folder_guard());
-    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", bench_name);
     bool ours = true;
     if (path_exists(path)) {
-        json_begin(begin, sizeof begin, name);
+        json_begin(begin, sizeof begin, bench_name);
         ours = file_read_whole(path, &text, &length) == OK;
         if (ours) ours = strncmp(text, begin, strlen(begin)) == 0, memory_free(text);
     } else
         for (size_t k = 0; k < COUNT_OF(ending) && ours; k++) {
-            snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, ending[k]);
+            snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", bench_name, ending[k]);
             ours = !path_exists(path) || picture_file_is_from_cleave(path);
         }
     return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
@@ -169,62 +172,62 @@ static status write_file(const char *path, const char *json, const struct bench_
     bool whole = fclose(to) == 0;
     status s =
         whole ? file_write_whole(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
-    if (s == OK && !json) s = bench_results_table(strrchr(path, '/') + 1, text);
+    if (s == OK && !json) s = bench_results_copy_table(strrchr(path, '/') + 1, text);
     free(text);
     return s;
 }
 
-status bench_begin(const char *name)
+status bench_prepare_result_files(const char *bench_name)
 {
     char path[256];
-    TRY(bench_folder_make());
-    TRY(bench_guard(name));
-    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
-    return path_exists(path) ? OK : write_file(path, name, NULL, 0);
+    TRY(bench_create_results_folder());
+    TRY(bench_check_files_may_be_replaced(bench_name));
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", bench_name);
+    return path_exists(path) ? OK : write_file(path, bench_name, NULL, 0);
 }
 
-status bench_write(const char *name, const struct bench_table *table, int tables)
+status bench_write_result_tables(const char *bench_name, const struct bench_table *table, int table_count)
 {
     char path[256];
-    TRY(bench_begin(name));
-    for (int k = 0; k < tables; k++) {
-        snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", name, table[k].name[0] ? "_" : "", table[k].name);
+    TRY(bench_prepare_result_files(bench_name));
+    for (int k = 0; k < table_count; k++) {
+        snprintf(path, sizeof path, BENCH_FOLDER "/%s%s%s.csv", bench_name, table[k].name[0] ? "_" : "", table[k].name);
         TRY(write_file(path, NULL, &table[k], 1));
     }
-    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", name);
-    return write_file(path, name, table, tables);
+    snprintf(path, sizeof path, BENCH_FOLDER "/%s.json", bench_name);
+    return write_file(path, bench_name, table, table_count);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Draws the pictures results/bench/NAME.png and NAME.svg. name: NAME; width, height: size [pixel]. draw(to, context)
- * must send the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
-status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
+/* Draws the pictures results/bench/NAME.png and NAME.svg. bench_name: NAME; width, height: size [pixel]. draw(to,
+ * context) must send the commands of the picture to gnuplot. Returns FAILED if gnuplot fails. */
+status bench_draw(const char *bench_name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
 {
     static const struct {
         enum picture_format format;
         const char *ending;
     } formats[] = {{PICTURE_PNG, "png"}, {PICTURE_SVG, "svg"}};
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     for (size_t k = 0; k < COUNT_OF(formats); k++) {
         char path[256];
         struct gnuplot g;
-        snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, formats[k].ending);
+        snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", bench_name, formats[k].ending);
         TRY(gnuplot_open(&g, path, formats[k].format, width, height));
         draw(g.to, context);
         TRY(gnuplot_close(&g));
     }
     char table[256];
-    snprintf(table, sizeof table, BENCH_FOLDER "/%s.csv", name);
-    printf("  written to " BENCH_FOLDER "/%s%s.png, .svg\n\n", name, path_is_file(table) ? ".csv, .json, " : "");
+    snprintf(table, sizeof table, BENCH_FOLDER "/%s.csv", bench_name);
+    printf("  written to " BENCH_FOLDER "/%s%s.png, .svg\n\n", bench_name, path_is_file(table) ? ".csv, .json, " : "");
     return OK;
 }
 
-void bench_print_machine(int threads)
+void bench_print_machine(int thread_count)
 {
     struct machine m = machine_properties();
     printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n",
            m.model, m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION,
-           simd_current_kernels()->name, threads, threads > 1 ? "s" : "");
+           simd_current_kernels()->name, thread_count, thread_count > 1 ? "s" : "");
 }

@@ -95,34 +95,34 @@ static status printed_put(const struct bench_results *r, const char *name, const
 /* The lines that precede tables stored in bench/results; "" while tables are not stored. */
 static char table_head[1024];
 
-status bench_results_table(const char *file, const char *text)
+status bench_results_copy_table(const char *file_name, const char *text)
 {
     int lines = 0;
     if (!table_head[0]) return OK;
     for (const char *c = text; *c; c++) lines += *c == '\n';
-    return lines > LINES_MAX ? OK : results_put(file, table_head, text);
+    return lines > LINES_MAX ? OK : results_put(file_name, table_head, text);
 }
 
 /* ---- standard output --------------------------------------------------------------------------------------------- */
 
-/* Begins to collect what the bench `name` prints and the tables that it writes. quick: the bench runs with --quick.
- * Returns REFUSED outside a source tree, FAILED if no temporary file can be created. */
-status bench_results_begin(struct bench_results *r, const char *name, bool quick)
+/* Begins to collect what the bench `bench_name` prints and the tables that it writes. quick: the bench runs with
+ * --quick. Returns REFUSED outside a source tree, FAILED if no temporary file can be created. */
+status bench_results_begin(struct bench_results *r, const char *bench_name, bool quick)
 {
     if (!path_exists("bench"))
         return status_set(REFUSED, "bench: no such folder; --readme is for the top of the source tree");
     if (mkdir(RESULTS, 0777) != 0 && errno != EEXIST) return file_report_write_failure(RESULTS, errno);
-    fprintf(stderr, "bench %s: its figures go to " RESULTS "\n", name);
-    results_head(r->head, sizeof r->head, name, quick);
+    fprintf(stderr, "bench %s: its figures go to " RESULTS "\n", bench_name);
+    results_head(r->head, sizeof r->head, bench_name, quick);
     snprintf(table_head, sizeof table_head, "%s", r->head);
     fflush(stdout);
     r->printed = tmpfile();
     r->output = dup(STDOUT_FILENO);
     if (r->printed && r->output >= 0 && dup2(fileno(r->printed), STDOUT_FILENO) >= 0) return OK;
-    return status_set(FAILED, "cannot write a temporary file for the output of bench %s", name);
+    return status_set(FAILED, "cannot write a temporary file for the output of bench %s", bench_name);
 }
 
-status bench_results_end(struct bench_results *r, const char *name, status measured)
+status bench_results_end(struct bench_results *r, const char *bench_name, status bench_status)
 {
     fflush(stdout);
     dup2(r->output, STDOUT_FILENO);
@@ -131,7 +131,8 @@ status bench_results_end(struct bench_results *r, const char *name, status measu
     char *printed = text_of(r->printed);
     fclose(r->printed);
     if (printed) fputs(printed, stdout);
-    if (measured == OK) measured = printed ? printed_put(r, name, printed) : status_set(FAILED, "nothing was printed");
+    if (bench_status == OK)
+        bench_status = printed ? printed_put(r, bench_name, printed) : status_set(FAILED, "nothing was printed");
     free(printed);
-    return measured;
+    return bench_status;
 }

@@ -34,24 +34,25 @@ bool bench_scene_exists(const char *path)
     return false;
 }
 
-status bench_scenes_needed(const char *bench, const char *const *path, size_t n)
+status bench_check_scenes_exist(const char *bench_name, const char *const *path, size_t path_count)
 {
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < path_count; k++)
         if (!bench_scene_exists(path[k]))
-            return status_set(REFUSED, "bench %s: its scenes are not here; start it where the folder inputs is", bench);
+            return status_set(REFUSED, "bench %s: its scenes are not here; start it where the folder inputs is",
+                              bench_name);
     return OK;
 }
 
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
-                         const struct scene_override *override, int overrides)
+                         const struct scene_override *override, int override_count)
 {
     *e = (struct run){0};
     *s = (struct scene){0};
     if (text)
-        TRY(scene_read_text(s, text, strlen(text), path, override, overrides));
+        TRY(scene_read_text(s, text, strlen(text), path, override, override_count));
     else
-        TRY(scene_read(s, path, override, overrides));
-    status made = engine_make(e, s, NULL);
+        TRY(scene_read(s, path, override, override_count));
+    status made = engine_set_up_run(e, s, NULL);
     e->report->quiet = true;
     if (made != OK) bench_engine_free(e, s);
     return made;
@@ -59,58 +60,58 @@ status bench_engine_make(struct run *e, struct scene *s, const char *path, const
 
 void bench_engine_free(struct run *e, struct scene *s)
 {
-    engine_free(e);
+    engine_free_run(e);
     scene_free(s);
 }
 
-status bench_engine_run(struct run *e, int64_t until, struct timers *spent)
+status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times)
 {
     const int64_t steps = e->clock.steps, stride = levels_steps_per_cycle(&e->frame->levels);
-    until = (until + stride - 1) / stride * stride;
-    memory_free(e->report->record); /* each call of engine_run allocates its own */
+    last_step = (last_step + stride - 1) / stride * stride;
+    memory_free(e->report->record); /* each call of engine_run_to_end allocates its own */
     e->report->record = NULL;
-    e->clock.steps = until < steps ? until : steps;
-    status ran = engine_run(e);
+    e->clock.steps = last_step < steps ? last_step : steps;
+    status ran = engine_run_to_end(e);
     e->clock.steps = steps;
-    for (int k = 0; spent && k < TIMERS; k++) spent->spent[k] += e->timers.spent[k];
+    for (int k = 0; section_times && k < TIMERS; k++) section_times->spent[k] += e->timers.spent[k];
     return ran;
 }
 
-void bench_engine_start(struct run *e, bench_field *field, const void *context)
+void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context)
 {
     struct grid *g = &e->frame->mesh.grid;
     real X[DIM_MAX], v[DIM_MAX];
     for (int64_t i = 0; i < e->part.n; i++) {
         for (int d = 0; d < e->part.dim; d++) X[d] = e->part.X[d][i];
-        field(context, X, v);
+        velocity_field(context, X, v);
         for (int d = 0; d < e->part.dim; d++) e->part.v[d][i] = v[d];
     }
     for (int64_t I = 0; e->frame->mesh.points > 0 && I < g->n; I++) {
         if (!(e->frame->mesh.inverse_mass[I] > 0)) continue;
         const int64_t at = mesh_regular_node_of_doubled_node(&e->frame->mesh, I);
         for (int d = 0; d < g->dim; d++) X[d] = grid_node_position(g, d, at / g->stride[d] % g->count[d]);
-        field(context, X, v);
+        velocity_field(context, X, v);
         for (int d = 0; d < g->dim; d++) g->velocity[d][I] = v[d];
     }
 }
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
-/* Appends an override to *o. key: kept by reference; value: format of printf for the value. */
-void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
+/* Appends an override to *list. key: kept by reference; value_format: format of printf for the value. */
+void bench_overrides_append(struct bench_overrides *list, const char *key, const char *value_format, ...)
 {
     va_list more;
-    INVARIANT(o->n < OVERRIDES_MAX);
-    va_start(more, value);
-    vsnprintf(o->value[o->n], OVERRIDE_LENGTH, value, more);
+    INVARIANT(list->n < OVERRIDES_MAX);
+    va_start(more, value_format);
+    vsnprintf(list->value[list->n], OVERRIDE_LENGTH, value_format, more);
     va_end(more);
-    o->at[o->n++].key = key;
+    list->at[list->n++].key = key;
 }
 
-const struct scene_override *bench_overrides_ready(struct bench_overrides *o)
+const struct scene_override *bench_overrides_as_array(struct bench_overrides *list)
 {
-    for (int k = 0; k < o->n; k++) o->at[k].value = o->value[k];
-    return o->at;
+    for (int k = 0; k < list->n; k++) list->at[k].value = list->value[k];
+    return list->at;
 }
 
 struct wanted_figures {
@@ -125,21 +126,22 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
         if (!strcmp(w->figure[k].probe, probe) && !strcmp(w->figure[k].quantity, quantity)) w->figure[k].value = value;
 }
 
-void bench_figures_take(const struct run *e, struct bench_figure *figure, int n)
+void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count)
 {
-    const struct observed_run seen = observed_run_of(e);
-    probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+    const struct observed_run seen = observed_run_view_of(e);
+    probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, figure_count});
 }
 
-status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
+status bench_run_scene_and_read_figures(const char *path, const char *text, struct bench_overrides *overrides,
+                                        struct bench_figure *figure, int figure_count)
 {
     struct run e;
     struct scene s;
-    for (int k = 0; k < n; k++) figure[k].value = NAN;
-    TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
-    status ran = engine_run(&e);
-    if (ran == OK) ran = engine_run_mpm_baseline(&e);
-    if (ran == OK) bench_figures_take(&e, figure, n);
+    for (int k = 0; k < figure_count; k++) figure[k].value = NAN;
+    TRY(bench_engine_make(&e, &s, path, text, bench_overrides_as_array(overrides), overrides->n));
+    status ran = engine_run_to_end(&e);
+    if (ran == OK) ran = engine_run_mpm_baseline_for_pulse_probe(&e);
+    if (ran == OK) bench_figures_read_from_probes(&e, figure, figure_count);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -179,29 +181,29 @@ static status spawn_run(struct bench_child *c, const char *path, const struct sc
     return spawn(argv, &c->process);
 }
 
-status bench_child_start(struct bench_child *c, const char *path, const struct scene_override *override, int overrides,
-                         int threads)
+status bench_child_start(struct bench_child *child, const char *path, const struct scene_override *override,
+                         int override_count, int thread_count)
 {
-    *c = (struct bench_child){0};
-    TRY(bench_folder_make());
-    strcpy(c->folder, BENCH_FOLDER "/run-XXXXXX");
-    if (!mkdtemp(c->folder)) {
-        status s = file_report_write_failure(c->folder, errno);
-        c->folder[0] = 0;
+    *child = (struct bench_child){0};
+    TRY(bench_create_results_folder());
+    strcpy(child->folder, BENCH_FOLDER "/run-XXXXXX");
+    if (!mkdtemp(child->folder)) {
+        status s = file_report_write_failure(child->folder, errno);
+        child->folder[0] = 0;
         return s;
     }
-    return spawn_run(c, path, override, overrides, threads);
+    return spawn_run(child, path, override, override_count, thread_count);
 }
 
-status bench_child_wait(struct bench_child *c)
+status bench_child_wait(struct bench_child *child)
 {
     struct rusage used;
     int ended;
-    while (wait4(c->process, &ended, 0, &used) < 0)
+    while (wait4(child->process, &ended, 0, &used) < 0)
         if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
-    c->process = 0;
-    c->processor = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-                   1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    child->process = 0;
+    child->processor = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                       1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
     if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 0) return status_set(FAILED, "bench: a run has failed");
     return OK;
 }
@@ -214,21 +216,21 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
 
 void bench_folder_remove(const char *folder) { nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS); }
 
-void bench_child_free(struct bench_child *c)
+void bench_child_wait_and_remove_output(struct bench_child *child)
 {
     int ended;
-    if (c->process) waitpid(c->process, &ended, 0);
-    if (c->folder[0]) bench_folder_remove(c->folder);
-    *c = (struct bench_child){0};
+    if (child->process) waitpid(child->process, &ended, 0);
+    if (child->folder[0]) bench_folder_remove(child->folder);
+    *child = (struct bench_child){0};
 }
 
-status bench_child_figures(const char *path, const struct scene_override *override, int overrides,
-                           const char *const *key, double *value, int n)
+status bench_child_run_and_read_summary(const char *path, const struct scene_override *override, int override_count,
+                                        const char *const *key, double *value, int value_count)
 {
     struct bench_child c;
-    status s = bench_child_start(&c, path, override, overrides, 1);
+    status s = bench_child_start(&c, path, override, override_count, 1);
     if (s == OK) s = bench_child_wait(&c);
-    for (int k = 0; k < n && s == OK; k++) s = summary_read_number(c.folder, key[k], &value[k]);
-    bench_child_free(&c);
+    for (int k = 0; k < value_count && s == OK; k++) s = summary_read_number(c.folder, key[k], &value[k]);
+    bench_child_wait_and_remove_output(&c);
     return s;
 }

@@ -51,20 +51,20 @@ static double edge_in_grips(double x, double slenderness)
     return edge_tension(x) - 6 * pi * both / (slenderness + 6 * pi * bending) * edge_bending(x);
 }
 
-double specimen_load(const struct specimen *s, double a)
+double specimen_load_at_crack_growth(const struct specimen *s, double crack_length)
 {
-    const double K = sqrt(s->modulus * s->energy_release_rate), x = a / s->width;
+    const double K = sqrt(s->modulus * s->energy_release_rate), x = crack_length / s->width;
     switch (s->kind) {
     case COMPACT_TENSION:
         return K * s->thickness * sqrt(s->width) / compact_tension(x);
     case EDGE_CRACK_IN_GRIPS:
-        return K * s->thickness * s->width / (sqrt(pi * a) * edge_in_grips(x, s->length / s->width));
+        return K * s->thickness * s->width / (sqrt(pi * crack_length) * edge_in_grips(x, s->length / s->width));
     case THREE_POINT_BEND:
         return K * s->thickness * pow(s->width, 1.5) / (s->length * three_point_bend(x));
     case DOUBLE_CANTILEVER:
         break; /* beams on an elastic foundation, the body ahead of the crack (Fichter 1983) */
     }
-    return s->thickness * K * sqrt(pow(s->width, 3) / 12) / (a + 0.673 * s->width);
+    return s->thickness * K * sqrt(pow(s->width, 3) / 12) / (crack_length + 0.673 * s->width);
 }
 
 /* Angle between the pre-crack and the line from its end to the crack tip, after increments of 2 mm in the direction
@@ -72,10 +72,10 @@ double specimen_load(const struct specimen *s, double a)
  * the tip; for a central notch these deviate by 0.4 % from ASTM E399. */
 static const double chord_step = 2e-3, chord[] = {14.66, 15.0, 15.13, 15.12, 15.0, 14.77, 14.44, 14.01, 13.49, 12.88};
 
-double bend_chord(double length)
+double bend_crack_chord_angle(double chord_length)
 {
     enum { CHORDS = sizeof chord / sizeof *chord };
-    const double at = length / chord_step - 1;
+    const double at = chord_length / chord_step - 1;
     if (at > CHORDS - 1 + 1e-9) return NAN;
     const int k = at <= 0 ? 0 : at >= CHORDS - 1 ? CHORDS - 2 : (int)at;
     return at <= 0 ? chord[0] : chord[k] + (at - k) * (chord[k + 1] - chord[k]);

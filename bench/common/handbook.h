@@ -24,11 +24,11 @@ struct specimen {
 /* Returns the load [N] at which a crack of length a [m] in the specimen has the energy release rate
  * s->energy_release_rate of its material. The error of the formulas is at most 3 % for a/W between 0.2 and 0.8, and 0.5
  * % for those of ASTM. */
-double specimen_load(const struct specimen *s, double a);
+double specimen_load_at_crack_growth(const struct specimen *s, double crack_length);
 
 /* Returns the angle between the pre-crack and the straight line from its end to the crack tip [degree], for a beam in
  * three-point bending with an eccentric notch: span 160 mm, height 40 mm, notch of 16 mm at 31.75 mm from the middle.
- * length: of that line [m]. Returns NAN for more than 20 mm. */
-double bend_chord(double length);
+ * chord_length: of that line [m]. Returns NAN for more than 20 mm. */
+double bend_crack_chord_angle(double chord_length);
 
 #endif

@@ -30,23 +30,23 @@ static void manufactured_forces(const struct manufactured *m, int a, real *stead
     *beat = m->amplitude * (k * k * ((m->c12 + m->shear) * sum + m->shear * m->dim * m->share[a]) - 4 * inertia);
 }
 
-struct manufactured_values manufactured_at(const struct manufactured *m, const real *X, real t)
+struct manufactured_values manufactured_at(const struct manufactured *m, const real *position, real t)
 {
     const real k = 2 * M_PI / m->length, grown = square(sin(M_PI * t / m->period));
     const real rate = M_PI / m->period * sin(2 * M_PI * t / m->period);
     struct manufactured_values v = {0};
     for (int a = 0; a < m->dim; a++) {
-        const real shape = m->amplitude * m->share[a] * mode(m, X, a, -1);
+        const real shape = m->amplitude * m->share[a] * mode(m, position, a, -1);
         real steady, beat;
         manufactured_forces(m, a, &steady, &beat);
         v.displacement[a] = shape * grown, v.velocity[a] = shape * rate;
-        v.force[a] = (steady + beat * grown) * mode(m, X, a, -1);
+        v.force[a] = (steady + beat * grown) * mode(m, position, a, -1);
     }
     for (int s = 0; s < symmetric_component_count(m->dim); s++) {
         int a, b;
         symmetric_component_axes(m->dim, s, &a, &b);
-        v.strain[s] =
-            0.5 * m->amplitude * grown * k * (m->share[a] * mode(m, X, a, b) + m->share[b] * mode(m, X, b, a));
+        v.strain[s] = 0.5 * m->amplitude * grown * k *
+                      (m->share[a] * mode(m, position, a, b) + m->share[b] * mode(m, position, b, a));
     }
     return v;
 }
@@ -70,11 +70,11 @@ static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bo
     fputs("}\n", to);
 }
 
-void manufactured_boundaries(FILE *to, const struct manufactured *m)
+void manufactured_write_body_force(FILE *scene_file, const struct manufactured *m)
 {
     for (int wave = 0; wave < 1 << (m->dim - 1); wave++) {
         const int sign[DIM_MAX] = {1, wave & 1 ? -1 : 1, wave & 2 ? -1 : 1};
-        put_wave(to, m, sign, false);
-        put_wave(to, m, sign, true);
+        put_wave(scene_file, m, sign, false);
+        put_wave(scene_file, m, sign, true);
     }
 }

@@ -28,11 +28,11 @@ struct manufactured_values {
     real force[DIM_MAX];                                            /* [N/m^3] */
 };
 
-/* Returns displacement, velocity, strain and body force of the solution at X[dim] [m] and time t [s]. */
-struct manufactured_values manufactured_at(const struct manufactured *m, const real *X, real t);
+/* Returns displacement, velocity, strain and body force of the solution at position[dim] [m] and time t [s]. */
+struct manufactured_values manufactured_at(const struct manufactured *m, const real *position, real t);
 
 /* Writes the body force of the solution as entries of `boundary` in a scene, one per line. It consists of plane waves
  * in all directions (1, +-1, +-1), each with a constant part and a part proportional to sin^2(pi t/T). */
-void manufactured_boundaries(FILE *to, const struct manufactured *m);
+void manufactured_write_body_force(FILE *scene_file, const struct manufactured *m);
 
 #endif

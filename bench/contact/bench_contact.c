@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "contact_bench.h"
 
-status contact_engine(struct run *e, struct scene *s, const char *text, ...)
+status contact_make_run_of_scene(struct run *e, struct scene *s, const char *text, ...)
 {
     char whole[4096];
     va_list more;
@@ -17,19 +17,19 @@ status contact_engine(struct run *e, struct scene *s, const char *text, ...)
     return bench_engine_make(e, s, "contact", whole, NULL, 0);
 }
 
-struct contact_motion contact_motion_of(const struct run *e, int body)
+struct contact_motion contact_motion_of_body(const struct run *e, int body_number)
 {
     const struct particles *p = &e->part;
     struct contact_motion m = {0};
     double inertia = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        if (p->body[i] != body) continue;
+        if (p->body[i] != body_number) continue;
         m.mass += p->mass[i];
         for (int d = 0; d < p->dim; d++) m.x[d] += p->mass[i] * p->x[d][i], m.v[d] += p->mass[i] * p->v[d][i];
     }
     for (int d = 0; d < p->dim; d++) m.x[d] /= m.mass, m.v[d] /= m.mass;
     for (int64_t i = 0; i < p->n && p->dim > 1; i++) {
-        if (p->body[i] != body) continue;
+        if (p->body[i] != body_number) continue;
         const double a = p->x[0][i] - m.x[0], b = p->x[1][i] - m.x[1];
         m.spin += p->mass[i] * (a * (p->v[1][i] - m.v[1]) - b * (p->v[0][i] - m.v[0]));
         inertia += p->mass[i] * (a * a + b * b);
@@ -38,10 +38,10 @@ struct contact_motion contact_motion_of(const struct run *e, int body)
     return m;
 }
 
-bool contact_case_holds(const struct contact_case *c, const double *figure)
+bool contact_case_holds(const struct contact_case *c, const double *measured)
 {
     for (int k = 0; k < CONTACT_FIGURES && c->asked[k].what; k++)
-        if (!(figure[k] >= c->asked[k].low && figure[k] <= c->asked[k].high)) return false;
+        if (!(measured[k] >= c->asked[k].low && measured[k] <= c->asked[k].high)) return false;
     return true;
 }
 
@@ -61,8 +61,10 @@ static void contact_print(const struct contact_case *c, const double *figure)
 static void contact_rows(const struct contact_case *c, const double *figure, struct bench_table *rows)
 {
     for (int k = 0; k < CONTACT_FIGURES && c->asked[k].what; k++) {
-        bench_text(rows, c->name), bench_text(rows, c->law), bench_text(rows, c->asked[k].what);
-        bench_number(rows, figure[k]), bench_number(rows, c->asked[k].low), bench_number(rows, c->asked[k].high);
+        bench_table_append_text(rows, c->name), bench_table_append_text(rows, c->law),
+            bench_table_append_text(rows, c->asked[k].what);
+        bench_table_append_number(rows, figure[k]), bench_table_append_number(rows, c->asked[k].low),
+            bench_table_append_number(rows, c->asked[k].high);
     }
 }
 
@@ -79,7 +81,7 @@ status bench_contact(bool quick)
         contact_print(c, figure);
         contact_rows(c, figure, &rows);
     }
-    const status s = bench_write("contact", &rows, 1);
+    const status s = bench_write_result_tables("contact", &rows, 1);
     bench_table_free(&rows);
     return s;
 }

@@ -32,12 +32,13 @@ extern const struct contact_case contact_cases[];
 /* Number of cases. */
 extern const int contact_cases_count;
 
-/* Returns true if all quantities figure[CONTACT_FIGURES] of the case are within their required ranges. */
-bool contact_case_holds(const struct contact_case *c, const double *figure);
+/* Returns true if all quantities measured[CONTACT_FIGURES] of the case are within their required ranges. */
+bool contact_case_holds(const struct contact_case *c, const double *measured);
 
 /* Creates the run e of a scene and stores the scene in *s. text: the scene, a format of printf followed by its
  * arguments. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
-status contact_engine(struct run *e, struct scene *s, const char *text, ...) __attribute__((format(printf, 3, 4)));
+status contact_make_run_of_scene(struct run *e, struct scene *s, const char *text, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Motion of a body from its particles: mass [kg], centre of mass [m], mean velocity [m/s], angular velocity in the
  * plane [1/s]. */
@@ -45,44 +46,44 @@ struct contact_motion {
     double mass, x[DIM_MAX], v[DIM_MAX], spin;
 };
 
-/* Computes the motion of a body from its particles in the run e. body: its index. */
-struct contact_motion contact_motion_of(const struct run *e, int body);
+/* Computes the motion of a body from its particles in the run e. body_number: its index. */
+struct contact_motion contact_motion_of_body(const struct run *e, int body_number);
 
 /* Runs the collision of two bars of given[0] and given[1] particles with the velocities given[2] and given[3] [wave
- * speeds] (contact_bars.c). Stores in figure[]: relative velocity after over before; duration of contact over 2 L/c;
+ * speeds] (contact_bars.c). Stores in measured[]: relative velocity after over before; duration of contact over 2 L/c;
  * largest force over rho c v A; energy error [1]. Returns FAILED if a step fails. */
-status contact_bars(const struct contact_case *c, double *figure);
+status contact_measure_bar_collision(const struct contact_case *c, double *measured);
 
 /* Runs a moving bar of given[0] particles with the speed given[2] [wave speeds] that hits a bar of given[1] particles
- * at rest (contact_bars.c). Stores in figure[]: velocities of the first and the second bar after the collision over the
- * initial velocity; energy error [1]. Returns FAILED if a step fails. */
-status contact_striker(const struct contact_case *c, double *figure);
+ * at rest (contact_bars.c). Stores in measured[]: velocities of the first and the second bar after the collision over
+ * the initial velocity; energy error [1]. Returns FAILED if a step fails. */
+status contact_measure_striker_bar(const struct contact_case *c, double *measured);
 
 /* Runs a bar of given[0] particles in length that bounces given[1] times between rigid walls at the speed given[2]
- * [wave speeds] (contact_bars.c). Stores the errors of energy and momentum [1] in figure[0] and figure[1]. Returns
+ * [wave speeds] (contact_bars.c). Stores the errors of energy and momentum [1] in measured[0] and measured[1]. Returns
  * FAILED if a step fails. */
-status contact_bounces(const struct contact_case *c, double *figure);
+status contact_measure_bouncing_bar(const struct contact_case *c, double *measured);
 
 /* Runs the collision of two discs of radius given[0] [spacings] with the speed given[1] each [wave speeds], whose paths
  * are given[2] radii apart, on a lattice rotated by given[3] [rad] relative to the line of centres (contact_discs.c).
- * Stores in figure[]: normal and tangential relative velocity after over before; mean angular velocity of the discs
+ * Stores in measured[]: normal and tangential relative velocity after over before; mean angular velocity of the discs
  * times R/v; energy error [1]. Returns FAILED if a step fails. */
-status contact_discs(const struct contact_case *c, double *figure);
+status contact_measure_disc_collision(const struct contact_case *c, double *measured);
 
 /* Compares a block of given[0] x given[0] particles that is cut in two with an intact one (contact_faces.c). Its ends
  * are displaced towards each other by the strain given[1] and along each other by given[2] [spacings]. Stores in
- * figure[]: normal and tangential force on the ends over those of the intact block; overlap of the cut faces
+ * measured[]: normal and tangential force on the ends over those of the intact block; overlap of the cut faces
  * [spacings]. Returns FAILED if a run fails. */
-status contact_block(const struct contact_case *c, double *figure);
+status contact_measure_cut_block(const struct contact_case *c, double *measured);
 
 /* Runs a block under its weight on a slope with the tangent given[0] and the coefficient of friction given[1], on a
- * rigid floor if given[2] > 0, else on a deformable one (contact_slope.c). Stores in figure[]: acceleration over g
+ * rigid floor if given[2] > 0, else on a deformable one (contact_slope.c). Stores in measured[]: acceleration over g
  * sin(slope); distance moved [spacings]; energy error [1]. Returns FAILED if a step fails. */
-status contact_slope(const struct contact_case *c, double *figure);
+status contact_measure_sliding_block(const struct contact_case *c, double *measured);
 
 /* Runs a ball of radius given[0] [spacings] that hits a rigid plane at the speed given[1] [wave speeds]
- * (contact_faces.c). Stores in figure[]: exponent of the force over the approach; duration of contact over that of
+ * (contact_faces.c). Stores in measured[]: exponent of the force over the approach; duration of contact over that of
  * Hertz; speed after over before; energy error [1]. Returns FAILED if a step fails. */
-status contact_hertz_space(const struct contact_case *c, double *figure);
+status contact_measure_ball_on_plane(const struct contact_case *c, double *measured);
 
 #endif

@@ -10,11 +10,11 @@
  * required restitution; longest: largest duration over 2 L/c; short_: true if the case is known to miss these. The
  * restitution grows with the number of particles: bars of 200 particles with softer contact do not reach 0.99. */
 #define BARS(n, v, least, longest, short_)                                                                             \
-    BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_bars, .given = {n, n, v, -v},            \
-         .falls_short = short_,                                                                                        \
+    BOTH(.name = "equal bars, " #n " particles, " #v " c", .measure = contact_measure_bar_collision,                   \
+         .given = {n, n, v, -v}, .falls_short = short_,                                                                \
          .asked = {{"restitution", least, 1.001}, {"duration", 1, longest}, {"force", 0, 2.1}, {"energy", 0, 1e-3}})
 #define STRIKER(n, off)                                                                                                \
-    BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_striker,                          \
+    BOTH(.name = "striker on twice its length, " #n " particles", .measure = contact_measure_striker_bar,              \
          .given = {n, 2 * n, 1e-3, 0},                                                                                 \
          .asked = {{"striker", -off, off}, {"struck", 0.5 - off, 0.5 + off}, {"energy", 0, 1e-3}})
 
@@ -24,7 +24,7 @@
  * residual vibrations in the mean over time. */
 #define BLOCK(what, n, strain, shear, least, most, along)                                                              \
     {                                                                                                                  \
-        .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear},                \
+        .name = "cut block, " #n " rows, " what, .measure = contact_measure_cut_block, .given = {n, strain, shear},    \
         .law = "surface", .asked = {                                                                                   \
             {"force over whole", least, most},                                                                         \
             {"along", 0, along}                                                                                        \
@@ -32,15 +32,15 @@
     }
 #define PAIR_BLOCK(what, n, strain, shear, least, most, along, short_)                                                 \
     {                                                                                                                  \
-        .name = "cut block, " #n " rows, " what, .measure = contact_block, .given = {n, strain, shear}, .law = "pair", \
-        .falls_short = short_, .asked = {                                                                              \
+        .name = "cut block, " #n " rows, " what, .measure = contact_measure_cut_block, .given = {n, strain, shear},    \
+        .law = "pair", .falls_short = short_, .asked = {                                                               \
             {"force over whole", least, most},                                                                         \
             {"along", 0, along}                                                                                        \
         }                                                                                                              \
     }
 #define BALL(R, v)                                                                                                     \
     {                                                                                                                  \
-        .name = "ball on a plane, R " #R ", " #v " c", .law = "surface", .measure = contact_hertz_space,               \
+        .name = "ball on a plane, R " #R ", " #v " c", .law = "surface", .measure = contact_measure_ball_on_plane,     \
         .given = {R, v}, .long_run = true, .asked = {                                                                  \
             {"exponent", 1.45, 1.55},                                                                                  \
             {"duration", 0.9, 1.1},                                                                                    \
@@ -56,7 +56,7 @@
 #define STICKING(b, sine, turn)                                                                                        \
     {                                                                                                                  \
         .name = "discs, R 20, 0.01 c, b " #b " R, turn " #turn ", friction 10", .law = "surface, friction: 10",        \
-        .measure = contact_discs, .given = {20, 1e-2, b, turn}, .falls_short = true, .asked = {                        \
+        .measure = contact_measure_disc_collision, .given = {20, 1e-2, b, turn}, .falls_short = true, .asked = {       \
             {"normal", 0.85, 1.03},                                                                                    \
             {"tangential", 2 / 3. - 0.05, 2 / 3. + 0.05},                                                              \
             {"spin", sine * 2 / 3 - 0.05, sine * 2 / 3 + 0.05},                                                        \
@@ -70,8 +70,8 @@
  * with two kernel sets; its limit allows four standard deviations. */
 #define SLOPE(tan, mu, rigid, on)                                                                                      \
     {                                                                                                                  \
-        .name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface", .measure = contact_slope,          \
-        .given = {tan, mu, rigid}, .asked = {                                                                          \
+        .name = "block on a " on ", tan " #tan ", friction " #mu, .law = "surface",                                    \
+        .measure = contact_measure_sliding_block, .given = {tan, mu, rigid}, .asked = {                                \
             {"g sin", (tan > mu ? 1 - mu / (tan) : 0) - 0.1, (tan > mu ? 1 - mu / (tan) : 0) + 0.1},                   \
             {"way", tan > mu ? 5 : -0.2, tan > mu ? 50 : 0.2},                                                         \
             {"energy", 0, rigid && mu > 1 ? 1.5e-2 : 1e-2}                                                             \
@@ -86,8 +86,9 @@
  * lattice. short_: true if the case is known to miss the required ranges. */
 #define DISCS(law_, R, v, b, turn, short_)                                                                             \
     {                                                                                                                  \
-        .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_, .measure = contact_discs,           \
-        .given = {R, v, b, turn}, .falls_short = short_, .long_run = R > 20, .asked = {                                \
+        .name = "discs, R " #R ", " #v " c, b " #b " R, turn " #turn, .law = law_,                                     \
+        .measure = contact_measure_disc_collision, .given = {R, v, b, turn}, .falls_short = short_,                    \
+        .long_run = R > 20, .asked = {                                                                                 \
             {"normal", b > 0 ? 0.85 : 0.97, 1.03},                                                                     \
             {"tangential", 0.95, 1.05},                                                                                \
             {"spin", b > 0 ? -0.1 : -1e-6, b > 0 ? 0.1 : 1e-6},                                                        \
@@ -107,7 +108,7 @@ const struct contact_case contact_cases[] = {BARS(100, 1e-3, 0.98, 1.05, false),
                                              STRIKER(200, 0.01),
                                              {.name = "ten bounces between walls, 50 x 10",
                                               .law = "surface",
-                                              .measure = contact_bounces,
+                                              .measure = contact_measure_bouncing_bar,
                                               .given = {50, 10, 2e-3},
                                               .falls_short = true,
                                               .asked = {{"energy", 0, 1e-3}, {"momentum", 0, 1e-12}}},

@@ -13,18 +13,18 @@
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     while (e->clock.step < e->clock.steps) {
-        TRY(engine_step(e));
-        TRY(stability_check(e));
-        const struct contact_motion a = contact_motion_of(e, 0), b = contact_motion_of(e, 1);
+        TRY(engine_adapt_refinement_and_step(e));
+        TRY(stability_check_after_step(e));
+        const struct contact_motion a = contact_motion_of_body(e, 0), b = contact_motion_of_body(e, 1);
         const double x = b.x[0] - a.x[0], y = b.x[1] - a.x[1], far = hypot(x, y);
         if (far < least) least = far, normal[0] = x / far, normal[1] = y / far;
     }
-    return report_end(e);
+    return report_finish_after_last_step(e);
 }
 
-status contact_discs(const struct contact_case *c, double *figure)
+status contact_measure_disc_collision(const struct contact_case *c, double *measured)
 {
     struct run e;
     struct scene s;
@@ -32,23 +32,24 @@ status contact_discs(const struct contact_case *c, double *figure)
     const double angle = asin(0.5 * c->given[2]), gap = 0.3 * D, far = R + 0.5 * gap;
     /* Line of centres at the angle `turn`, velocities at turn - angle. */
     const double nx = cos(turn), ny = sin(turn), vx = v * cos(turn - angle), vy = v * sin(turn - angle);
-    TRY(contact_engine(&e, &s,
-                       "name: discs\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
-                       "material: {young: 200 GPa, poisson: 1/3, density: 8000}\nparticles: {spacing: 1 mm}\nbodies:\n"
-                       "  - {name: a, shape: {ball: {centre: [%.9g, %.9g], radius: %.9g}}, velocity: [%.9g, %.9g]}\n"
-                       "  - {name: b, shape: {ball: {centre: [%.9g, %.9g], radius: %.9g}}, velocity: [%.9g, %.9g]}\n"
-                       "contact: {between: bodies, law: %s}\noutput: {frames: 0, samples: 100}\n",
-                       gap / (2 * v * cos(angle)) + 20 * R / CONTACT_WAVE, -far * nx, -far * ny, R, vx, vy, far * nx,
-                       far * ny, R, -vx, -vy, c->law));
+    TRY(contact_make_run_of_scene(
+        &e, &s,
+        "name: discs\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
+        "material: {young: 200 GPa, poisson: 1/3, density: 8000}\nparticles: {spacing: 1 mm}\nbodies:\n"
+        "  - {name: a, shape: {ball: {centre: [%.9g, %.9g], radius: %.9g}}, velocity: [%.9g, %.9g]}\n"
+        "  - {name: b, shape: {ball: {centre: [%.9g, %.9g], radius: %.9g}}, velocity: [%.9g, %.9g]}\n"
+        "contact: {between: bodies, law: %s}\noutput: {frames: 0, samples: 100}\n",
+        gap / (2 * v * cos(angle)) + 20 * R / CONTACT_WAVE, -far * nx, -far * ny, R, vx, vy, far * nx, far * ny, R, -vx,
+        -vy, c->law));
     double normal[2] = {1, 0};
     const status ran = discs_run(&e, normal);
     if (ran == OK) {
-        const struct contact_motion a = contact_motion_of(&e, 0), b = contact_motion_of(&e, 1);
+        const struct contact_motion a = contact_motion_of_body(&e, 0), b = contact_motion_of_body(&e, 1);
         const double wx = b.v[0] - a.v[0], wy = b.v[1] - a.v[1], mx = normal[0], my = normal[1];
-        figure[0] = (wx * mx + wy * my) / (2 * (vx * mx + vy * my));
-        figure[1] = angle > 0 ? (wy * mx - wx * my) / (2 * (vx * my - vy * mx)) : 1;
-        figure[2] = 0.5 * (a.spin + b.spin) * R / v;
-        figure[3] = fabs(e.diagnostics->now.balance_error);
+        measured[0] = (wx * mx + wy * my) / (2 * (vx * mx + vy * my));
+        measured[1] = angle > 0 ? (wy * mx - wx * my) / (2 * (vx * my - vy * mx)) : 1;
+        measured[2] = 0.5 * (a.spin + b.spin) * R / v;
+        measured[3] = fabs(e.diagnostics->now.balance_error);
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -6,9 +6,9 @@
 #include "step/report.h"
 
 /* Runs a block of 12 x 8 particles on a slope with the tangent given[0] and the coefficient of friction given[1], on a
- * rigid floor if given[2] > 0, else on a deformable one. figure[0]: its acceleration over g sin(slope); figure[1]:
- * distance it has moved [spacings]; figure[2]: energy error [1]. Returns FAILED if a step fails. */
-status contact_slope(const struct contact_case *c, double *figure)
+ * rigid floor if given[2] > 0, else on a deformable one. measured[0]: its acceleration over g sin(slope); measured[1]:
+ * distance it has moved [spacings]; measured[2]: energy error [1]. Returns FAILED if a step fails. */
+status contact_measure_sliding_block(const struct contact_case *c, double *measured)
 {
     struct run e;
     struct scene s;
@@ -24,28 +24,29 @@ status contact_slope(const struct contact_case *c, double *figure)
                  -4 * D, 54 * D);
         snprintf(held, sizeof held, "  - {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, %.9g]}}}\n", -2 * D);
     }
-    TRY(contact_engine(&e, &s,
-                       "name: slope\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
-                       "material: {young: %.9g, poisson: 1/3, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
-                       "  - {name: block, shape: {box: {from: [0, 0], to: [%.9g, %.9g]}}}\n%s"
-                       "boundary:\n%s"
-                       "  - {body_force: [0, %.9g], body: block, time: {ramp: {until: %.9g}}}\n"
-                       "  - {body_force: [%.9g, 0], body: block, time: {ramp: {from: %.9g, until: %.9g}}}\n"
-                       "contact: {between: bodies, friction: %.9g}\noutput: {frames: 0, samples: 100}\n",
-                       2 * settle + slide, E, density, D, 12 * D, 8 * D, floor, held, -density * g * cos(slope), settle,
-                       density * g * sin(slope), settle, 1.001 * settle, friction));
+    TRY(contact_make_run_of_scene(
+        &e, &s,
+        "name: slope\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: %.9g\n"
+        "material: {young: %.9g, poisson: 1/3, density: %.9g}\nparticles: {spacing: %.9g}\nbodies:\n"
+        "  - {name: block, shape: {box: {from: [0, 0], to: [%.9g, %.9g]}}}\n%s"
+        "boundary:\n%s"
+        "  - {body_force: [0, %.9g], body: block, time: {ramp: {until: %.9g}}}\n"
+        "  - {body_force: [%.9g, 0], body: block, time: {ramp: {from: %.9g, until: %.9g}}}\n"
+        "contact: {between: bodies, friction: %.9g}\noutput: {frames: 0, samples: 100}\n",
+        2 * settle + slide, E, density, D, 12 * D, 8 * D, floor, held, -density * g * cos(slope), settle,
+        density * g * sin(slope), settle, 1.001 * settle, friction));
     double from = 0, at = 0, then = 0;
-    status ran = report_start(&e);
+    status ran = report_start_before_first_step(&e);
     while (ran == OK && e.clock.step < e.clock.steps) {
-        ran = engine_step(&e);
-        const struct contact_motion m = contact_motion_of(&e, 0);
+        ran = engine_adapt_refinement_and_step(&e);
+        const struct contact_motion m = contact_motion_of_body(&e, 0);
         if (e.clock.t < 2 * settle) from = m.x[0], at = m.v[0], then = e.clock.t;
     }
-    if (ran == OK) ran = report_end(&e);
-    const struct contact_motion m = contact_motion_of(&e, 0);
-    figure[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
-    figure[1] = (m.x[0] - from) / D;
-    figure[2] = fabs(e.diagnostics->now.balance_error);
+    if (ran == OK) ran = report_finish_after_last_step(&e);
+    const struct contact_motion m = contact_motion_of_body(&e, 0);
+    measured[0] = (m.v[0] - at) / (e.clock.t - then) / (g * sin(slope));
+    measured[1] = (m.x[0] - from) / D;
+    measured[2] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
     return ran;
 }

@@ -17,11 +17,11 @@ const struct coupling_variant coupling_variant[VARIANTS] = {
     [VARIANT_PGG] = {"pgg", "pgg", NULL},
 };
 
-void coupling_variant_override(struct bench_overrides *o, int variant)
+void coupling_variant_append_overrides(struct bench_overrides *overrides, int variant)
 {
-    bench_override(o, "coupling", "%s", coupling_variant[variant].coupling);
+    bench_overrides_append(overrides, "coupling", "%s", coupling_variant[variant].coupling);
     if (coupling_variant[variant].damping)
-        bench_override(o, "interface_damping", "%s", coupling_variant[variant].damping);
+        bench_overrides_append(overrides, "interface_damping", "%s", coupling_variant[variant].damping);
 }
 
 /* ---- runs of the bar --------------------------------------------------------------------------------------------- */
@@ -35,13 +35,13 @@ static status coupling_bar_measure(struct bar_run *r)
     struct bench_figure f[] = {{.probe = "pulse", .quantity = "reflected"},
                                {.probe = "pulse", .quantity = "transmitted"},
                                {.probe = "pulse", .quantity = "energy_change"}};
-    coupling_variant_override(&o, r->variant);
-    bench_override(&o, "initial[0].pulse.width", "%g mm", r->width * spacing);
-    bench_override(&o, "mpm.cell", "%d", r->cell);
-    bench_override(&o, "mpm.origin", "[%g mm]", interface + r->place * r->cell * spacing);
-    bench_override(&o, "mpm.transfer", "%s", r->transfer);
-    bench_override(&o, "output.samples", "1");
-    TRY(bench_figures(COUPLING_BAR, NULL, &o, f, COUNT_OF(f)));
+    coupling_variant_append_overrides(&o, r->variant);
+    bench_overrides_append(&o, "initial[0].pulse.width", "%g mm", r->width * spacing);
+    bench_overrides_append(&o, "mpm.cell", "%d", r->cell);
+    bench_overrides_append(&o, "mpm.origin", "[%g mm]", interface + r->place * r->cell * spacing);
+    bench_overrides_append(&o, "mpm.transfer", "%s", r->transfer);
+    bench_overrides_append(&o, "output.samples", "1");
+    TRY(bench_run_scene_and_read_figures(COUPLING_BAR, NULL, &o, f, COUNT_OF(f)));
     r->result = (struct pulse_result){f[0].value, f[1].value, f[2].value};
     return OK;
 }
@@ -171,9 +171,9 @@ static void print_variants(const struct bar_table *t)
  * `rows`. */
 static void fill_result(struct bench_table *rows, const struct pulse_result *r)
 {
-    bench_number(rows, r->reflected);
-    bench_number(rows, r->transmitted);
-    bench_number(rows, r->energy_change);
+    bench_table_append_number(rows, r->reflected);
+    bench_table_append_number(rows, r->transmitted);
+    bench_table_append_number(rows, r->energy_change);
 }
 
 static void fill_bars(struct bench_table *rows, const struct bar_table *t, const char *name)
@@ -184,12 +184,12 @@ static void fill_bars(struct bench_table *rows, const struct bar_table *t, const
                              : "coupling,width_spacings,reflected,transmitted,energy_change");
     for (int k = 0; k < t->n; k++) {
         const struct bar_run *r = &t->run[k];
-        bench_text(rows, coupling_variant[r->variant].name);
-        bench_number(rows, r->width);
+        bench_table_append_text(rows, coupling_variant[r->variant].name);
+        bench_table_append_number(rows, r->width);
         if (name[0]) {
-            bench_number(rows, r->cell);
-            bench_number(rows, r->place);
-            bench_text(rows, r->transfer);
+            bench_table_append_number(rows, r->cell);
+            bench_table_append_number(rows, r->place);
+            bench_table_append_text(rows, r->transfer);
         }
         fill_result(rows, &r->result);
     }
@@ -201,9 +201,9 @@ static status coupling_write_tables(const struct coupling_figures *all)
     fill_bars(&table[0], &all->pulses, "");
     fill_bars(&table[1], &all->places, "places");
     fill_bars(&table[2], &all->variants, "variants");
-    patch_fill(&all->patch, &table[3]);
-    plane_fill(&all->plane, &table[4]);
-    status s = bench_write("coupling", table, COUNT_OF(table));
+    patch_test_fill_file_table(&all->patch, &table[3]);
+    plane_wave_fill_file_table(&all->plane, &table[4]);
+    status s = bench_write_result_tables("coupling", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
 }
@@ -216,28 +216,28 @@ static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))
         return status_set(REFUSED, "bench coupling: its scenes are not here; start it where the folder inputs is");
-    team_set_threads(1); /* a bar is too short to be divided among threads */
+    team_set_thread_count(1); /* a bar is too short to be divided among threads */
     TRY(measure_pulses(&all->pulses, quick));
     print_pulses(&all->pulses);
     TRY(measure_places(&all->places, quick));
     print_places(&all->places);
     TRY(measure_variants(&all->variants, quick));
     print_variants(&all->variants);
-    TRY(patch_measure(&all->patch, quick));
+    TRY(patch_test_measure_nodal_forces(&all->patch, quick));
     patch_print(&all->patch);
-    team_set_threads(0);
-    TRY(plane_measure(&all->plane, quick));
+    team_set_thread_count(0);
+    TRY(plane_wave_measure_reflections(&all->plane, quick));
     plane_print(&all->plane);
     TRY(coupling_write_tables(all));
-    TRY(coupling_pulse_picture());
-    return bench_draw("coupling", 1400, 1000, coupling_draw, all);
+    TRY(coupling_draw_picture_of_pulse());
+    return bench_draw("coupling", 1400, 1000, coupling_write_picture_commands, all);
 }
 
 status bench_coupling(bool quick)
 {
     struct coupling_figures *all = NEW("bench.coupling", 1, struct coupling_figures);
     printf("coupling\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     status s = coupling_measure_all(all, quick);
     memory_free(all);
     return s;

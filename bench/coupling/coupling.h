@@ -24,8 +24,8 @@ struct coupling_variant {
 };
 extern const struct coupling_variant coupling_variant[VARIANTS];
 
-/* Appends the overrides that select the coupling coupling_variant[variant] to *o. */
-void coupling_variant_override(struct bench_overrides *o, int variant);
+/* Appends the overrides that select the coupling coupling_variant[variant] to *overrides. */
+void coupling_variant_append_overrides(struct bench_overrides *overrides, int variant);
 
 /* Effect of an interface on a pulse: reflected and transmitted amplitude over the incident one; change of energy over
  * the incident energy [1]. */
@@ -71,13 +71,13 @@ struct patch_table {
 /* Makes the patch test: measures the nodal forces under uniform strain for all shapes of the interface, couplings and
  * loads, and adds them to the table. quick: one load and fewer positions of the grid. Returns FAILED or REFUSED if a
  * run does. */
-status patch_measure(struct patch_table *t, bool quick);
+status patch_test_measure_nodal_forces(struct patch_table *table, bool quick);
 
 /* Prints the results of the patch test. */
-void patch_print(const struct patch_table *t);
+void patch_print(const struct patch_table *table);
 
 /* Fills `rows`, a table for files, with the results of the patch test. Release with bench_table_free. */
-void patch_fill(const struct patch_table *t, struct bench_table *rows);
+void patch_test_fill_file_table(const struct patch_table *table, struct bench_table *rows);
 
 /* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
 
@@ -98,13 +98,13 @@ struct plane_table {
 
 /* Runs a plane wave towards flat and inclined interfaces with all couplings and weights, and adds the results to the
  * table. quick: one interface and width only. Returns FAILED or REFUSED if a run does. */
-status plane_measure(struct plane_table *t, bool quick);
+status plane_wave_measure_reflections(struct plane_table *table, bool quick);
 
 /* Prints the results for plane waves. */
-void plane_print(const struct plane_table *t);
+void plane_print(const struct plane_table *table);
 
 /* Fills `rows`, a table for files, with the results for plane waves. Release with bench_table_free. */
-void plane_fill(const struct plane_table *t, struct bench_table *rows);
+void plane_wave_fill_file_table(const struct plane_table *table, struct bench_table *rows);
 
 /* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */
 
@@ -115,12 +115,12 @@ struct coupling_figures {
     struct plane_table plane;
 };
 
-/* Writes the gnuplot commands of the picture with all results to the stream `to`. figures: a struct
+/* Writes the gnuplot commands of the picture with all results to the stream `gnuplot`. figures: a struct
  * coupling_figures. */
-void coupling_draw(FILE *to, const void *figures);
+void coupling_write_picture_commands(FILE *gnuplot, const void *figures);
 
 /* Runs a pulse through the bar with the couplings handshake and partial stress and draws its velocities as
  * results/bench/coupling_pulse.png and .svg. Returns FAILED or REFUSED if a run or the picture fails. */
-status coupling_pulse_picture(void);
+status coupling_draw_picture_of_pulse(void);
 
 #endif

@@ -204,13 +204,13 @@ static void draw_patch(FILE *to, const struct patch_table *t)
     plot_bars(to, "patch", 3, colour, title);
 }
 
-void coupling_draw(FILE *to, const void *figures)
+void coupling_write_picture_commands(FILE *gnuplot, const void *figures)
 {
     const struct coupling_figures *all = figures;
-    fputs("set multiplot\n", to);
-    draw_pulses(to, &all->pulses);
-    draw_plane(to, &all->plane);
-    draw_places(to, &all->places);
-    draw_patch(to, &all->patch);
-    fputs("unset multiplot\n", to);
+    fputs("set multiplot\n", gnuplot);
+    draw_pulses(gnuplot, &all->pulses);
+    draw_plane(gnuplot, &all->plane);
+    draw_places(gnuplot, &all->places);
+    draw_patch(gnuplot, &all->patch);
+    fputs("unset multiplot\n", gnuplot);
 }

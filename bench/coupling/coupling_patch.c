@@ -49,7 +49,7 @@ static const struct words variant[] = {
 static status residual_of(const char *text, struct bench_overrides *o, double *value)
 {
     struct bench_figure f = {.probe = "patch", .quantity = "residual_max"};
-    TRY(bench_figures("(patch test)", text, o, &f, 1));
+    TRY(bench_run_scene_and_read_figures("(patch test)", text, o, &f, 1));
     *value = f.value;
     return OK;
 }
@@ -65,9 +65,9 @@ static status measure_line(struct patch_row *r)
     for (int k = 0; k < 8; k++) {
         struct bench_overrides o = {0};
         double value;
-        bench_override(&o, "coupling", "%s", r->coupling);
-        bench_override(&o, "mpm.cell", "%d", r->cell);
-        bench_override(&o, "mpm.origin", "[%g mm]", r->cell * k / 8.0);
+        bench_overrides_append(&o, "coupling", "%s", r->coupling);
+        bench_overrides_append(&o, "mpm.cell", "%d", r->cell);
+        bench_overrides_append(&o, "mpm.origin", "[%g mm]", r->cell * k / 8.0);
         TRY(residual_of(line_text, &o, &value));
         note(r, k, value);
     }
@@ -79,11 +79,11 @@ static status measure_plane(struct patch_row *r, const char *region, const char 
     for (int k = 0; k < positions * positions; k++) {
         struct bench_overrides o = {0};
         double value, step = (double)r->cell / positions; /* [spacings] */
-        bench_override(&o, "pd.region", "%s", region);
-        bench_override(&o, "pd.weights", "%s", r->weights);
-        bench_override(&o, "coupling", "%s", r->coupling);
-        bench_override(&o, "mpm.origin", "[%g mm, %g mm]", step * (k % positions), step * (k / positions));
-        bench_override(&o, "initial", "[{displacement_gradient: %s}]", gradient);
+        bench_overrides_append(&o, "pd.region", "%s", region);
+        bench_overrides_append(&o, "pd.weights", "%s", r->weights);
+        bench_overrides_append(&o, "coupling", "%s", r->coupling);
+        bench_overrides_append(&o, "mpm.origin", "[%g mm, %g mm]", step * (k % positions), step * (k / positions));
+        bench_overrides_append(&o, "initial", "[{displacement_gradient: %s}]", gradient);
         TRY(residual_of(plane_text, &o, &value));
         note(r, k, value);
     }
@@ -97,17 +97,17 @@ static struct patch_row *row_add(struct patch_table *t, struct patch_row r)
     return &t->row[t->n++];
 }
 
-status patch_measure(struct patch_table *t, bool quick)
+status patch_test_measure_nodal_forces(struct patch_table *table, bool quick)
 {
     for (int w = 0; w < 2; w++)
         for (int cell = 1; cell <= 2; cell++)
             TRY(measure_line(
-                row_add(t, (struct patch_row){"bar", "axial", variant[w].name, variant[w].value, cell, 0, 0})));
+                row_add(table, (struct patch_row){"bar", "axial", variant[w].name, variant[w].value, cell, 0, 0})));
     for (size_t s = 0; s < COUNT_OF(shape); s++)
         for (size_t w = 0; w < COUNT_OF(variant); w++)
             for (size_t l = 0; l < (quick ? 1 : COUNT_OF(load)); l++) {
                 struct patch_row r = {shape[s].name, load[l].name, variant[w].name, variant[w].value, 2, 0, 0};
-                TRY(measure_plane(row_add(t, r), shape[s].value, load[l].value, quick ? 2 : 4));
+                TRY(measure_plane(row_add(table, r), shape[s].value, load[l].value, quick ? 2 : 4));
             }
     return OK;
 }
@@ -122,15 +122,15 @@ static bool coupling_patch_same_line(const struct patch_row *a, const struct pat
 }
 
 /* Prints the results of the patch test, one line for all loads of an interface and coupling. */
-void patch_print(const struct patch_table *t)
+void patch_print(const struct patch_table *table)
 {
     printf(
         "\n  uniform strain: largest nodal force over stress x cell face, with the interface on a node > and largest "
         "over positions of the grid\n  %-16s %4s  %-15s %-10s",
         "interface", "cell", "coupling", "weights");
     for (size_t l = 0; l < COUNT_OF(load); l++) printf("   %-16s", load[l].name);
-    for (int k = 0; k < t->n; k++) {
-        const struct patch_row *r = &t->row[k];
+    for (int k = 0; k < table->n; k++) {
+        const struct patch_row *r = &table->row[k];
         if (k == 0 || !coupling_patch_same_line(r, r - 1))
             printf("\n  %-16s %2d D  %-15s %-10s", r->shape, r->cell, r->coupling, r->weights);
         printf("  %7.4f > %6.4f", r->on_node, r->largest);
@@ -139,20 +139,20 @@ void patch_print(const struct patch_table *t)
     fflush(stdout);
 }
 
-void patch_fill(const struct patch_table *t, struct bench_table *rows)
+void patch_test_fill_file_table(const struct patch_table *table, struct bench_table *rows)
 {
     bench_table_make(rows, "patch", "interface,load,cell_spacings,coupling,weights,on_node,largest");
-    for (int k = 0; k < t->n; k++) {
-        const struct patch_row *r = &t->row[k];
+    for (int k = 0; k < table->n; k++) {
+        const struct patch_row *r = &table->row[k];
         char interface[NAME_MAX_LENGTH];
         snprintf(interface, sizeof interface, "%.*s", (int)strcspn(r->shape, ","), r->shape); /* a comma would end
                                                                                                * the cell */
-        bench_text(rows, interface);
-        bench_text(rows, r->load);
-        bench_number(rows, r->cell);
-        bench_text(rows, r->coupling);
-        bench_text(rows, r->weights);
-        bench_number(rows, r->on_node);
-        bench_number(rows, r->largest);
+        bench_table_append_text(rows, interface);
+        bench_table_append_text(rows, r->load);
+        bench_table_append_number(rows, r->cell);
+        bench_table_append_text(rows, r->coupling);
+        bench_table_append_text(rows, r->weights);
+        bench_table_append_number(rows, r->on_node);
+        bench_table_append_number(rows, r->largest);
     }
 }

@@ -43,21 +43,21 @@ static status strip_make(struct run *e, struct scene *scene, const struct strip 
 {
     struct bench_overrides o = {0};
     if (row->variant >= 0)
-        coupling_variant_override(&o, row->variant);
+        coupling_variant_append_overrides(&o, row->variant);
     else
-        bench_override(&o, "method", "mpm");
-    bench_override(&o, "pd.weights", "%s", row->weights);
-    bench_override(&o, "mpm.transfer", "%s", row->transfer);
-    bench_override(&o, "body", "{box: {from: [0, 0], to: [%g mm, %g mm]}}", s->length, s->height);
-    bench_override(&o, "pd.region", "{half-space: {point: [%g mm, 0], normal: [%g, %g]}}", s->at, -s->normal[0],
-                   -s->normal[1]);
-    bench_override(&o, "boundary[1].mirror.at", "%g mm", s->height);
-    bench_override(&o, "initial[0].pulse.at", "[%g mm, 0]", s->start);
-    bench_override(&o, "initial[0].pulse.width", "%g mm", row->width);
-    bench_override(&o, "duration", "%.9g ms", s->path / 100); /* wave speed 100 m/s */
-    bench_override(&o, "time.step", "%g ms", s->step / 100);
-    bench_override(&o, "output.samples", "1");
-    return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_ready(&o), o.n);
+        bench_overrides_append(&o, "method", "mpm");
+    bench_overrides_append(&o, "pd.weights", "%s", row->weights);
+    bench_overrides_append(&o, "mpm.transfer", "%s", row->transfer);
+    bench_overrides_append(&o, "body", "{box: {from: [0, 0], to: [%g mm, %g mm]}}", s->length, s->height);
+    bench_overrides_append(&o, "pd.region", "{half-space: {point: [%g mm, 0], normal: [%g, %g]}}", s->at, -s->normal[0],
+                           -s->normal[1]);
+    bench_overrides_append(&o, "boundary[1].mirror.at", "%g mm", s->height);
+    bench_overrides_append(&o, "initial[0].pulse.at", "[%g mm, 0]", s->start);
+    bench_overrides_append(&o, "initial[0].pulse.width", "%g mm", row->width);
+    bench_overrides_append(&o, "duration", "%.9g ms", s->path / 100); /* wave speed 100 m/s */
+    bench_overrides_append(&o, "time.step", "%g ms", s->step / 100);
+    bench_overrides_append(&o, "output.samples", "1");
+    return bench_engine_make(e, scene, COUPLING_PLATE, NULL, bench_overrides_as_array(&o), o.n);
 }
 
 /* ---- the run without interface ----------------------------------------------------------------------------------- */
@@ -77,12 +77,12 @@ static status plain_make(struct plain *b, const struct strip *s, struct plane_ro
     struct scene scene;
     row.variant = -1;
     TRY(strip_make(&e, &scene, s, &row));
-    status ran = engine_run(&e);
+    status ran = engine_run_to_end(&e);
     for (int d = 0; d < 2 && ran == OK; d++) {
         b->v[d] = NEW("bench.plain", e.part.n, real);
         array_copy(b->v[d], e.part.v[d], e.part.n, sizeof(real));
     }
-    if (ran == OK) b->energy_change = observed_run_of(&e).energy_change;
+    if (ran == OK) b->energy_change = observed_run_view_of(&e).energy_change;
     bench_engine_free(&e, &scene);
     return ran;
 }
@@ -140,7 +140,7 @@ static void coupling_plane_compare(struct plane_row *r, const struct strip *s, c
             back = fmax(back, hypot(p->v[0][i] - b->v[0][i], p->v[1][i] - b->v[1][i]));
     }
     r->result =
-        (struct pulse_result){back / incident, on / incident, observed_run_of(e).energy_change - b->energy_change};
+        (struct pulse_result){back / incident, on / incident, observed_run_view_of(e).energy_change - b->energy_change};
     r->wave = largest_block(s, p, b) / incident;
 }
 
@@ -149,7 +149,7 @@ static status row_measure(struct plane_row *r, const struct strip *s, const stru
     struct run e;
     struct scene scene;
     TRY(strip_make(&e, &scene, s, r));
-    status ran = engine_run(&e);
+    status ran = engine_run_to_end(&e);
     if (ran == OK) coupling_plane_compare(r, s, &e, b);
     bench_engine_free(&e, &scene);
     return ran;
@@ -178,13 +178,13 @@ static status group_measure(struct plane_table *t, int interface, double width, 
     return s;
 }
 
-status plane_measure(struct plane_table *t, bool quick)
+status plane_wave_measure_reflections(struct plane_table *table, bool quick)
 {
-    if (quick) return group_measure(t, OBLIQUE, 16, "flip");
+    if (quick) return group_measure(table, OBLIQUE, 16, "flip");
     for (int interface = 0; interface < INTERFACES; interface++)
         for (double width = 16; width <= 64; width *= 2) {
-            TRY(group_measure(t, interface, width, "flip"));
-            TRY(group_measure(t, interface, width, "apic"));
+            TRY(group_measure(table, interface, width, "flip"));
+            TRY(group_measure(table, interface, width, "apic"));
         }
     return OK;
 }
@@ -200,7 +200,7 @@ static void print_pair(const struct plane_row *r)
     printf(" %8.2f %% %+8.2f %%\n", 100 * r[1].result.transmitted, 100 * r[1].result.energy_change);
 }
 
-void plane_print(const struct plane_table *t)
+void plane_print(const struct plane_table *table)
 {
     printf(
         "\n  a plane pulse between rollers, bonds with uniform and with isotropic weights: what came back as a wave\n"
@@ -209,25 +209,25 @@ void plane_print(const struct plane_table *t)
         "  %-11s %6s %5s  %-24s %10s %10s %10s %10s %10s %10s\n",
         BLOCK, BLOCK, AWAY, "interface", "width", "", "coupling", "wave: unif", "isotropic", "any: unif", "isotropic",
         "went on", "energy");
-    for (int k = 0; k < t->n; k += WEIGHTS) print_pair(&t->row[k]);
+    for (int k = 0; k < table->n; k += WEIGHTS) print_pair(&table->row[k]);
     fflush(stdout);
 }
 
-void plane_fill(const struct plane_table *t, struct bench_table *rows)
+void plane_wave_fill_file_table(const struct plane_table *table, struct bench_table *rows)
 {
     bench_table_make(rows, "plane",
                      "interface,width_spacings,transfer,coupling,weights,reflected,reflected_wave,transmitted,"
                      "energy_change");
-    for (int k = 0; k < t->n; k++) {
-        const struct plane_row *r = &t->row[k];
-        bench_text(rows, r->interface);
-        bench_number(rows, r->width);
-        bench_text(rows, r->transfer);
-        bench_text(rows, coupling_variant[r->variant].name);
-        bench_text(rows, r->weights);
-        bench_number(rows, r->result.reflected);
-        bench_number(rows, r->wave);
-        bench_number(rows, r->result.transmitted);
-        bench_number(rows, r->result.energy_change);
+    for (int k = 0; k < table->n; k++) {
+        const struct plane_row *r = &table->row[k];
+        bench_table_append_text(rows, r->interface);
+        bench_table_append_number(rows, r->width);
+        bench_table_append_text(rows, r->transfer);
+        bench_table_append_text(rows, coupling_variant[r->variant].name);
+        bench_table_append_text(rows, r->weights);
+        bench_table_append_number(rows, r->result.reflected);
+        bench_table_append_number(rows, r->wave);
+        bench_table_append_number(rows, r->result.transmitted);
+        bench_table_append_number(rows, r->result.energy_change);
     }
 }

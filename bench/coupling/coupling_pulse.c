@@ -27,12 +27,12 @@ static status pulse_bar_make(struct run *e, struct scene *s, int variant)
 {
     struct bench_overrides o = {0};
     if (variant >= 0)
-        coupling_variant_override(&o, variant);
+        coupling_variant_append_overrides(&o, variant);
     else
-        bench_override(&o, "method", "mpm");
-    bench_override(&o, "initial[0].pulse.width", "%d mm", WIDTH);
-    bench_override(&o, "output.samples", "1");
-    return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_ready(&o), o.n);
+        bench_overrides_append(&o, "method", "mpm");
+    bench_overrides_append(&o, "initial[0].pulse.width", "%d mm", WIDTH);
+    bench_overrides_append(&o, "output.samples", "1");
+    return bench_engine_make(e, s, COUPLING_BAR, NULL, bench_overrides_as_array(&o), o.n);
 }
 
 /* Stores positions [mm], velocities, and differences of velocity from the bar without interface [mm/s] in *shot, in
@@ -128,18 +128,18 @@ static status coupling_pulse_write_table(const struct pulse_picture *picture)
         for (int k = 0; k < TIMES; k++)
             for (int64_t i = 0; i < picture->n; i++) {
                 const struct snapshot *shot = &picture->shot[column][k];
-                bench_text(&rows, coupling_variant[column_variant[column]].name);
-                bench_number(&rows, 1e-3 * time_ms[k]);
-                bench_number(&rows, 1e-3 * shot->x[i]);
-                bench_number(&rows, 1e-3 * shot->v[i]);
-                bench_number(&rows, 1e-3 * shot->difference[i]);
+                bench_table_append_text(&rows, coupling_variant[column_variant[column]].name);
+                bench_table_append_number(&rows, 1e-3 * time_ms[k]);
+                bench_table_append_number(&rows, 1e-3 * shot->x[i]);
+                bench_table_append_number(&rows, 1e-3 * shot->v[i]);
+                bench_table_append_number(&rows, 1e-3 * shot->difference[i]);
             }
-    status s = bench_write("coupling_pulse", &rows, 1);
+    status s = bench_write_result_tables("coupling_pulse", &rows, 1);
     bench_table_free(&rows);
     return s;
 }
 
-status coupling_pulse_picture(void)
+status coupling_draw_picture_of_pulse(void)
 {
     struct pulse_picture picture = {0};
     status s = OK;

@@ -57,7 +57,7 @@ struct efficiency {
 
 static status make(struct run *e, struct scene *s, const struct result *x, int variant)
 {
-    return efficiency_make(e, s, x->scene, variant, x->dt);
+    return efficiency_make_run_of_variant(e, s, x->scene, variant, x->dt);
 }
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
@@ -97,7 +97,7 @@ static status efficiency_run_once(struct result *x, int variant, int repetition)
     r->seconds[repetition] = report_wall_clock_times(e.report, &e.timers).loop;
     parts_keep(r, e.timers.spent, repetition);
     x->particles = e.part.n, x->steps = e.clock.steps;
-    if (ran == OK) crack_ends_keep(&r->ends, &e);
+    if (ran == OK) crack_ends_store_from_run(&r->ends, &e);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -124,11 +124,11 @@ static void compare_tips(struct result *x, int variant, int dim)
     x->tip_distance[variant] = x->angle_difference[variant] = x->angle[0] = x->angle[variant] = NAN;
     x->start_difference[variant] = adaptive->start - pd->start;
     if (pd->longest < 0) return;
-    const struct crack_tip *a = &pd->tip[pd->longest], *b = crack_partner(adaptive, a);
+    const struct crack_tip *a = &pd->tip[pd->longest], *b = crack_tip_nearest_in_other_run(adaptive, a);
     x->angle[0] = tip_deflection_angle(a, dim);
     if (!b) return;
     x->angle[variant] = tip_deflection_angle(b, dim);
-    x->tip_distance[variant] = place_distance(a->place, b->place);
+    x->tip_distance[variant] = position_distance(a->place, b->place);
     x->angle_difference[variant] = fabs(x->angle[0] - x->angle[variant]);
 }
 
@@ -157,13 +157,14 @@ static status scene_measure(struct result *x, int repetitions)
     TRY(scene_read(&s, x->scene->path, NULL, 0));
     const int dim = s.dim;
     scene_free(&s);
-    TRY(efficiency_step(x->scene, &x->dt));
+    TRY(efficiency_find_common_time_step(x->scene, &x->dt));
     for (int r = 0; r < repetitions; r++)
         for (int k = 0; k < VARIANTS; k++) /* the first lever is always none */
-            if (efficiency_is_run(x->scene, (r + k) % VARIANTS)) TRY(efficiency_run_once(x, (r + k) % VARIANTS, r));
+            if (efficiency_variant_is_run_for_scene(x->scene, (r + k) % VARIANTS))
+                TRY(efficiency_run_once(x, (r + k) % VARIANTS, r));
     x->t[0] = median_by_sorting(x->run[0].seconds, repetitions);
     for (int variant = 1; variant < VARIANTS; variant++) {
-        if (!efficiency_is_run(x->scene, variant)) continue;
+        if (!efficiency_variant_is_run_for_scene(x->scene, variant)) continue;
         TRY(run_shares(x, variant));
         x->t[variant] = median_by_sorting(x->run[variant].seconds, repetitions);
         x->t_r[variant] = 1 - x->t[variant] / x->t[0];
@@ -272,16 +273,17 @@ static void add_variant(struct bench_table *table, const struct result *x, int v
                           x->part[variant][PART_SAMPLES]};
     char title[48];
     efficiency_title(x->scene, title, sizeof title);
-    bench_text(&table[0], title), bench_text(&table[0], x->scene->model);
-    for (size_t c = 0; c < COUNT_OF(main); c++) bench_number(&table[0], main[c]);
-    bench_text(&table[0], efficiency_variant[variant].levers);
-    bench_text(&table[2], title), bench_text(&table[2], x->scene->model),
-        bench_text(&table[2], efficiency_variant[variant].levers);
-    for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[2], run[c]);
+    bench_table_append_text(&table[0], title), bench_table_append_text(&table[0], x->scene->model);
+    for (size_t c = 0; c < COUNT_OF(main); c++) bench_table_append_number(&table[0], main[c]);
+    bench_table_append_text(&table[0], efficiency_variant[variant].levers);
+    bench_table_append_text(&table[2], title), bench_table_append_text(&table[2], x->scene->model),
+        bench_table_append_text(&table[2], efficiency_variant[variant].levers);
+    for (size_t c = 0; c < COUNT_OF(run); c++) bench_table_append_number(&table[2], run[c]);
     for (int k = 0; k <= SAMPLES; k++) {
-        bench_text(&table[1], title), bench_text(&table[1], x->scene->model);
-        bench_text(&table[1], efficiency_variant[variant].levers);
-        bench_number(&table[1], x->run[variant].time[k]), bench_number(&table[1], x->run[variant].share[k]);
+        bench_table_append_text(&table[1], title), bench_table_append_text(&table[1], x->scene->model);
+        bench_table_append_text(&table[1], efficiency_variant[variant].levers);
+        bench_table_append_number(&table[1], x->run[variant].time[k]),
+            bench_table_append_number(&table[1], x->run[variant].share[k]);
     }
 }
 
@@ -296,8 +298,9 @@ static status efficiency_write_tables(const struct efficiency *all)
                      "angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share,aim,bonds,points,conversion,samples");
     for (int k = 0; k < all->n; k++)
         for (int variant = 1; variant < VARIANTS; variant++)
-            if (efficiency_is_run(all->result[k].scene, variant)) add_variant(table, &all->result[k], variant);
-    status s = bench_write("efficiency", table, COUNT_OF(table));
+            if (efficiency_variant_is_run_for_scene(all->result[k].scene, variant))
+                add_variant(table, &all->result[k], variant);
+    status s = bench_write_result_tables("efficiency", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
 }
@@ -312,11 +315,11 @@ static void draw_bars(FILE *to, const struct efficiency *all)
     fputs("$bars << EOD\n", to);
     for (int k = 0; k < all->n; k++) {
         const struct result *x = &all->result[k];
-        efficiency_tic(to, x->scene);
+        efficiency_write_tic_label(to, x->scene);
         for (int variant = 1; variant < VARIANTS; variant++)
             if (!efficiency_variant[variant].colour)
                 continue;
-            else if (!efficiency_is_run(x->scene, variant))
+            else if (!efficiency_variant_is_run_for_scene(x->scene, variant))
                 fputs(" NaN NaN", to);
             else
                 fprintf(to, " %.6g %.6g", fmax(x->t_r[variant], T_R_LEAST), x->t_r[variant]);
@@ -356,7 +359,7 @@ static void draw_bars(FILE *to, const struct efficiency *all)
 static int panels(const struct efficiency *all)
 {
     int n = 0;
-    while (n < all->n && efficiency_of_bonds(all->result[n].scene) && !all->result[n].scene->spacing) n++;
+    while (n < all->n && efficiency_scene_is_bond_based(all->result[n].scene) && !all->result[n].scene->spacing) n++;
     return n;
 }
 
@@ -409,7 +412,7 @@ static status efficiency_measure_all(struct efficiency *all, bool quick)
         x->scene = &efficiency_case[k];
         TRY(scene_measure(x, repetitions));
         for (int variant = 1; variant < VARIANTS; variant++)
-            if (efficiency_is_run(x->scene, variant)) print_variant(x, variant);
+            if (efficiency_variant_is_run_for_scene(x->scene, variant)) print_variant(x, variant);
         all->n++;
     }
     if (all->n == 0)
@@ -423,7 +426,7 @@ status bench_efficiency(bool quick)
 {
     struct efficiency all = {.result = NEW("bench.efficiency", CASES, struct result)};
     printf("efficiency\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     status s = efficiency_measure_all(&all, quick);
     memory_free(all.result);
     return s;

@@ -58,10 +58,10 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
 {
     struct scene s;
     struct run e;
-    TRY(efficiency_make(&e, &s, x->scene, variant_of[method], dt));
+    TRY(efficiency_make_run_of_variant(&e, &s, x->scene, variant_of[method], dt));
     x->spacing = s.spacing;
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
-    if (ran == OK) crack_ends_keep(ends, &e);
+    if (ran == OK) crack_ends_store_from_run(ends, &e);
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -81,7 +81,7 @@ static status sensitivity_run_all(struct scatter *x, double dt)
             *end = (struct end){.dt = dt * factor_of(r, x->runs), .angle = NAN, .place = {NAN, NAN, NAN}};
             ran = sensitivity_run_once(x, m, end->dt, own);
             if (ran != OK || ends[0].longest < 0) continue;
-            const struct crack_tip *tip = crack_partner(own, &ends[0].tip[ends[0].longest]);
+            const struct crack_tip *tip = crack_tip_nearest_in_other_run(own, &ends[0].tip[ends[0].longest]);
             end->start = own->start;
             if (!tip) continue;
             end->angle = tip_deflection_angle(tip, x->dim);
@@ -105,7 +105,7 @@ static void spread_find(struct spread *s, const struct end *end, int n)
     }
     for (int r = 0; r < n; r++) {
         start += square(end[r].start - s->start), angle += square(end[r].angle - s->angle);
-        place += square(place_distance(end[r].place, s->place));
+        place += square(position_distance(end[r].place, s->place));
     }
     s->start_scatter = sqrt(start / n), s->angle_scatter = sqrt(angle / n), s->place_scatter = sqrt(place / n);
 }
@@ -118,16 +118,16 @@ static void print_scatter(const struct scatter *x)
            efficiency_title(x->scene, title, sizeof title), x->scene->model, 1e6 * a->start, 1e6 * b->start,
            100 * (b->start / a->start - 1), a->angle, a->angle_scatter, b->angle, b->angle_scatter,
            fabs(a->angle - b->angle), a->place_scatter / x->spacing, b->place_scatter / x->spacing,
-           place_distance(a->place, b->place) / x->spacing);
+           position_distance(a->place, b->place) / x->spacing);
     fflush(stdout);
 }
 
 static void add_names(struct bench_table *t, const struct scatter *x, int method)
 {
     char title[48];
-    bench_text(t, efficiency_title(x->scene, title, sizeof title));
-    bench_text(t, x->scene->model);
-    bench_text(t, efficiency_variant[variant_of[method]].method);
+    bench_table_append_text(t, efficiency_title(x->scene, title, sizeof title));
+    bench_table_append_text(t, x->scene->model);
+    bench_table_append_text(t, efficiency_variant[variant_of[method]].method);
 }
 
 static void add_rows(struct bench_table *table, const struct scatter *x)
@@ -137,12 +137,12 @@ static void add_rows(struct bench_table *table, const struct scatter *x)
         const double row[] = {(double)x->runs, s->start,    s->start_scatter, s->angle,         s->angle_scatter,
                               s->place[0],     s->place[1], s->place[2],      s->place_scatter, x->spacing};
         add_names(&table[0], x, m);
-        for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&table[0], row[c]);
+        for (size_t c = 0; c < COUNT_OF(row); c++) bench_table_append_number(&table[0], row[c]);
         for (int r = 0; r < x->runs; r++) {
             const struct end *end = &x->end[m][r];
             const double run[] = {end->dt, end->start, end->angle, end->place[0], end->place[1], end->place[2]};
             add_names(&table[1], x, m);
-            for (size_t c = 0; c < COUNT_OF(run); c++) bench_number(&table[1], run[c]);
+            for (size_t c = 0; c < COUNT_OF(run); c++) bench_table_append_number(&table[1], run[c]);
         }
     }
 }
@@ -155,7 +155,7 @@ static status sensitivity_write_tables(const struct all_scatters *all)
         "scene,model,method,runs,start,start_scatter,angle_deg,angle_scatter_deg,x,y,z,place_scatter,spacing");
     bench_table_make(&table[1], "runs", "scene,model,method,time_step,start,angle_deg,x,y,z");
     for (int k = 0; k < all->n; k++) add_rows(table, &all->at[k]);
-    status s = bench_write("sensitivity", table, COUNT_OF(table));
+    status s = bench_write_result_tables("sensitivity", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s;
 }
@@ -174,14 +174,14 @@ static void sensitivity_draw(FILE *to, const void *context)
             const struct scatter *x = &all->at[k];
             for (int r = 0; r < x->runs; r++)
                 fprintf(to, "%.4g %.6g\n", k + 0.36 * (m - 0.5) + 0.02 * (r - x->runs / 2),
-                        place_distance(x->end[m][r].place, x->spread[0].place) / x->spacing);
+                        position_distance(x->end[m][r].place, x->spread[0].place) / x->spacing);
         }
         fputs("EOD\n", to);
     }
     fputs("set xtics scale 0 font ',7' (", to);
     for (int k = 0; k < all->n; k++) {
         if (k > 0) fputs(", ", to);
-        efficiency_tic(to, all->at[k].scene);
+        efficiency_write_tic_label(to, all->at[k].scene);
         fprintf(to, " %d", k);
     }
     fprintf(
@@ -202,7 +202,7 @@ static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;
     x->runs = quick ? STEPS_QUICK : STEPS;
-    TRY(efficiency_step(x->scene, &dt));
+    TRY(efficiency_find_common_time_step(x->scene, &dt));
     TRY(sensitivity_run_all(x, dt));
     for (int m = 0; m < METHODS; m++) spread_find(&x->spread[m], x->end[m], x->runs);
     return OK;
@@ -239,7 +239,7 @@ status bench_sensitivity(bool quick)
 {
     struct all_scatters all = {.at = NEW("bench.scatter", EFFICIENCY_CASES, struct scatter)};
     printf("sensitivity\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     status s = sensitivity_measure_all(&all, quick);
     memory_free(all.at);
     return s;

@@ -56,15 +56,16 @@ struct breaking_method {
 static status stepped_start(struct bench_child *child, const struct breaking_method *w, double share)
 {
     struct bench_overrides o = {0};
-    if (w->scene->key) bench_override(&o, w->scene->key, "%s", w->scene->value);
-    bench_override(&o, "model", "%s", w->model);
-    bench_override(&o, "method", "%s", w->method);
-    bench_override(&o, "pd.last_force", "%s", w->rule);
-    if (strcmp(w->method, "adaptive") == 0) bench_override(&o, "pd.surface", "none"); /* the default of adaptive runs */
-    bench_override(&o, "time.step", "auto");
-    bench_override(&o, "time.safety", "%.6g", share);
-    bench_override(&o, "output.frames", "0");
-    return bench_child_start(child, w->scene->file, bench_overrides_ready(&o), o.n, 1);
+    if (w->scene->key) bench_overrides_append(&o, w->scene->key, "%s", w->scene->value);
+    bench_overrides_append(&o, "model", "%s", w->model);
+    bench_overrides_append(&o, "method", "%s", w->method);
+    bench_overrides_append(&o, "pd.last_force", "%s", w->rule);
+    if (strcmp(w->method, "adaptive") == 0)
+        bench_overrides_append(&o, "pd.surface", "none"); /* the default of adaptive runs */
+    bench_overrides_append(&o, "time.step", "auto");
+    bench_overrides_append(&o, "time.safety", "%.6g", share);
+    bench_overrides_append(&o, "output.frames", "0");
+    return bench_child_start(child, w->scene->file, bench_overrides_as_array(&o), o.n, 1);
 }
 
 static status stepped_take(struct bench_child *child, double *figure)
@@ -88,7 +89,7 @@ static status stepped_run(const struct breaking_method *w, double share, int run
         for (int r = first; r < end && s == OK; r++)
             s = stepped_start(&child[r], w, share * (1 + AROUND * (2.0 * r / (runs - 1) - 1)));
         for (int r = first; r < end && s == OK; r++) s = stepped_take(&child[r], figure[r]);
-        for (int r = first; r < end; r++) bench_child_free(&child[r]);
+        for (int r = first; r < end; r++) bench_child_wait_and_remove_output(&child[r]);
     }
     if (s != OK) return s;
     *to = (struct stepped){.runs = runs};
@@ -132,13 +133,14 @@ static void stepped_print(const struct breaking_method *w, const struct stepped 
 static void stepped_add(struct bench_table *t, const struct breaking_method *w, const struct stepped *x)
 {
     for (int k = 0; k < SHARES; k++) {
-        bench_text(t, w->scene->name);
-        bench_text(t, w->model);
-        bench_text(t, w->method);
-        bench_text(t, w->rule);
-        bench_number(t, shares[k]);
-        bench_number(t, x[k].runs);
-        for (int f = 0; f < FIGURES; f++) bench_number(t, x[k].mean[f]), bench_number(t, x[k].scatter[f]);
+        bench_table_append_text(t, w->scene->name);
+        bench_table_append_text(t, w->model);
+        bench_table_append_text(t, w->method);
+        bench_table_append_text(t, w->rule);
+        bench_table_append_number(t, shares[k]);
+        bench_table_append_number(t, x[k].runs);
+        for (int f = 0; f < FIGURES; f++)
+            bench_table_append_number(t, x[k].mean[f]), bench_table_append_number(t, x[k].scatter[f]);
     }
 }
 
@@ -147,8 +149,8 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
     struct stepped x[SHARES] = {0};
     struct bench_overrides o = {0};
     struct scene s;
-    if (w->scene->key) bench_override(&o, w->scene->key, "%s", w->scene->value);
-    TRY(scene_read(&s, w->scene->file, bench_overrides_ready(&o), o.n));
+    if (w->scene->key) bench_overrides_append(&o, w->scene->key, "%s", w->scene->value);
+    TRY(scene_read(&s, w->scene->file, bench_overrides_as_array(&o), o.n));
     const double spacing = s.spacing;
     scene_free(&s);
     for (int k = 0; k < SHARES; k++) TRY(stepped_run(w, shares[k], shares[k] < 0.2 ? RUNS_QUICK : runs, &x[k]));
@@ -193,7 +195,7 @@ status bench_steps(bool quick)
     printf("  %-20s %-5s %-8s %-6s %6s %12s %11s  | %5s %12s %12s %6s %8s\n", "", "model", "method", "force", "us",
            "mm", "degrees", "start", "length", "angle", "energy", "balance");
     status s = stepped_all(&table, quick);
-    if (s == OK) s = bench_write("steps", &table, 1);
+    if (s == OK) s = bench_write_result_tables("steps", &table, 1);
     bench_table_free(&table);
     return s;
 }

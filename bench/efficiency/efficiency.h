@@ -45,28 +45,29 @@ enum {
 };
 extern const struct variant efficiency_variant[VARIANTS];
 
-/* Creates scene *s and run *e of scene c with the settings efficiency_variant[variant]. dt: time step [s]; 0: that of
- * the scene. Surface correction is used for bond-based models only, since state-based ones normalise with the existing
- * family. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
-status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int variant, double dt);
+/* Creates scene *s and run *e of scene c with the settings efficiency_variant[variant]. time_step: time step [s]; 0:
+ * that of the scene. Surface correction is used for bond-based models only, since state-based ones normalise with the
+ * existing family. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
+status efficiency_make_run_of_variant(struct run *e, struct scene *s, const struct scene_case *c, int variant,
+                                      double time_step);
 
 /* Returns true if the peridynamic model of the scene c is bond-based. */
-bool efficiency_of_bonds(const struct scene_case *c);
+bool efficiency_scene_is_bond_based(const struct scene_case *c);
 
 /* Returns true if efficiency_variant[variant] is run for the scene c: all variants at the scene's own spacing, and at
  * finer spacings, which take long, only full peridynamics and the variants `frame`, `slits` and `levels`. */
-bool efficiency_is_run(const struct scene_case *c, int variant);
+bool efficiency_variant_is_run_for_scene(const struct scene_case *c, int variant);
 
-/* Stores in *dt the smallest of the time steps [s] that the variants run for the scene c would choose, so that all can
- * be run with the same one. Returns REFUSED or FAILED if a run cannot be created. */
-status efficiency_step(const struct scene_case *c, double *dt);
+/* Stores in *time_step the smallest of the time steps [s] that the variants run for the scene c would choose, so that
+ * all can be run with the same one. Returns REFUSED or FAILED if a run cannot be created. */
+status efficiency_find_common_time_step(const struct scene_case *c, double *time_step);
 
 /* Writes a title of the scene c such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` into text[room], and returns
  * text. */
-const char *efficiency_title(const struct scene_case *c, char *text, size_t room);
+const char *efficiency_title(const struct scene_case *c, char *text, size_t capacity);
 
 /* Writes name, model and spacing of a scene as a quoted label of gnuplot, with one word per line. */
-void efficiency_tic(FILE *to, const struct scene_case *scene);
+void efficiency_write_tic_label(FILE *gnuplot, const struct scene_case *scene);
 
 /* Crack tips at the end of a run. */
 struct crack_ends {
@@ -76,14 +77,14 @@ struct crack_ends {
 };
 
 /* Stores the crack tips, the longest crack and the time of the first broken bond of the run e in *c. */
-void crack_ends_keep(struct crack_ends *c, const struct run *e);
+void crack_ends_store_from_run(struct crack_ends *c, const struct run *e);
 
 /* Returns that crack tip of another run, among those of cracks that grew, which ended nearest to the end of `tip`; NULL
  * if no crack grew. Ends are compared because the nearest start may belong to a crack that grew by only one spacing
  * beside the long one. */
-const struct crack_tip *crack_partner(const struct crack_ends *other, const struct crack_tip *tip);
+const struct crack_tip *crack_tip_nearest_in_other_run(const struct crack_ends *other_run, const struct crack_tip *tip);
 
-/* Returns the distance between two positions a[DIM_MAX] and b[DIM_MAX] [m]. */
-double place_distance(const real *a, const real *b);
+/* Returns the distance between two positions position[DIM_MAX] and other_position[DIM_MAX] [m]. */
+double position_distance(const real *position, const real *other_position);
 
 #endif

@@ -47,18 +47,19 @@ const struct variant efficiency_variant[VARIANTS] = {
     {"adaptive", "all", "reference", "true", "true", "auto", true, "#d1603d"},
 };
 
-bool efficiency_of_bonds(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
+bool efficiency_scene_is_bond_based(const struct scene_case *c) { return strcmp(c->model, "bond") == 0; }
 
-status efficiency_make(struct run *e, struct scene *s, const struct scene_case *c, int variant, double dt)
+status efficiency_make_run_of_variant(struct run *e, struct scene *s, const struct scene_case *c, int variant,
+                                      double time_step)
 {
     char step[32], samples[16];
     const struct variant *w = &efficiency_variant[variant];
     struct scene_override override[13] = {
         {"method", w->method},        {"output.samples", samples},
         {"model", c->model},          {"mpm.frame", w->frame},
-        {"time.active_set", w->rest}, {"pd.surface", efficiency_of_bonds(c) ? "volume" : "none"}};
+        {"time.active_set", w->rest}, {"pd.surface", efficiency_scene_is_bond_based(c) ? "volume" : "none"}};
     int n = 6;
-    snprintf(step, sizeof step, "%.17g", dt);
+    snprintf(step, sizeof step, "%.17g", time_step);
     snprintf(samples, sizeof samples, "%d", EFFICIENCY_SAMPLES);
     if (variant > 0) override[n++] = (struct scene_override){"conversion.reversion", w->back};
     if (variant > 0) override[n++] = (struct scene_override){"conversion.tips", c->tips};
@@ -67,69 +68,69 @@ status efficiency_make(struct run *e, struct scene *s, const struct scene_case *
     /* The scene's mpm.origin is chosen for another surface correction. */
     if (strstr(c->path, "plate_hole")) override[n++] = (struct scene_override){"mpm.origin", ""};
     if (c->spacing) override[n++] = (struct scene_override){"particles.spacing", c->spacing};
-    if (dt > 0) override[n++] = (struct scene_override){"time.step", step};
-    if (!(dt > 0) && c->spacing)
+    if (time_step > 0) override[n++] = (struct scene_override){"time.step", step};
+    if (!(time_step > 0) && c->spacing)
         override[n++] = (struct scene_override){"time.step", "auto"}; /* finer than the scene */
     return bench_engine_make(e, s, c->path, NULL, override, n);
 }
 
-bool efficiency_is_run(const struct scene_case *c, int variant)
+bool efficiency_variant_is_run_for_scene(const struct scene_case *c, int variant)
 {
     return !c->spacing || variant == VARIANT_PD || (variant >= VARIANT_FRAME && variant <= VARIANT_LEVELS);
 }
 
-status efficiency_step(const struct scene_case *c, double *dt)
+status efficiency_find_common_time_step(const struct scene_case *c, double *time_step)
 {
-    *dt = INFINITY;
+    *time_step = INFINITY;
     for (int variant = 0; variant < VARIANTS; variant++) {
         struct scene s;
         struct run e;
-        if (!efficiency_is_run(c, variant)) continue;
-        TRY(efficiency_make(&e, &s, c, variant, 0));
-        *dt = fmin(*dt, e.clock.dt);
+        if (!efficiency_variant_is_run_for_scene(c, variant)) continue;
+        TRY(efficiency_make_run_of_variant(&e, &s, c, variant, 0));
+        *time_step = fmin(*time_step, e.clock.dt);
         bench_engine_free(&e, &s);
     }
     return OK;
 }
 
-const char *efficiency_title(const struct scene_case *c, char *text, size_t room)
+const char *efficiency_title(const struct scene_case *c, char *text, size_t capacity)
 {
-    snprintf(text, room, c->spacing ? "%s at %s" : "%s", c->name, c->spacing);
+    snprintf(text, capacity, c->spacing ? "%s at %s" : "%s", c->name, c->spacing);
     return text;
 }
 
-void efficiency_tic(FILE *to, const struct scene_case *scene)
+void efficiency_write_tic_label(FILE *gnuplot, const struct scene_case *scene)
 {
-    fputc('"', to);
-    for (const char *c = scene->name; *c; c++) fputs(*c == '_' ? "\\n" : (char[]){*c, '\0'}, to);
-    fprintf(to, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
+    fputc('"', gnuplot);
+    for (const char *c = scene->name; *c; c++) fputs(*c == '_' ? "\\n" : (char[]){*c, '\0'}, gnuplot);
+    fprintf(gnuplot, "\\n%s\\n%s\"", scene->model, scene->spacing ? scene->spacing : "");
 }
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
 /* Stores the crack tips of the run e, the index of the longest crack, and the time of its first broken bond in *c. */
-void crack_ends_keep(struct crack_ends *c, const struct run *e)
+void crack_ends_store_from_run(struct crack_ends *c, const struct run *e)
 {
-    const struct crack_tip *longest = tips_longest(&e->fracture->tips);
+    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);
     memcpy(c->tip, e->fracture->tips.tip, sizeof c->tip);
     c->tips = e->fracture->tips.n;
     c->longest = longest ? (int)(longest - e->fracture->tips.tip) : -1;
     c->start = e->diagnostics->break_time;
 }
 
-double place_distance(const real *a, const real *b)
+double position_distance(const real *position, const real *other_position)
 {
     double sum = 0;
-    for (int d = 0; d < DIM_MAX; d++) sum += square(a[d] - b[d]);
+    for (int d = 0; d < DIM_MAX; d++) sum += square(position[d] - other_position[d]);
     return sqrt(sum);
 }
 
-const struct crack_tip *crack_partner(const struct crack_ends *other, const struct crack_tip *tip)
+const struct crack_tip *crack_tip_nearest_in_other_run(const struct crack_ends *other_run, const struct crack_tip *tip)
 {
     const struct crack_tip *best = NULL;
-    for (int k = 0; k < other->tips; k++)
-        if (other->tip[k].growth > 0 &&
-            (!best || place_distance(other->tip[k].place, tip->place) < place_distance(best->place, tip->place)))
-            best = &other->tip[k];
+    for (int k = 0; k < other_run->tips; k++)
+        if (other_run->tip[k].growth > 0 && (!best || position_distance(other_run->tip[k].place, tip->place) <
+                                                          position_distance(best->place, tip->place)))
+            best = &other_run->tip[k];
     return best;
 }

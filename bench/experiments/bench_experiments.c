@@ -46,14 +46,14 @@ static void experiment_row_print(const struct experiment_row *r)
     fflush(stdout);
 }
 
-void experiment_add(struct experiments *x, struct experiment_row row)
+void experiment_add_and_print_result(struct experiments *x, struct experiment_row result)
 {
     INVARIANT(x->n < EXPERIMENT_ROWS_MOST);
-    x->row[x->n++] = row;
-    experiment_row_print(&row);
+    x->row[x->n++] = result;
+    experiment_row_print(&result);
 }
 
-struct experiment_curve *experiment_curve_begin(struct experiments *x, const char *picture, const char *name, ...)
+struct experiment_curve *experiment_add_empty_curve(struct experiments *x, const char *picture, const char *name, ...)
 {
     va_list more;
     INVARIANT(x->curves < EXPERIMENT_CURVES_MOST);
@@ -65,12 +65,12 @@ struct experiment_curve *experiment_curve_begin(struct experiments *x, const cha
     return c;
 }
 
-void experiment_curve_add(struct experiment_curve *c, double x, double y, double error)
+void experiment_curve_append_point(struct experiment_curve *c, double x, double y, double error_bar_half_height)
 {
     GROW("bench.curve", c->x, c->n + 1);
     GROW("bench.curve", c->y, c->n + 1);
     GROW("bench.curve", c->error, c->n + 1);
-    c->x[c->n] = x, c->y[c->n] = y, c->error[c->n++] = error;
+    c->x[c->n] = x, c->y[c->n] = y, c->error[c->n++] = error_bar_half_height;
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
@@ -86,23 +86,24 @@ static status experiments_write(const struct experiments *x)
     bench_table_make(&t[1], "curves", "picture,name,x,y,error");
     for (int k = 0; k < x->n; k++) {
         const struct experiment_row *r = &x->row[k];
-        bench_text(&t[0], r->experiment), bench_text(&t[0], r->variant), bench_text(&t[0], r->figure);
-        bench_text(&t[0], r->unit[0] ? r->unit : "1");
+        bench_table_append_text(&t[0], r->experiment), bench_table_append_text(&t[0], r->variant),
+            bench_table_append_text(&t[0], r->figure);
+        bench_table_append_text(&t[0], r->unit[0] ? r->unit : "1");
         const double number[] = {r->value, r->deviation, r->runs, r->interval, r->low, r->high};
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(&t[0], number[c]);
-        bench_text(&t[0], r->source && r->source[0] ? r->source : "-");
-        bench_text(&t[0], r->verdict && r->verdict[0] ? r->verdict : "-");
-        bench_number(&t[0], r->spacing);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(&t[0], number[c]);
+        bench_table_append_text(&t[0], r->source && r->source[0] ? r->source : "-");
+        bench_table_append_text(&t[0], r->verdict && r->verdict[0] ? r->verdict : "-");
+        bench_table_append_number(&t[0], r->spacing);
         for (int l = 0; l < 2; l++)
-            for (int c = 0; c < 3; c++) bench_number(&t[0], l < r->coarser ? r->coarse[l][c] : NAN);
+            for (int c = 0; c < 3; c++) bench_table_append_number(&t[0], l < r->coarser ? r->coarse[l][c] : NAN);
     }
     for (int k = 0; k < x->curves; k++)
         for (int64_t i = 0; i < x->curve[k].n; i++) {
-            bench_text(&t[1], x->curve[k].picture), bench_text(&t[1], x->curve[k].name);
-            bench_number(&t[1], x->curve[k].x[i]), bench_number(&t[1], x->curve[k].y[i]);
-            bench_number(&t[1], x->curve[k].error[i]);
+            bench_table_append_text(&t[1], x->curve[k].picture), bench_table_append_text(&t[1], x->curve[k].name);
+            bench_table_append_number(&t[1], x->curve[k].x[i]), bench_table_append_number(&t[1], x->curve[k].y[i]);
+            bench_table_append_number(&t[1], x->curve[k].error[i]);
         }
-    const status s = bench_write("experiments", t, 2);
+    const status s = bench_write_result_tables("experiments", t, 2);
     bench_table_free(&t[0]), bench_table_free(&t[1]);
     return s;
 }
@@ -135,21 +136,22 @@ static void experiments_summary(const struct experiments *x)
 
 status bench_experiments(bool quick)
 {
-    static status (*const part[])(struct experiments *) = {experiments_plates, experiments_surfing, experiments_strip,
-                                                           experiments_vortex, experiments_beam,    experiments_disc};
+    static status (*const part[])(struct experiments *) = {
+        experiments_run_plates, experiments_run_surfing_crack, experiments_run_strip,
+        experiments_run_vortex, experiments_run_notched_beam,  experiments_run_compressed_disc};
     struct experiments *x = NEW("bench.experiments", 1, struct experiments);
-    status s = bench_folder_make();
+    status s = bench_create_results_folder();
     x->quick = quick;
     strcpy(x->folder, BENCH_FOLDER "/experiments-XXXXXX");
     printf("experiments\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     if (s == OK && !mkdtemp(x->folder)) s = file_report_write_failure(x->folder, errno), x->folder[0] = 0;
     printf("  %-19s %-11s %-24s %9s %-6s %8s %2s %8s  asked (source)  [coarser spacings]\n", "experiment", "variant",
            "figure", "mean", "", "one run", "n", "95 %");
     for (size_t k = 0; k < COUNT_OF(part) && s == OK; k++) s = part[k](x);
     if (s == OK) experiments_summary(x);
     if (s == OK) s = experiments_write(x);
-    if (s == OK) s = experiments_draw(x);
+    if (s == OK) s = experiments_draw_all_pictures(x);
     experiments_free(x);
     return s;
 }

@@ -51,20 +51,20 @@ struct experiments {
 };
 
 /* Adds a result to x and prints it. */
-void experiment_add(struct experiments *x, struct experiment_row row);
+void experiment_add_and_print_result(struct experiments *x, struct experiment_row result);
 
 /* Adds an empty curve to x. picture: name of the picture in which it is drawn; name: title of the curve, a format of
  * printf followed by its arguments. Returns the curve, which is part of x. */
-struct experiment_curve *experiment_curve_begin(struct experiments *x, const char *picture, const char *name, ...)
+struct experiment_curve *experiment_add_empty_curve(struct experiments *x, const char *picture, const char *name, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Appends the point (x, y) to a curve. error: half height of its error bar; NAN: none. */
-void experiment_curve_add(struct experiment_curve *c, double x, double y, double error);
+/* Appends the point (x, y) to a curve. error_bar_half_height: half height of its error bar; NAN: none. */
+void experiment_curve_append_point(struct experiment_curve *c, double x, double y, double error_bar_half_height);
 
 /* ---- experiments_draw.c: pictures -------------------------------------------------------------------------------- */
 
 /* Draws all pictures from the results, curves and crack paths of x. Returns FAILED if a picture cannot be drawn. */
-status experiments_draw(struct experiments *x);
+status experiments_draw_all_pictures(struct experiments *x);
 
 /* ---- experiments_study.c: a scene at three spacings, with variations that have no physical meaning --------------- */
 
@@ -92,11 +92,12 @@ struct experiment_case {
 
 /* Makes the convergence study of the case c, with runs at three spacings and variations without physical meaning, and
  * adds its results to x. Returns REFUSED or FAILED if the study does. */
-status experiment_study(struct experiments *x, const struct experiment_case *c);
+status experiment_make_convergence_study(struct experiments *x, const struct experiment_case *c);
 
 /* Computes mean, standard deviation and half width of the 95 % confidence interval of the mean of value[n], without
  * values that are not finite. Returns the number of finite values. */
-int experiment_mean(const double *value, int n, double *mean, double *deviation, double *interval);
+int experiment_compute_mean_and_interval(const double *value, int value_count, double *mean, double *deviation,
+                                         double *interval);
 
 /* ---- experiments_branch.c: crack branching ----------------------------------------------------------------------- */
 
@@ -110,55 +111,55 @@ struct branching {
 };
 
 /* Finds the branching of a crack along x in the damage of a frame. spacing: of the particles [m]. */
-struct branching branching_find(const struct output_frame *f, double spacing);
+struct branching branching_find_in_frame(const struct output_frame *frame, double spacing);
 
-/* Returns the coordinate x at which the crack branches, in the last frame of a run [m]; NAN if it does not. folder: of
- * the run; spacing [m]. */
-double branching_place(const char *folder, double spacing);
+/* Returns the coordinate x at which the crack branches, in the last frame of a run [m]; NAN if it does not. run_folder:
+ * of the run; spacing [m]. */
+double branching_x_coordinate(const char *run_folder, double spacing);
 
 /* Returns the angle between the outermost branches of the crack in the last frame of a run [degree]; NAN if it does not
- * branch. folder: of the run; spacing [m]. */
-double branching_angle(const char *folder, double spacing);
+ * branch. run_folder: of the run; spacing [m]. */
+double branching_angle_in_degrees(const char *run_folder, double spacing);
 
-/* Returns the largest number of branches of the crack in the last frame of a run; 0 if there is no such frame. folder:
- * of the run; spacing [m]. */
-double branching_count(const char *folder, double spacing);
+/* Returns the largest number of branches of the crack in the last frame of a run; 0 if there is no such frame.
+ * run_folder: of the run; spacing [m]. */
+double branching_largest_branch_count(const char *run_folder, double spacing);
 
-/* Reads the last frame of the run in `folder` into *f. Returns FAILED if there is none or it cannot be read. Release
- * with frame_free in either case. */
-status experiment_last_frame(struct output_frame *f, const char *folder);
+/* Reads the last frame of the run in `run_folder` into *frame. Returns FAILED if there is none or it cannot be read.
+ * Release with frame_free in either case. */
+status experiment_read_last_frame(struct output_frame *frame, const char *run_folder);
 enum { EXPERIMENT_DAMAGED = 35 }; /* damage that counts as crack, as for crack tips [%] */
 
 /* ---- the experiments --------------------------------------------------------------------------------------------- */
 
 /* Runs Kalthoff's plate and branching in glass, and adds their results to x. Returns REFUSED or FAILED if a study
  * does. */
-status experiments_plates(struct experiments *x);
+status experiments_run_plates(struct experiments *x);
 
 /* Runs a crack through a strip with displaced faces under several loads, and adds speed, stress-intensity factor and
  * energy to x. Returns REFUSED or FAILED if a study does. */
-status experiments_strip(struct experiments *x);
+status experiments_run_strip(struct experiments *x);
 
 /* Runs a crack that follows a prescribed moving displacement field (surfing, Hossain et al. 2014), and adds the energy
  * per crack area to x. Returns REFUSED or FAILED if a run does. */
-status experiments_surfing(struct experiments *x);
+status experiments_run_surfing_crack(struct experiments *x);
 
-/* Measured by surf_run: energy of broken bonds over the new crack area [J/m^2]; mean crack speed over that of the
- * field. */
+/* Measured by surf_run_and_measure_crack: energy of broken bonds over the new crack area [J/m^2]; mean crack speed over
+ * that of the field. */
 struct surf_figures {
     double taken, speed;
 };
 
 /* Runs a mode I crack under the displacements of a steadily moving crack, prescribed at the edge of the plate. The
- * field has the energy release rate A_I K^2/E = share * G_c with G_c = 40 J/m^2 and moves at `speed` times the Rayleigh
- * speed. spacing [m]; safety: fraction of the critical time step. Stores the results in *found and the Rayleigh speed
- * [m/s] in *rayleigh. Returns REFUSED or FAILED if the run does. */
-status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found,
-                double *rayleigh);
+ * field has the energy release rate A_I K^2/E = share * G_c with G_c = 40 J/m^2 and moves at `speed_ratio` times the
+ * Rayleigh speed. spacing [m]; time_step_fraction: fraction of the critical time step. Stores the results in *measured
+ * and the Rayleigh speed [m/s] in *rayleigh_speed. Returns REFUSED or FAILED if the run does. */
+status surf_run_and_measure_crack(double spacing, double energy_share, double speed_ratio, double time_step_fraction,
+                                  struct surf_figures *measured, double *rayleigh_speed);
 
 /* Runs a vortex with manufactured body force, after Kamojjala et al. 2015, at several spacings, and adds its errors and
  * their order to x. Returns REFUSED or FAILED if a run does. */
-status experiments_vortex(struct experiments *x);
+status experiments_run_vortex(struct experiments *x);
 
 /* Numerical methods of the vortex. */
 enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
@@ -166,13 +167,13 @@ enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
 /* Runs the vortex with a numerical method at a spacing [m]. error: receives the root-mean-square error of the
  * displacements at the end over the root mean square of the displacements [1]. Returns REFUSED or FAILED if the run
  * does. */
-status vortex_run(enum vortex_method method, double spacing, double *error);
+status vortex_run_and_measure_error(enum vortex_method method, double spacing, double *error);
 
 /* Runs the notched beam of John & Shah 1990 and adds its results to x. Returns REFUSED or FAILED if a run does. */
-status experiments_beam(struct experiments *x);
+status experiments_run_notched_beam(struct experiments *x);
 
 /* Runs a disc that is compressed across its diameter, and adds its stress and its largest load over the closed forms to
  * x. Returns REFUSED or FAILED if a run does. */
-status experiments_disc(struct experiments *x);
+status experiments_run_compressed_disc(struct experiments *x);
 
 #endif

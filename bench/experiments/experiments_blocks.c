@@ -26,12 +26,12 @@ static status beam_middle(double gamma, double safety, double spacing, bool *mid
     struct bench_overrides o = {0};
     /* The notch is midway between two columns of particles, as in the scene. */
     const double at = spacing * round(gamma * HALF_SPAN / spacing);
-    bench_override(&o, "cracks", "[{from: [%.9g mm, -1 mm], to: [%.9g mm, 19 mm], width: 2 mm}]", at, at);
-    bench_override(&o, "particles.spacing", "%.9g mm", spacing);
-    bench_override(&o, "time.safety", "%.9g", safety);
-    bench_override(&o, "output", "{frames: 0, samples: 1}");
-    TRY(bench_engine_make(&e, &s, "inputs/three_point_bend.yaml", NULL, bench_overrides_ready(&o), o.n));
-    const status ran = engine_run(&e);
+    bench_overrides_append(&o, "cracks", "[{from: [%.9g mm, -1 mm], to: [%.9g mm, 19 mm], width: 2 mm}]", at, at);
+    bench_overrides_append(&o, "particles.spacing", "%.9g mm", spacing);
+    bench_overrides_append(&o, "time.safety", "%.9g", safety);
+    bench_overrides_append(&o, "output", "{frames: 0, samples: 1}");
+    TRY(bench_engine_make(&e, &s, "inputs/three_point_bend.yaml", NULL, bench_overrides_as_array(&o), o.n));
+    const status ran = engine_run_to_end(&e);
     *middle = false;
     for (int64_t i = 0; i < e.part.n && ran == OK; i++)
         *middle |= e.part.damage[i] > 0.01 * EXPERIMENT_DAMAGED && fabs(e.part.X[0][i]) < 2e-4 * HALF_SPAN &&
@@ -60,7 +60,7 @@ static status beam_change(double safety, double spacing, double *gamma)
     return OK;
 }
 
-status experiments_beam(struct experiments *x)
+status experiments_run_notched_beam(struct experiments *x)
 {
     static const double safety[BEAM_STEPS] = {0.45, 0.5, 0.55}, spacing[2] = {2.54, 1.27};
     static const struct experiment_case angle = {
@@ -87,11 +87,11 @@ status experiments_beam(struct experiments *x)
                                      .spacing = spacing[h]};
         double value[BEAM_STEPS];
         for (int k = 0; k < BEAM_STEPS; k++) TRY(beam_change(safety[k], spacing[h], &value[k]));
-        row.runs = experiment_mean(value, BEAM_STEPS, &row.value, &row.deviation, &row.interval);
+        row.runs = experiment_compute_mean_and_interval(value, BEAM_STEPS, &row.value, &row.deviation, &row.interval);
         snprintf(row.variant, sizeof row.variant, "%.3g mm", spacing[h]);
-        experiment_add(x, row);
+        experiment_add_and_print_result(x, row);
     }
-    return experiment_study(x, &angle);
+    return experiment_make_convergence_study(x, &angle);
 }
 
 /* ---- the disc ---------------------------------------------------------------------------------------------------- */
@@ -139,7 +139,7 @@ static double disc_strength(const char *folder, double spacing)
     return most / (0.5 * M_PI * DISC_DIAMETER * DISC_THICKNESS * strength);
 }
 
-status experiments_disc(struct experiments *x)
+status experiments_run_compressed_disc(struct experiments *x)
 {
     static const struct experiment_case disc = {
         "Brazilian disc",
@@ -154,5 +154,5 @@ status experiments_disc(struct experiments *x)
         {{"stress / closed form", "", NULL, disc_stress, 1, 0.98, 1.02, DISC_CLOSED},
          {"largest load / E s_c", "", NULL, disc_strength, 1, 0.9, 1.1, DISC_CLOSED},
          {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""}}};
-    return experiment_study(x, &disc);
+    return experiment_make_convergence_study(x, &disc);
 }

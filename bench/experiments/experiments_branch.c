@@ -84,11 +84,11 @@ static double opening_slope(const struct branch_column *c, int first, int end, d
     return n > 5 ? (n * xy - x * y) / (n * xx - x * x) : NAN;
 }
 
-struct branching branching_find(const struct output_frame *f, double spacing)
+struct branching branching_find_in_frame(const struct output_frame *frame, double spacing)
 {
     struct branching b = {NAN, NAN, 0};
     int columns;
-    struct branch_column *c = columns_of(f, spacing, &columns);
+    struct branch_column *c = columns_of(frame, spacing, &columns);
     for (int k = (int)(BRANCH_FROM / spacing) + 1; k < columns; k++) {
         b.branches = c[k].branches > b.branches ? c[k].branches : b.branches;
         if (!isnan(b.x) || !branches_from(c, columns, k, spacing)) continue;
@@ -102,28 +102,34 @@ struct branching branching_find(const struct output_frame *f, double spacing)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Reads the last frame of the run in `folder` into *f. Returns FAILED if there is none or it cannot be read. Release
- * with frame_free in either case. */
-status experiment_last_frame(struct output_frame *f, const char *folder)
+/* Reads the last frame of the run in `run_folder` into *frame. Returns FAILED if there is none or it cannot be read.
+ * Release with frame_free in either case. */
+status experiment_read_last_frame(struct output_frame *frame, const char *run_folder)
 {
     int n;
     struct listed_frame *list;
     char path[4400];
-    TRY(run_list_frames(folder, &n, &list));
-    if (n > 0) snprintf(path, sizeof path, "%s/frames/%06d.hdf", folder, list[n - 1].number);
+    TRY(run_list_frames(run_folder, &n, &list));
+    if (n > 0) snprintf(path, sizeof path, "%s/frames/%06d.hdf", run_folder, list[n - 1].number);
     memory_free(list);
-    return n > 0 ? frame_read(f, path) : status_set(FAILED, "%s has no frames", folder);
+    return n > 0 ? frame_read(frame, path) : status_set(FAILED, "%s has no frames", run_folder);
 }
 
 static struct branching branching_in(const char *folder, double spacing)
 {
     struct output_frame f = {0};
     struct branching b = {NAN, NAN, 0};
-    if (experiment_last_frame(&f, folder) == OK) b = branching_find(&f, spacing);
+    if (experiment_read_last_frame(&f, folder) == OK) b = branching_find_in_frame(&f, spacing);
     frame_free(&f);
     return b;
 }
 
-double branching_place(const char *folder, double spacing) { return branching_in(folder, spacing).x; }
-double branching_angle(const char *folder, double spacing) { return branching_in(folder, spacing).angle; }
-double branching_count(const char *folder, double spacing) { return branching_in(folder, spacing).branches; }
+double branching_x_coordinate(const char *run_folder, double spacing) { return branching_in(run_folder, spacing).x; }
+double branching_angle_in_degrees(const char *run_folder, double spacing)
+{
+    return branching_in(run_folder, spacing).angle;
+}
+double branching_largest_branch_count(const char *run_folder, double spacing)
+{
+    return branching_in(run_folder, spacing).branches;
+}

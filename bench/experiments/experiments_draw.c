@@ -44,7 +44,7 @@ static void experiment_plot_panel(FILE *to, const struct experiments *x, const s
         if (strcmp(x->curve[k].picture, p->picture) != 0 || x->curve[k].n == 0) continue;
         fprintf(to, "%s$c%d using 1:2:3 with yerrorlines lw 2 pt 7 ps 0.8 lc rgb '%s' title ",
                 shown > 0 ? ", " : "plot ", k, curve_colour[shown % CURVE_COLOURS]);
-        gnuplot_quote(to, x->curve[k].name);
+        gnuplot_write_quoted_string(to, x->curve[k].name);
         shown++;
     }
     if (p->behind) fprintf(to, "%s%s", shown++ ? ", " : "plot ", p->behind);
@@ -66,10 +66,12 @@ static void experiments_curves(struct experiments *x)
     for (int k = 0; k < x->n && x->curves < EXPERIMENT_CURVES_MOST; k++) {
         const struct experiment_row *r = &x->row[k];
         if (strcmp(r->figure, "branches at x") || !strcmp(r->experiment, "strip")) continue;
-        struct experiment_curve *c = experiment_curve_begin(x, "branches at x", "%s, %s", r->experiment, r->variant);
-        if (isfinite(r->value)) experiment_curve_add(c, r->spacing, r->value, r->deviation);
+        struct experiment_curve *c =
+            experiment_add_empty_curve(x, "branches at x", "%s, %s", r->experiment, r->variant);
+        if (isfinite(r->value)) experiment_curve_append_point(c, r->spacing, r->value, r->deviation);
         for (int l = 0; l < r->coarser; l++)
-            if (isfinite(r->coarse[l][1])) experiment_curve_add(c, r->coarse[l][0], r->coarse[l][1], r->coarse[l][2]);
+            if (isfinite(r->coarse[l][1]))
+                experiment_curve_append_point(c, r->coarse[l][0], r->coarse[l][1], r->coarse[l][2]);
     }
 }
 
@@ -99,7 +101,7 @@ static void experiments_draw_paths(FILE *to, const void *context)
     fputs("unset multiplot\n", to);
 }
 
-status experiments_draw(struct experiments *x)
+status experiments_draw_all_pictures(struct experiments *x)
 {
     experiments_curves(x);
     if (x->paths > 0)

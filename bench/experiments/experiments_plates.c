@@ -30,10 +30,10 @@ static const char borden_text[] =
 /* Figures of a crack that branches: time of the first break, position and angle of the branches, and their number. */
 #define BRANCHES                                                                                                       \
     {"first bond breaks", "us", "crack.start_time", NULL, 1e6, NAN, NAN, ""},                                          \
-        {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""},                                             \
-        {"angle between branches", "deg", NULL, branching_angle, 1, NAN, NAN, ""},                                     \
+        {"branches at x", "mm", NULL, branching_x_coordinate, 1e3, NAN, NAN, ""},                                      \
+        {"angle between branches", "deg", NULL, branching_angle_in_degrees, 1, NAN, NAN, ""},                          \
     {                                                                                                                  \
-        "branches", "", NULL, branching_count, 1, NAN, NAN, ""                                                         \
+        "branches", "", NULL, branching_largest_branch_count, 1, NAN, NAN, ""                                          \
     }
 #define GLASS_FIGURES                                                                                                  \
     {                                                                                                                  \
@@ -123,8 +123,8 @@ static const struct experiment_case plate_cases[] = {
      BORDEN_FIGURES},
 };
 
-status experiments_plates(struct experiments *x)
+status experiments_run_plates(struct experiments *x)
 {
-    for (size_t k = 0; k < COUNT_OF(plate_cases); k++) TRY(experiment_study(x, &plate_cases[k]));
+    for (size_t k = 0; k < COUNT_OF(plate_cases); k++) TRY(experiment_make_convergence_study(x, &plate_cases[k]));
     return OK;
 }

@@ -40,7 +40,7 @@ static struct crack_medium strip_medium(void)
 {
     struct material m = {.young = STRIP_YOUNG, .poisson = STRIP_POISSON, .density = STRIP_DENSITY};
     material_compute_derived_constants(&m, SPACE_PLANE_STRESS);
-    return crack_medium_of(&m, SPACE_PLANE_STRESS);
+    return crack_medium_of_material(&m, SPACE_PLANE_STRESS);
 }
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
@@ -53,7 +53,7 @@ struct strip_window {
 
 static bool strip_window_open(struct strip_window *w, const char *folder, double spacing)
 {
-    const double branches = branching_place(folder, spacing);
+    const double branches = branching_x_coordinate(folder, spacing);
     *w = (struct strip_window){0};
     if (history_read(&w->h, folder) != OK) return false;
     const double straight = isnan(branches) ? INFINITY : branches - STRIP_NOTCH - 4 * spacing;
@@ -144,8 +144,8 @@ static double strip_value(const struct experiments *x, const char *variant, cons
  * result, and the curves of the picture. variant[STRIP_LOADS]: names of the loads in the results. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
-    struct experiment_curve *speed = experiment_curve_begin(x, "speed", "strip");
-    struct experiment_curve *taken = experiment_curve_begin(x, "taken", "strip");
+    struct experiment_curve *speed = experiment_add_empty_curve(x, "speed", "strip");
+    struct experiment_curve *taken = experiment_add_empty_curve(x, "taken", "strip");
     struct experiment_row fastest = {.experiment = "strip",
                                      .variant = "all loads",
                                      .figure = "largest speed / c_R",
@@ -159,14 +159,14 @@ static void strip_curves(struct experiments *x, const char (*variant)[16])
         double spread = NAN, other = NAN;
         const double v = strip_value(x, variant[k], "speed / c_R", &spread);
         if (isnan(v)) continue;
-        experiment_curve_add(speed, strip_value(x, variant[k], "K / K_c", &other), v, spread);
-        experiment_curve_add(taken, v, strip_value(x, variant[k], "energy taken / G_c", &other), other);
+        experiment_curve_append_point(speed, strip_value(x, variant[k], "K / K_c", &other), v, spread);
+        experiment_curve_append_point(taken, v, strip_value(x, variant[k], "energy taken / G_c", &other), other);
         if (isnan(fastest.value) || v > fastest.value) fastest.value = v, fastest.deviation = spread, fastest.runs = 1;
     }
-    experiment_add(x, fastest);
+    experiment_add_and_print_result(x, fastest);
 }
 
-status experiments_strip(struct experiments *x)
+status experiments_run_strip(struct experiments *x)
 {
     char variant[STRIP_LOADS][16], initial[STRIP_LOADS][96];
     for (int k = 0; k < STRIP_LOADS; k++) {
@@ -187,8 +187,8 @@ status experiments_strip(struct experiments *x)
                                            {"K / K_c", "", NULL, strip_factor, 1, NAN, NAN, ""},
                                            {"A_I K^2/E / G_c", "", NULL, strip_flux, 1, NAN, NAN, ""},
                                            {"energy taken / G_c", "", NULL, strip_taken, 1, NAN, NAN, ""},
-                                           {"branches at x", "mm", NULL, branching_place, 1e3, NAN, NAN, ""}}};
-        TRY(experiment_study(x, &c));
+                                           {"branches at x", "mm", NULL, branching_x_coordinate, 1e3, NAN, NAN, ""}}};
+        TRY(experiment_make_convergence_study(x, &c));
     }
     strip_curves(x, variant);
     return OK;

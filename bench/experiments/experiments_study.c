@@ -12,17 +12,18 @@
 
 #define EXPERIMENT_BUDGET 7200.0 /* allowed duration of one study, never reached in practice [s] */
 
-int experiment_mean(const double *value, int n, double *mean, double *deviation, double *interval)
+int experiment_compute_mean_and_interval(const double *value, int value_count, double *mean, double *deviation,
+                                         double *interval)
 {
     int held = 0;
     double sum = 0;
     *mean = *deviation = *interval = NAN;
-    for (int k = 0; k < n; k++)
+    for (int k = 0; k < value_count; k++)
         if (isfinite(value[k])) sum += value[k], held++;
     if (held == 0) return 0;
     *mean = sum / held;
     if (held == 1) return 1;
-    for (int k = sum = 0; k < n; k++)
+    for (int k = sum = 0; k < value_count; k++)
         if (isfinite(value[k])) sum += (value[k] - *mean) * (value[k] - *mean);
     *deviation = sqrt(sum / (held - 1));
     *interval = student_t_quantile_975(held - 1) * *deviation / sqrt(held);
@@ -56,7 +57,7 @@ static void levels_take(struct experiment_row *row, const struct convergence_stu
         int n = 0;
         for (int k = 0; k < s->study.n; k++)
             if (s->point[k].level == l) own[n++] = value[k];
-        const int runs = experiment_mean(own, n, &mean, &deviation, &interval);
+        const int runs = experiment_compute_mean_and_interval(own, n, &mean, &deviation, &interval);
         if (l == 0)
             row->value = mean, row->deviation = deviation, row->interval = interval, row->runs = runs;
         else if (l <= 2) {
@@ -83,11 +84,11 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
         spacing[k] = s->point[k].spacing, level[k] = s->point[k].level;
     }
     levels_take(&row, s, value);
-    if (convergence_evaluate(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
+    if (convergence_evaluate_scalar_result(&found, spacing, value, level, n, s->spacings.levels, NULL)) {
         row.verdict = verdict_name[found.verdict];
         row.interval = found.uncertainty[0];
     }
-    experiment_add(x, row);
+    experiment_add_and_print_result(x, row);
     memory_free(level), memory_free(spacing), memory_free(value);
 }
 
@@ -113,7 +114,7 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
     for (int k = 0; k < s->study.n; k++) {
         struct output_frame f = {0};
         if (s->point[k].level < 0) continue;
-        if (experiment_last_frame(&f, study_case_folder(&s->study, &s->study.at[k]).text) == OK)
+        if (experiment_read_last_frame(&f, study_case_folder(&s->study, &s->study.at[k]).text) == OK)
             for (int64_t i = 0; i < f.n; i++)
                 if (f.damage[i] > 0.01 * EXPERIMENT_DAMAGED) path_add(p, f.X[0][i], f.X[1][i], s->point[k].level);
         frame_free(&f);
@@ -124,7 +125,7 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
 
 /* Makes the convergence study of case c and adds its results and crack paths to x. Does nothing for cases whose scene
  * file is missing, or which --quick leaves out. Returns REFUSED or FAILED if the study does. */
-status experiment_study(struct experiments *x, const struct experiment_case *c)
+status experiment_make_convergence_study(struct experiments *x, const struct experiment_case *c)
 {
     struct convergence_study s;
     struct scene_override pair[EXPERIMENT_PAIRS_MOST + 1] = {{"particles.spacing", c->spacing[x->quick]}};

@@ -68,7 +68,7 @@ static void surf_start(struct surf *s, struct run *e)
 {
     struct particles *p = &e->part;
     double u[2], v[2];
-    s->medium = crack_medium_of(&e->scene->material[0], e->scene->space);
+    s->medium = crack_medium_of_material(&e->scene->material[0], e->scene->space);
     s->particle = NEW("bench.surf", p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++) {
         const bool held = p->flag[i] & FLAG_DRIVEN;
@@ -117,10 +117,10 @@ static status surf_go(struct surf *s, struct run *e, double spacing, struct surf
     const double until = (SURF_WIDTH - SURF_NOTCH) / s->speed;
     struct surf_line taken = {0}, place = {0};
     double tip = 0;
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     for (int64_t step = 0; e->clock.t < until && tip < SURF_TO; step++) {
         surf_edge_move(s, &e->part, e->clock.t);
-        TRY(engine_step(e));
+        TRY(engine_adapt_refinement_and_step(e));
         if (step % SURF_STEPS) continue;
         tip = surf_tip(&e->part, spacing);
         if (tip < SURF_FROM) continue;
@@ -132,7 +132,8 @@ static status surf_go(struct surf *s, struct run *e, double spacing, struct surf
     return OK;
 }
 
-status surf_run(double spacing, double share, double speed, double safety, struct surf_figures *found, double *rayleigh)
+status surf_run_and_measure_crack(double spacing, double energy_share, double speed_ratio, double time_step_fraction,
+                                  struct surf_figures *measured, double *rayleigh_speed)
 {
     char text[2048];
     struct run e;
@@ -142,15 +143,16 @@ status surf_run(double spacing, double share, double speed, double safety, struc
     if (!to) return status_set(FAILED, "bench: out of memory");
     surf_text(to, spacing);
     fclose(to);
-    bench_override(&o, "time.safety", "%.9g", safety);
-    TRY(bench_engine_make(&e, &scene, "surf", text, bench_overrides_ready(&o), o.n));
+    bench_overrides_append(&o, "time.safety", "%.9g", time_step_fraction);
+    TRY(bench_engine_make(&e, &scene, "surf", text, bench_overrides_as_array(&o), o.n));
     struct surf s = {.tip = SURF_NOTCH};
-    s.medium = crack_medium_of(&scene.material[0], scene.space);
-    *rayleigh = s.medium.rayleigh;
-    s.speed = speed * *rayleigh;
-    s.factor = sqrt(share * SURF_TOUGHNESS * s.medium.modulus / crack_universal_function(&s.medium, MODE_I, s.speed));
+    s.medium = crack_medium_of_material(&scene.material[0], scene.space);
+    *rayleigh_speed = s.medium.rayleigh;
+    s.speed = speed_ratio * *rayleigh_speed;
+    s.factor =
+        sqrt(energy_share * SURF_TOUGHNESS * s.medium.modulus / crack_universal_function(&s.medium, MODE_I, s.speed));
     surf_start(&s, &e);
-    const status ran = surf_go(&s, &e, spacing, found);
+    const status ran = surf_go(&s, &e, spacing, measured);
     memory_free(s.particle);
     bench_engine_free(&e, &scene);
     return ran;
@@ -180,13 +182,13 @@ static void surf_add(struct experiments *x, const struct surf_case *c, const cha
     for (int k = 0; k < 3 && c->spacing[k] > 0 && !x->quick; k++) row.spacing = c->spacing[k];
     snprintf(row.variant, sizeof row.variant, "v/c_R %.3g", c->speed);
     snprintf(row.figure, sizeof row.figure, "%s", figure);
-    row.runs = experiment_mean(value, n, &row.value, &row.deviation, &row.interval);
-    experiment_add(x, row);
+    row.runs = experiment_compute_mean_and_interval(value, n, &row.value, &row.deviation, &row.interval);
+    experiment_add_and_print_result(x, row);
 }
 
-status experiments_surfing(struct experiments *x)
+status experiments_run_surfing_crack(struct experiments *x)
 {
-    struct experiment_curve *curve = experiment_curve_begin(x, "taken", "moving field");
+    struct experiment_curve *curve = experiment_add_empty_curve(x, "taken", "moving field");
     for (size_t k = 0; k < COUNT_OF(surf_cases); k++) {
         const struct surf_case *c = &surf_cases[k];
         double taken[SURF_RUNS], speed[SURF_RUNS], mean, deviation, interval;
@@ -196,14 +198,15 @@ status experiments_surfing(struct experiments *x)
         if (x->quick && !c->quick) continue;
         for (int h = 0; h < (x->quick ? 1 : 3) && c->spacing[h] > 0; h++)
             for (int s = 0; s < SURF_SAFETIES; s++) {
-                TRY(surf_run(1e-3 * c->spacing[h], SURF_LOAD, c->speed, surf_safety[s], &f, &rayleigh));
+                TRY(surf_run_and_measure_crack(1e-3 * c->spacing[h], SURF_LOAD, c->speed, surf_safety[s], &f,
+                                               &rayleigh));
                 taken[n] = f.taken / SURF_TOUGHNESS, speed[n++] = f.speed / rayleigh;
             }
         surf_add(x, c, "energy taken / G_c", taken, n);
-        experiment_mean(speed, n, &mean, &deviation, &interval);
+        experiment_compute_mean_and_interval(speed, n, &mean, &deviation, &interval);
         const double fast = mean;
-        experiment_mean(taken, n, &mean, &deviation, &interval);
-        experiment_curve_add(curve, fast, mean, deviation);
+        experiment_compute_mean_and_interval(taken, n, &mean, &deviation, &interval);
+        experiment_curve_append_point(curve, fast, mean, deviation);
     }
     return OK;
 }

@@ -46,7 +46,7 @@ static void vortex_load(struct run *e, const struct vortex *v)
         const int32_t i = load->particle[k];
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double b[2] = {0};
-        if (X[0] * X[0] + X[1] * X[1] < 1.02) vortex_force(v, X, e->clock.t, b);
+        if (X[0] * X[0] + X[1] * X[1] < 1.02) vortex_compute_body_force(v, X, e->clock.t, b);
         for (int d = 0; d < 2; d++) load->share[d][k] = b[d] * p->volume0[i];
     }
 }
@@ -57,11 +57,11 @@ static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;
     double wrong = 0, size = 0;
-    run_update_particles(e);
+    run_update_particle_motion_and_stress(e);
     for (int64_t i = 0; i < p->n; i++) {
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double x[2];
-        vortex_place(v, X, e->clock.t, x);
+        vortex_compute_present_position(v, X, e->clock.t, x);
         for (int d = 0; d < 2; d++) wrong += square(p->x[d][i] - x[d]), size += square(x[d] - X[d]);
     }
     return sqrt(wrong / size);
@@ -69,16 +69,16 @@ static double vortex_error(struct run *e, const struct vortex *v)
 
 static status vortex_go(struct run *e, const struct vortex *v)
 {
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     while (e->clock.step < e->clock.steps) {
         vortex_load(e, v);
-        TRY(engine_step(e));
-        TRY(stability_check(e));
+        TRY(engine_adapt_refinement_and_step(e));
+        TRY(stability_check_after_step(e));
     }
     return OK;
 }
 
-status vortex_run(enum vortex_method method, double spacing, double *error)
+status vortex_run_and_measure_error(enum vortex_method method, double spacing, double *error)
 {
     const struct vortex_case *c = &vortex_cases[method];
     char text[1024];
@@ -99,7 +99,7 @@ status vortex_run(enum vortex_method method, double spacing, double *error)
                        .c11 = m->c12 + 2 * m->shear,
                        .c12 = m->c12,
                        .shear = m->shear};
-    vortex_bonds(&v, VORTEX_REACH);
+    vortex_fill_bonds_of_lattice(&v, VORTEX_REACH);
     const status ran = vortex_go(&e, &v);
     if (ran == OK) *error = vortex_error(&e, &v);
     bench_engine_free(&e, &scene);
@@ -121,22 +121,22 @@ static void vortex_add(struct experiments *x, const char *variant, const char *f
                                  .runs = 1};
     snprintf(row.variant, sizeof row.variant, "%s", variant);
     snprintf(row.figure, sizeof row.figure, "%s", figure);
-    experiment_add(x, row);
+    experiment_add_and_print_result(x, row);
 }
 
-status experiments_vortex(struct experiments *x)
+status experiments_run_vortex(struct experiments *x)
 {
     for (enum vortex_method k = 0; k < VORTEX_METHODS; k++) {
         const struct vortex_case *c = &vortex_cases[k];
-        struct experiment_curve *curve = experiment_curve_begin(x, "vortex", "%s", c->name);
+        struct experiment_curve *curve = experiment_add_empty_curve(x, "vortex", "%s", c->name);
         double error[VORTEX_SPACINGS];
         const int n = x->quick ? VORTEX_SPACINGS - 1 : VORTEX_SPACINGS;
         for (int h = 0; h < n; h++) {
             char figure[48];
-            TRY(vortex_run(k, vortex_spacings[h], &error[h]));
+            TRY(vortex_run_and_measure_error(k, vortex_spacings[h], &error[h]));
             snprintf(figure, sizeof figure, "error at %g mm", 1e3 * vortex_spacings[h]);
             vortex_add(x, c->name, figure, "%", 100 * error[h], NAN, NAN);
-            experiment_curve_add(curve, vortex_spacings[h], error[h], NAN);
+            experiment_curve_append_point(curve, vortex_spacings[h], error[h], NAN);
         }
         vortex_add(x, c->name, "order of displacements", "", log2(error[n - 2] / error[n - 1]), 1.8, 2.3);
     }

@@ -19,36 +19,38 @@ static double vortex_angle(const struct vortex *v, const double *X, double t, do
     return rest > 0 ? grown * square(rest * rest) : 0;
 }
 
-void vortex_place(const struct vortex *v, const double *X, double t, double *x)
+void vortex_compute_present_position(const struct vortex *v, const double *reference_position, double t,
+                                     double *present_position)
 {
     double slope;
-    const double a = vortex_angle(v, X, t, &slope);
-    x[0] = cos(a) * X[0] - sin(a) * X[1];
-    x[1] = sin(a) * X[0] + cos(a) * X[1];
+    const double a = vortex_angle(v, reference_position, t, &slope);
+    present_position[0] = cos(a) * reference_position[0] - sin(a) * reference_position[1];
+    present_position[1] = sin(a) * reference_position[0] + cos(a) * reference_position[1];
 }
 
-void vortex_gradient(const struct vortex *v, const double *X, double t, double F[2][2])
+void vortex_compute_deformation_gradient(const struct vortex *v, const double *position, double t, double F[2][2])
 {
     double slope;
-    const double a = vortex_angle(v, X, t, &slope), c = cos(a), s = sin(a);
-    const double G[2][2] = {{1 - slope * X[1] * X[0], -slope * X[1] * X[1]},
-                            {slope * X[0] * X[0], 1 + slope * X[0] * X[1]}};
+    const double a = vortex_angle(v, position, t, &slope), c = cos(a), s = sin(a);
+    const double G[2][2] = {{1 - slope * position[1] * position[0], -slope * position[1] * position[1]},
+                            {slope * position[0] * position[0], 1 + slope * position[0] * position[1]}};
     for (int j = 0; j < 2; j++) F[0][j] = c * G[0][j] - s * G[1][j], F[1][j] = s * G[0][j] + c * G[1][j];
 }
 
 /* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
 /* Fills the members bonds, xi and weight of v with the bonds of a square lattice with uniform weights, whose longest
- * bond has the length `reach` [spacings]. The weights are scaled so that they have the bulk modulus of the plane, (c11
+ * bond has the length `longest_bond` [spacings]. The weights are scaled so that they have the bulk modulus of the
+ * plane, (c11
  * + c12)/2. */
-void vortex_bonds(struct vortex *v, double reach)
+void vortex_fill_bonds_of_lattice(struct vortex *v, double longest_bond)
 {
     double sum = 0;
     v->bonds = 0;
-    for (int i = 0; i <= (int)reach; i++)
-        for (int j = -(int)reach; j <= (int)reach; j++) {
+    for (int i = 0; i <= (int)longest_bond; i++)
+        for (int j = -(int)longest_bond; j <= (int)longest_bond; j++) {
             const double r = hypot(i, j);
-            if (r == 0 || r > reach || (i == 0 && j < 0)) continue;
+            if (r == 0 || r > longest_bond || (i == 0 && j < 0)) continue;
             INVARIANT(v->bonds < VORTEX_BONDS_MOST);
             v->xi[v->bonds][0] = i, v->xi[v->bonds][1] = j, v->weight[v->bonds++] = r;
             sum += r;
@@ -81,7 +83,7 @@ static void stress_of_biot(const struct vortex *v, double F[2][2], double P[2][2
     P[1][0] = s * s11 + c * s12, P[1][1] = s * s12 + c * s22;
 }
 
-void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
+void vortex_compute_piola_stress(const struct vortex *v, double F[2][2], double P[2][2])
 {
     if (v->law == VORTEX_BONDS)
         stress_of_bonds(v, F, P);
@@ -99,20 +101,21 @@ static void divergence_add(const struct vortex *v, const double *X, double t, in
     for (int k = 0; k < 4; k++) {
         double at[2] = {X[0], X[1]}, F[2][2], P[2][2];
         at[b] += place[k] * VORTEX_DIFFERENCE;
-        vortex_gradient(v, at, t, F);
-        vortex_stress(v, F, P);
+        vortex_compute_deformation_gradient(v, at, t, F);
+        vortex_compute_piola_stress(v, F, P);
         for (int a = 0; a < 2; a++) sum[a] += share[k] * P[a][b] / VORTEX_DIFFERENCE;
     }
 }
 
-void vortex_force(const struct vortex *v, const double *X, double t, double *b)
+void vortex_compute_body_force(const struct vortex *v, const double *position, double t, double *body_force)
 {
     double x[2], divergence[2] = {0};
-    const double beat = M_PI / (2 * v->period), shape = square(square(fmax(0, 1 - X[0] * X[0] - X[1] * X[1])));
+    const double beat = M_PI / (2 * v->period),
+                 shape = square(square(fmax(0, 1 - position[0] * position[0] - position[1] * position[1])));
     const double rate = v->turn * shape * beat * sin(2 * beat * t);
     const double change = v->turn * shape * 2 * square(beat) * cos(2 * beat * t);
-    vortex_place(v, X, t, x);
-    for (int a = 0; a < 2; a++) divergence_add(v, X, t, a, divergence);
-    b[0] = v->density * (-change * x[1] - rate * rate * x[0]) - divergence[0];
-    b[1] = v->density * (change * x[0] - rate * rate * x[1]) - divergence[1];
+    vortex_compute_present_position(v, position, t, x);
+    for (int a = 0; a < 2; a++) divergence_add(v, position, t, a, divergence);
+    body_force[0] = v->density * (-change * x[1] - rate * rate * x[0]) - divergence[0];
+    body_force[1] = v->density * (change * x[0] - rate * rate * x[1]) - divergence[1];
 }

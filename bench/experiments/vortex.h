@@ -27,20 +27,22 @@ struct vortex {
 };
 
 /* Fills the members bonds, xi and weight of v with the bonds of a square lattice with uniform weights, scaled to the
- * bulk modulus of the plane. reach: length of the longest bond [spacings]. */
-void vortex_bonds(struct vortex *v, double reach);
+ * bulk modulus of the plane. longest_bond: length of the longest bond [spacings]. */
+void vortex_fill_bonds_of_lattice(struct vortex *v, double longest_bond);
 
-/* Computes the deformation gradient F of the vortex at the reference position X[2] [m] and time t [s]. */
-void vortex_gradient(const struct vortex *v, const double *X, double t, double F[2][2]);
+/* Computes the deformation gradient F of the vortex at the reference position position[2] [m] and time t [s]. */
+void vortex_compute_deformation_gradient(const struct vortex *v, const double *position, double t, double F[2][2]);
 
 /* Computes the first Piola-Kirchhoff stress P [Pa] at the deformation gradient F by the law v->law. */
-void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2]);
+void vortex_compute_piola_stress(const struct vortex *v, double F[2][2], double P[2][2]);
 
-/* Computes the position x[2] [m] at time t [s] of the material point at the reference position X[2] [m]. */
-void vortex_place(const struct vortex *v, const double *X, double t, double *x);
+/* Computes the position present_position[2] [m] at time t [s] of the material point at the reference position
+ * reference_position[2] [m]. */
+void vortex_compute_present_position(const struct vortex *v, const double *reference_position, double t,
+                                     double *present_position);
 
-/* Computes the body force b[2] per reference volume [N/m^3] that the motion requires at the reference position X[2] [m]
- * and time t [s]. */
-void vortex_force(const struct vortex *v, const double *X, double t, double *b);
+/* Computes the body force body_force[2] per reference volume [N/m^3] that the motion requires at the reference position
+ * position[2] [m] and time t [s]. */
+void vortex_compute_body_force(const struct vortex *v, const double *position, double t, double *body_force);
 
 #endif

@@ -137,8 +137,8 @@ static void points_stress(struct run *e)
  * for pairs, 0 to keep the list as long as it is valid. */
 static void faces_update(struct run *e, int changed)
 {
-    contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
-                             e->contact->changed + changed);
+    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0,
+                                         e->contact->broken, e->contact->changed + changed);
 }
 
 static void job_call(const struct job *j, struct ground *g)
@@ -208,9 +208,9 @@ static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
         if (j->kind == G2P_YIELDS) points_stress(&g->engine[POINTS]);
-        double start = wall_clock();
+        double start = wall_clock_seconds();
         job_call(j, g);
-        j->seconds = fmin(j->seconds, wall_clock() - start);
+        j->seconds = fmin(j->seconds, wall_clock_seconds() - start);
     }
 }
 
@@ -323,7 +323,8 @@ static void find_limits(struct kernel_bench *b)
         struct ground *g = &b->ground[j->dim];
         j->bytes = job_bytes(j, g);
         j->limit = j->bytes / b->limits.triad;
-        if (on_bonds(j)) j->limit = fmax(j->limit, job_bonds(j, g) * b->limits.cell_stencil[j->dim]);
+        if (job_visits_bonds(j))
+            j->limit = fmax(j->limit, job_bonds_per_particle(j, g) * b->limits.cell_stencil[j->dim]);
     }
 }
 
@@ -333,14 +334,14 @@ static void find_limits(struct kernel_bench *b)
  * the results. quick: few repetitions. Returns FAILED if a run or a file fails. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
-    TRY(bench_targets_memory(&b->targets));
-    team_set_threads(1);
+    TRY(bench_targets_measure_memory(&b->targets));
+    team_set_thread_count(1);
     bench_print_machine(1);
     for (int d = 1; d <= DIM_MAX; d++) TRY(ground_make(&b->ground[d], d));
     time_all(b, quick);
     find_limits(b);
     kernels_print(b);
-    TRY(bench_targets_speed(&b->targets, quick));
+    TRY(bench_targets_measure_speed(&b->targets, quick));
     bench_targets_print(&b->targets);
     return kernels_write(b);
 }

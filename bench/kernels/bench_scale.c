@@ -70,12 +70,12 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     struct run e;
     struct output out = {0};
     struct bench_child folder = {0};
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     strcpy(folder.folder, BENCH_FOLDER "/run-scale");
     TRY(bench_block_make(&e, &s, block, particles, FRAMES * FRAME_EVERY, FRAMES, &out));
     status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
-        ran = engine_run(&e);
+        ran = engine_run_to_end(&e);
         r->frame = e.timers.spent[TIMER_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
@@ -83,7 +83,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     }
     output_close(&out);
     bench_engine_free(&e, &s);
-    bench_child_free(&folder);
+    bench_child_wait_and_remove_output(&folder);
     return ran;
 }
 
@@ -99,9 +99,9 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     struct scene s;
     struct run e;
     const int64_t steps = 2 + (int64_t)(visits / particles);
-    const double before = memory_from_here(), start = wall_clock();
+    const double before = memory_from_here(), start = wall_clock_seconds();
     TRY(bench_block_make(&e, &s, block, particles, STEPS_WARM + PIECES * steps, 0, NULL));
-    *r = (struct size_result){.known = true, .setup = wall_clock() - start, .step = INFINITY};
+    *r = (struct size_result){.known = true, .setup = wall_clock_seconds() - start, .step = INFINITY};
     r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
@@ -179,10 +179,10 @@ static status scale_write_table(const struct scale_bench *b)
                                   r->frame,
                                   isfinite(r->frame) ? r->frame_bytes : NAN,
                                   output_share(r)};
-            bench_text(&t, bench_blocks[which].name);
-            for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t, row[c]);
+            bench_table_append_text(&t, bench_blocks[which].name);
+            for (size_t c = 0; c < COUNT_OF(row); c++) bench_table_append_number(&t, row[c]);
         }
-    status s = bench_write("scale", &t, 1);
+    status s = bench_write_result_tables("scale", &t, 1);
     bench_table_free(&t);
     return s;
 }
@@ -257,7 +257,7 @@ status bench_scale(bool quick)
 {
     struct scale_bench *b = NEW("bench.scale", 1, struct scale_bench);
     printf("scale\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     status s = scale_measure(b, quick);
     memory_free(b);
     return s;

@@ -76,7 +76,7 @@ static status targets_time_run(struct targets_bench *b, int which)
     struct timing *t = &b->run[which];
     struct scene s;
     struct run e;
-    team_set_threads(1);
+    team_set_thread_count(1);
     TRY(bench_engine_make(&e, &s, SCENE, NULL, w->override, w->overrides));
     const real rate = w->sampled ? (real)s.samples / (real)e.clock.steps : 0; /* samples per step */
     s.samples = 0;
@@ -85,7 +85,7 @@ static status targets_time_run(struct targets_bench *b, int which)
     for (int k = 0; k < ROUNDS * b->threads && ran == OK; k++) {
         const int threads = 1 + k % b->threads;
         struct timers spent = {0};
-        team_set_threads(threads);
+        team_set_thread_count(threads);
         s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* in the piece, as the engine counts them */
         ran = bench_engine_run(&e, e.clock.step + STEPS_TIMED, &spent);
         if (ran == OK) keep_fastest(t, threads, &spent);
@@ -98,7 +98,7 @@ static void time_probes(struct targets_bench *b, struct microbench_lattice *cell
                         struct microbench_points *points)
 {
     for (int threads = 1; threads <= b->threads; threads++) {
-        team_set_threads(threads);
+        team_set_thread_count(threads);
         for (int k = 0; k < 20; k++) {
             b->cell_stencil[threads - 1] = fmin(b->cell_stencil[threads - 1], microbench_lattice_run(cell_stencil));
             b->points[threads - 1] = fmin(b->points[threads - 1], microbench_points_run(points));
@@ -118,7 +118,7 @@ static status time_everything(struct targets_bench *b, int repetitions)
         }
     microbench_lattice_free(cell_stencil);
     microbench_points_free(points);
-    team_set_threads(1);
+    team_set_thread_count(1);
     return s;
 }
 
@@ -152,15 +152,15 @@ static void add_laps(struct targets *f, const struct targets_bench *b)
     for (int w = 0; w < RUNS; w++)
         for (int threads = 1; threads <= b->threads; threads++) {
             const struct timing *t = &b->run[w];
-            bench_text(&f->timers, target_runs[w].name);
-            bench_number(&f->timers, threads);
+            bench_table_append_text(&f->timers, target_runs[w].name);
+            bench_table_append_number(&f->timers, threads);
             for (int k = 0; k < TIMER_OUTPUT; k++)
-                bench_number(&f->timers, t->timers[threads - 1].spent[k] / STEPS_TIMED / t->particles);
-            bench_number(&f->timers, t->seconds[threads - 1] / t->particles);
+                bench_table_append_number(&f->timers, t->timers[threads - 1].spent[k] / STEPS_TIMED / t->particles);
+            bench_table_append_number(&f->timers, t->seconds[threads - 1] / t->particles);
         }
 }
 
-status bench_targets_speed(struct targets *f, bool quick)
+status bench_targets_measure_speed(struct targets *targets, bool quick)
 {
     struct targets_bench b = {.threads = machine_properties().threads_allowed < 2 ? 1 : 2};
     if (!path_is_file(SCENE)) return OK;
@@ -169,8 +169,8 @@ status bench_targets_speed(struct targets *f, bool quick)
         for (int w = 0; w < RUNS; w++) b.run[w].seconds[k] = INFINITY;
     }
     TRY(time_everything(&b, quick ? 1 : 4));
-    add_speed(f, &b);
-    add_laps(f, &b);
+    add_speed(targets, &b);
+    add_laps(targets, &b);
     return OK;
 }
 
@@ -184,12 +184,12 @@ static status peak_per_particle(const struct target_run *w, double *peak)
     struct scene_override override[8] = {{"output.frames", "0"}, {"output.samples", "10"}, {"duration", "1us"}};
     double value[2];
     for (int k = 0; k < w->overrides; k++) override[3 + k] = w->override[k];
-    TRY(bench_child_figures(SCENE, override, 3 + w->overrides, key, value, 2));
+    TRY(bench_child_run_and_read_summary(SCENE, override, 3 + w->overrides, key, value, 2));
     *peak = value[0] / value[1];
     return OK;
 }
 
-status bench_targets_memory(struct targets *f)
+status bench_targets_measure_memory(struct targets *targets)
 {
     static const struct {
         int run;
@@ -203,7 +203,7 @@ status bench_targets_memory(struct targets *f)
         if (peak_per_particle(&target_runs[asked[k].run], &peak) != OK)
             printf("  %s: not measured: %s\n", asked[k].name, status_message());
         else
-            add_figure(f, (struct target_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
+            add_figure(targets, (struct target_figure){asked[k].name, "B", 1, peak, 1, asked[k].asked, false});
     }
     return OK;
 }
@@ -232,13 +232,13 @@ static void print_timers(const struct bench_table *t)
     printf("\n");
 }
 
-void bench_targets_print(const struct targets *f)
+void bench_targets_print(const struct targets *targets)
 {
     printf("  targets: " SCENE " at 0.5 mm spacing, one thread; gains against the probes' own\n"
            "    %-42s %10s %10s %8s %8s\n",
            "", "measured", "limit", "ratio", "asked");
-    for (int k = 0; k < f->figures; k++) {
-        const struct target_figure *a = &f->figure[k];
+    for (int k = 0; k < targets->figures; k++) {
+        const struct target_figure *a = &targets->figure[k];
         char beside[32] = ""; /* memory has no limit of the machine */
         if (a->limit != 1)
             snprintf(beside, sizeof beside, "%10.3f %8.3f", a->limit * a->factor, a->measured / a->limit);
@@ -246,19 +246,19 @@ void bench_targets_print(const struct targets *f)
                a->at_least ? ">=" : "<=", a->asked, met(a) ? "ok" : "NOT MET");
     }
     printf("\n");
-    if (f->timers.cells) print_timers(&f->timers);
+    if (targets->timers.cells) print_timers(&targets->timers);
 }
 
-void bench_targets_table(const struct targets *f, struct bench_table *t)
+void bench_targets_add_to_table(const struct targets *targets, struct bench_table *table)
 {
-    bench_table_make(t, "targets", "figure,measured,limit,ratio,asked,met");
-    for (int k = 0; k < f->figures; k++) {
-        const struct target_figure *a = &f->figure[k];
+    bench_table_make(table, "targets", "figure,measured,limit,ratio,asked,met");
+    for (int k = 0; k < targets->figures; k++) {
+        const struct target_figure *a = &targets->figure[k];
         const double number[] = {a->measured, a->limit, a->measured / a->limit, a->asked, met(a)};
         char name[NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%s", a->name);
         for (char *c = name; *c; c++) *c = *c == ',' ? ';' : *c; /* a comma would end the cell */
-        bench_text(t, name);
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t, number[c]);
+        bench_table_append_text(table, name);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(table, number[c]);
     }
 }

@@ -68,21 +68,21 @@ struct kernel_bench {
 };
 
 /* Returns true if the kernel of job j visits bonds. */
-static inline bool on_bonds(const struct job *j) { return j->kind <= BOND_STRESS; }
+static inline bool job_visits_bonds(const struct job *job) { return job->kind <= BOND_STRESS; }
 
 /* Returns the number of particles that the kernel of job j visits in its body of g; for contact kernels those near a
  * face. */
-static inline int64_t job_particles(const struct job *j, const struct ground *g)
+static inline int64_t job_particle_count(const struct job *job, const struct ground *g)
 {
-    if (j->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;
-    return g->engine[j->kind >= MESH_CLEAR ? MESH : j->kind > PD_MOVE ? POINTS : BONDS].part.n;
+    if (job->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;
+    return g->engine[job->kind >= MESH_CLEAR ? MESH : job->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 
 /* Returns the number of bonds per particle in the body of job j; NAN if its kernel visits no bonds. g: bodies on which
  * kernels are timed. */
-static inline double job_bonds(const struct job *j, const struct ground *g)
+static inline double job_bonds_per_particle(const struct job *job, const struct ground *g)
 {
-    return on_bonds(j) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
+    return job_visits_bonds(job) ? (double)g->engine[BONDS].bonds.n / (double)g->engine[BONDS].part.n : NAN;
 }
 
 /* Prints the limits of the machine, the times of all kernels and the targets (kernels_draw.c). */

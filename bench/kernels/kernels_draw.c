@@ -31,9 +31,9 @@ static void print_jobs(const struct kernel_bench *b)
     for (int k = 0; k < b->jobs; k++) {
         const struct job *j = &b->job[k];
         const struct ground *g = &b->ground[j->dim];
-        const double each = j->seconds / (double)job_particles(j, g);
+        const double each = j->seconds / (double)job_particle_count(j, g);
         char bond[16] = "";
-        if (on_bonds(j)) snprintf(bond, sizeof bond, "%.3f", 1e9 * each / job_bonds(j, g));
+        if (job_visits_bonds(j)) snprintf(bond, sizeof bond, "%.3f", 1e9 * each / job_bonds_per_particle(j, g));
         printf("  %-14s  %d  %-16s %10.2f %9s %13.0f %8.1f %10.2f\n", job_name[j->kind], j->dim, j->variant, 1e9 * each,
                bond, j->bytes, 1e-9 * j->bytes / each, j->limit / each);
     }
@@ -49,28 +49,28 @@ static void fill_tables(const struct kernel_bench *b, struct bench_table *rows, 
     for (int k = 0; k < b->jobs; k++) {
         const struct job *j = &b->job[k];
         const struct ground *g = &b->ground[j->dim];
-        const double n = (double)job_particles(j, g), each = j->seconds / n;
-        bench_text(rows, job_name[j->kind]);
-        bench_number(rows, j->dim);
-        bench_text(rows, j->variant);
-        const double number[] = {n, each, each / job_bonds(j, g), j->bytes, j->limit, j->limit / each};
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(rows, number[c]);
+        const double n = (double)job_particle_count(j, g), each = j->seconds / n;
+        bench_table_append_text(rows, job_name[j->kind]);
+        bench_table_append_number(rows, j->dim);
+        bench_table_append_text(rows, j->variant);
+        const double number[] = {n, each, each / job_bonds_per_particle(j, g), j->bytes, j->limit, j->limit / each};
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(rows, number[c]);
     }
     bench_table_make(limits, "limits",
                      "stencil_1d_seconds_per_bond,stencil_2d_seconds_per_bond,stencil_3d_seconds_per_bond,triad_bytes_"
                      "per_second,points_seconds_per_particle");
-    for (int d = 1; d <= DIM_MAX; d++) bench_number(limits, b->limits.cell_stencil[d]);
-    bench_number(limits, b->limits.triad);
-    bench_number(limits, b->limits.points);
+    for (int d = 1; d <= DIM_MAX; d++) bench_table_append_number(limits, b->limits.cell_stencil[d]);
+    bench_table_append_number(limits, b->limits.triad);
+    bench_table_append_number(limits, b->limits.points);
 }
 
 static status kernels_draw_write_tables(const struct kernel_bench *b)
 {
     struct bench_table table[4];
     fill_tables(b, &table[0], &table[1]);
-    bench_targets_table(&b->targets, &table[2]);
+    bench_targets_add_to_table(&b->targets, &table[2]);
     table[3] = b->targets.timers;
-    status s = bench_write("kernels", table, b->targets.timers.cells ? 4 : 3);
+    status s = bench_write_result_tables("kernels", table, b->targets.timers.cells ? 4 : 3);
     for (int k = 0; k < 3; k++) bench_table_free(&table[k]);
     return s;
 }
@@ -94,8 +94,9 @@ static void send_data(FILE *to, const struct kernel_bench *b)
         fprintf(to, "$b%d << EOD\n", d);
         for (int k = 0; k < b->jobs; k++) {
             const struct job *j = &b->job[k];
-            if (j->dim != d || !on_bonds(j)) continue;
-            const double bonds = job_bonds(j, &b->ground[d]) * (double)job_particles(j, &b->ground[d]);
+            if (j->dim != d || !job_visits_bonds(j)) continue;
+            const double bonds =
+                job_bonds_per_particle(j, &b->ground[d]) * (double)job_particle_count(j, &b->ground[d]);
             kernels_draw_put_label(to, j->variant,
                                    j->kind == BOND_FORCE    ? " force"
                                    : j->kind == BOND_ENERGY ? " energy"
@@ -109,7 +110,7 @@ static void send_data(FILE *to, const struct kernel_bench *b)
                 if (j->dim != d || (int)j->shape != shape || (j->kind != P2G && j->kind != G2P && j->kind != REMAP))
                     continue;
                 if (j->kind == REMAP) kernels_draw_put_label(to, j->variant, "");
-                fprintf(to, " %.6g", 1e9 * j->seconds / (double)job_particles(j, &b->ground[d]));
+                fprintf(to, " %.6g", 1e9 * j->seconds / (double)job_particle_count(j, &b->ground[d]));
             }
             fputc('\n', to);
         }

@@ -61,7 +61,7 @@ struct field_bench {
 static status field_scene_write(const struct field_bench *b, bool part)
 {
     const double high = part ? NEAR : HALF, wide = part ? WIDE : HALF;
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     FILE *to = fopen(SCENE, "w");
     if (!to) return file_report_write_failure(SCENE, errno);
     fprintf(to, "space: plane strain\nthickness: 1 mm\nduration: %.9g\nmethod: adaptive\n",
@@ -120,13 +120,13 @@ static status field_run(struct field_bench *b, int k)
     struct bench_child c;
     const double later = field_runs[k].part ? 1e-3 * (HALF - NEAR) / b->speed : 0;
     TRY(field_scene_write(b, field_runs[k].part));
-    bench_override(&o, "method", "%s", field_runs[k].method);
-    if (field_runs[k].levels >= 0) bench_override(&o, "mpm.levels", "%d", field_runs[k].levels);
-    if (field_runs[k].levels > 0) bench_override(&o, "mpm.fill", "needed");
-    status ran = bench_child_start(&c, SCENE, bench_overrides_ready(&o), o.n, 1);
+    bench_overrides_append(&o, "method", "%s", field_runs[k].method);
+    if (field_runs[k].levels >= 0) bench_overrides_append(&o, "mpm.levels", "%d", field_runs[k].levels);
+    if (field_runs[k].levels > 0) bench_overrides_append(&o, "mpm.fill", "needed");
+    status ran = bench_child_start(&c, SCENE, bench_overrides_as_array(&o), o.n, 1);
     if (ran == OK) ran = bench_child_wait(&c);
     if (ran == OK) ran = field_read(&b->at[k], c.folder, later, c.processor);
-    bench_child_free(&c);
+    bench_child_wait_and_remove_output(&c);
     remove(SCENE);
     return ran;
 }
@@ -237,12 +237,13 @@ static status field_write_table(const struct field_bench *b)
         const struct field_row *r = &b->at[k];
         const double row[] = {field_runs[k].levels, field_runs[k].part, r->made, r->body,   r->bytes,
                               r->seconds,           steps_of(r),        r->peak, r->off[0], r->off[1]};
-        bench_text(&t[0], field_runs[k].name);
-        for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t[0], row[c]);
+        bench_table_append_text(&t[0], field_runs[k].name);
+        for (size_t c = 0; c < COUNT_OF(row); c++) bench_table_append_number(&t[0], row[c]);
         for (int64_t j = 0; j < r->n; j++)
-            bench_text(&t[1], field_runs[k].name), bench_number(&t[1], r->t[j]), bench_number(&t[1], r->K[j]);
+            bench_table_append_text(&t[1], field_runs[k].name), bench_table_append_number(&t[1], r->t[j]),
+                bench_table_append_number(&t[1], r->K[j]);
     }
-    status s = bench_write("scale_field", t, COUNT_OF(t));
+    status s = bench_write_result_tables("scale_field", t, COUNT_OF(t));
     for (size_t k = 0; k < COUNT_OF(t); k++) bench_table_free(&t[k]);
     return s;
 }
@@ -287,7 +288,7 @@ static status field_measure(struct field_bench *b)
     return bench_draw("scale_field", 1000, 600, field_draw, b);
 }
 
-status bench_far_field(bool quick)
+status bench_cost_of_coarse_far_field(bool quick)
 {
     struct field_bench *b = NEW("bench.field", 1, struct field_bench);
     printf("scale: a far field\n");

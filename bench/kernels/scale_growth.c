@@ -78,25 +78,25 @@ static int levels_of(double spacing)
 static void growth_overrides(struct bench_overrides *o, const struct growth_series *s, double spacing, double until)
 {
     const double width = 3 * spacing;
-    if (until > 0) bench_override(o, "duration", "%g us", until);
-    bench_override(o, "method", "%s", s->method);
-    bench_override(o, "particles.spacing", "%g mm", spacing);
-    bench_override(o, "time.step", "%.9g us", STEP_PER_MM * spacing);
-    bench_override(o, "output.frames", "0");
+    if (until > 0) bench_overrides_append(o, "duration", "%g us", until);
+    bench_overrides_append(o, "method", "%s", s->method);
+    bench_overrides_append(o, "particles.spacing", "%g mm", spacing);
+    bench_overrides_append(o, "time.step", "%.9g us", STEP_PER_MM * spacing);
+    bench_overrides_append(o, "output.frames", "0");
     if (s->dim == 2) {
-        bench_override(o, "body[1].add.box.from", "[-%g mm, -25 mm]", width);
-        bench_override(o, "boundary[0].region.box.from", "[-%g mm, -25 mm]", width);
-        bench_override(o, "pd.surface", "none");
+        bench_overrides_append(o, "body[1].add.box.from", "[-%g mm, -25 mm]", width);
+        bench_overrides_append(o, "boundary[0].region.box.from", "[-%g mm, -25 mm]", width);
+        bench_overrides_append(o, "pd.surface", "none");
     } else {
-        bench_override(o, "body[1].add.box.from", "[-%g mm, 0, 0]", width);
-        bench_override(o, "boundary[0].region.box.from", "[-%g mm, 0, 0]", width);
+        bench_overrides_append(o, "body[1].add.box.from", "[-%g mm, 0, 0]", width);
+        bench_overrides_append(o, "boundary[0].region.box.from", "[-%g mm, 0, 0]", width);
     }
     if (strcmp(s->method, "pd") == 0) {
-        if (s->dim == 3) bench_override(o, "mpm", "%s", "");
+        if (s->dim == 3) bench_overrides_append(o, "mpm", "%s", "");
         return;
     }
-    bench_override(o, "mpm.levels", "%d", levels_of(spacing));
-    bench_override(o, "mpm.fill", "needed");
+    bench_overrides_append(o, "mpm.levels", "%d", levels_of(spacing));
+    bench_overrides_append(o, "mpm.fill", "needed");
 }
 
 static status growth_read(struct growth_row *r, const char *folder, double processor)
@@ -129,10 +129,10 @@ static status growth_run(struct growth_row *r, const struct growth_series *s, do
     struct bench_child c;
     r->spacing = spacing;
     growth_overrides(&o, s, spacing, until);
-    status ran = bench_child_start(&c, s->path, bench_overrides_ready(&o), o.n, 1);
+    status ran = bench_child_start(&c, s->path, bench_overrides_as_array(&o), o.n, 1);
     if (ran == OK) ran = bench_child_wait(&c);
     if (ran == OK) ran = growth_read(r, c.folder, c.processor);
-    bench_child_free(&c);
+    bench_child_wait_and_remove_output(&c);
     return ran;
 }
 
@@ -260,17 +260,17 @@ static status growth_write_table(const struct growth_bench *b)
             const struct growth_row *r = &b->at[k][j];
             const double row[] = {series[k].dim, 1e-3 * r->spacing, r->made,  r->body, r->bonded,
                                   r->bytes,      r->seconds,        r->share, r->angle};
-            bench_text(&t[0], series[k].name);
-            for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t[0], row[c]);
-            for (int c = 0; c < TIMERS_SHOWN; c++) bench_number(&t[0], r->timer[c]);
+            bench_table_append_text(&t[0], series[k].name);
+            for (size_t c = 0; c < COUNT_OF(row); c++) bench_table_append_number(&t[0], row[c]);
+            for (int c = 0; c < TIMERS_SHOWN; c++) bench_table_append_number(&t[0], r->timer[c]);
         }
         if (rows_of(b->at[k]) < 2) continue;
-        bench_text(&t[1], series[k].name), bench_number(&t[1], series[k].dim);
-        for (int a = 0; a < AIMS; a++) bench_number(&t[1], b->fit[k].of[a]);
-        for (int a = 0; a < AIMS; a++) bench_number(&t[1], b->fit[k].last[a]);
-        for (int a = 0; a < AIMS; a++) bench_number(&t[1], series[k].aim[a]);
+        bench_table_append_text(&t[1], series[k].name), bench_table_append_number(&t[1], series[k].dim);
+        for (int a = 0; a < AIMS; a++) bench_table_append_number(&t[1], b->fit[k].of[a]);
+        for (int a = 0; a < AIMS; a++) bench_table_append_number(&t[1], b->fit[k].last[a]);
+        for (int a = 0; a < AIMS; a++) bench_table_append_number(&t[1], series[k].aim[a]);
     }
-    status s = bench_write("scale_growth", t, COUNT_OF(t));
+    status s = bench_write_result_tables("scale_growth", t, COUNT_OF(t));
     for (size_t k = 0; k < COUNT_OF(t); k++) bench_table_free(&t[k]);
     return s;
 }
@@ -339,5 +339,5 @@ static status growth_bench_run(bool quick, bool finest)
     return s;
 }
 
-status bench_growth(bool quick) { return growth_bench_run(quick, false); }
-status bench_growth_finest(bool quick) { return growth_bench_run(quick, true); }
+status bench_growth_of_cost_with_resolution(bool quick) { return growth_bench_run(quick, false); }
+status bench_growth_of_cost_to_finest_spacing(bool quick) { return growth_bench_run(quick, true); }

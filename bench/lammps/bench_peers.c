@@ -145,7 +145,8 @@ static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclu
     for (int64_t i = 0; i < p->n && e->source.cracks > 0; i++) {
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
-        const int n = cells_find_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
+        const int n = cells_list_particles_near_point(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found,
+                                                      COUNT_OF(found));
         for (int k = 0; k < n; k++) {
             const int32_t j = found[k];
             if (j < i || !precracks_cut_bond_between(e->source.crack, e->source.cracks, p, i, j)) continue;
@@ -289,9 +290,9 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     r->particles = (double)e.part.n;
     status ran = write_input(&e, c, edge, r);
     r->bonds = (double)e.bonds.n - 2 * r->cut;
-    if (ran == OK) ran = engine_run(&e);
-    if (ran == OK) ran = peer_spawn(".", FOLDER "/in.lammps", FOLDER "/log.lammps");
-    if (ran == OK) ran = peer_seconds(FOLDER "/log.lammps", STEPS, &spent);
+    if (ran == OK) ran = engine_run_to_end(&e);
+    if (ran == OK) ran = peer_run_lammps(".", FOLDER "/in.lammps", FOLDER "/log.lammps");
+    if (ran == OK) ran = peer_read_seconds_per_step(FOLDER "/log.lammps", STEPS, &spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
         r->own = fmin(r->own, report_wall_clock_times(e.report, &e.timers).loop / STEPS),
@@ -340,10 +341,10 @@ static status bond_style_compare(struct peer_result *result, bool quick)
         const struct peer_case *c = &cases[k];
         struct peer_result *r = &result[k];
         if (!c->timed) continue;
-        r->bond_style = r->peer / peer_bond_style_ratio(is_lps(c));
+        r->bond_style = r->peer / peer_bond_style_speed_ratio(is_lps(c));
         if (measured) {
             TRY(peer_scene_text(text, c, quick ? c->edge_quick : c->edge));
-            TRY(peer_run_bond_style(text, STEPS, &r->bond_style));
+            TRY(peer_export_and_time_scene(text, STEPS, &r->bond_style));
         }
         printf("    %s of %s: %.2f ns a bond, %.1f times as long as here\n", c->name, c->law,
                1e9 * r->bond_style / r->bonds, r->bond_style / r->own);
@@ -374,10 +375,10 @@ static status peers_write_table(const struct peer_result *result)
                               r->difference,
                               r->damage,
                               r->damage_peer};
-        bench_text(&t, cases[k].name), bench_text(&t, cases[k].law);
-        for (size_t i = 0; i < COUNT_OF(row); i++) bench_number(&t, row[i]);
+        bench_table_append_text(&t, cases[k].name), bench_table_append_text(&t, cases[k].law);
+        for (size_t i = 0; i < COUNT_OF(row); i++) bench_table_append_number(&t, row[i]);
     }
-    status s = bench_write("peers", &t, 1);
+    status s = bench_write_result_tables("peers", &t, 1);
     bench_table_free(&t);
     return s;
 }
@@ -404,7 +405,7 @@ static void peers_draw(FILE *to, const void *context)
 static status peers_measure(struct peer_result *result, bool quick)
 {
     struct bench_child folder = {0};
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     strcpy(folder.folder, FOLDER);
     status s = mkdir(FOLDER, 0777) == 0 || errno == EEXIST ? OK : file_report_write_failure(FOLDER, errno);
     printf("  %-15s %s %8s %9s %10s %6s %8s %8s %7s   %8s\n", "", "law", "reach", "particles", "bonds", "cut",
@@ -419,7 +420,7 @@ static status peers_measure(struct peer_result *result, bool quick)
         if (s == OK) print_result(c, &result[k]);
     }
     if (s == OK) s = bond_style_compare(result, quick);
-    bench_child_free(&folder);
+    bench_child_wait_and_remove_output(&folder);
     TRY(s);
     printf("  bonds break by pd.last_force: whole, as in LAMMPS; peri/lps keeps the weighted volume of intact "
            "families, so\n"
@@ -436,9 +437,9 @@ status bench_peers(bool quick)
         return OK;
     }
     struct peer_result *result = NEW("bench.peers", CASES, struct peer_result);
-    bench_print_machine(team_set_threads(1));
+    bench_print_machine(team_set_thread_count(1));
     status s = peers_measure(result, quick);
-    team_set_threads(0);
+    team_set_thread_count(0);
     memory_free(result);
     return s;
 }

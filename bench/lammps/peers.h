@@ -9,21 +9,21 @@
 /* Returns true if the program `lmp` on the path lists bond_style bpm/peri among its styles. */
 bool peer_has_bond_style(void);
 
-/* Returns how many times as fast bond_style bpm/peri is as pair_style peri/pmb, or peri/lps if `lps` is true, by the
- * table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
-double peer_bond_style_ratio(bool lps);
+/* Returns how many times as fast bond_style bpm/peri is as pair_style peri/pmb, or peri/lps if `state_based` is true,
+ * by the table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
+double peer_bond_style_speed_ratio(bool state_based);
 
-/* Runs `lmp` with the arguments "-in", input, "-log", log in a folder. input, log: names of files. Returns FAILED if
- * lmp cannot be started or fails. */
-status peer_spawn(const char *folder, const char *input, const char *log);
+/* Runs `lmp` with the arguments "-in", input, "-log", log in a folder. input, log_name: names of files. Returns FAILED
+ * if lmp cannot be started or fails. */
+status peer_run_lammps(const char *folder, const char *input_name, const char *log_name);
 
-/* Reads the loop time from the LAMMPS log file `log` of a run of `steps` steps and stores the time of a step in
- * *seconds [s]. Returns FAILED if the log does not contain it. */
-status peer_seconds(const char *log, int steps, double *seconds);
+/* Reads the loop time from the LAMMPS log file `log_path` of a run of `step_count` steps and stores the time of a step
+ * in *seconds [s]. Returns FAILED if the log does not contain it. */
+status peer_read_seconds_per_step(const char *log_path, int step_count, double *seconds);
 
 /* Exports a scene for bond_style bpm/peri to PEERS_FOLDER, runs it in LAMMPS and stores the time of a step in *seconds
- * [s]. text: the scene; steps: its number of time steps. Returns REFUSED if the scene cannot be exported, FAILED if
- * LAMMPS fails. */
-status peer_run_bond_style(const char *text, int steps, double *seconds);
+ * [s]. scene_text: the scene; step_count: its number of time steps. Returns REFUSED if the scene cannot be exported,
+ * FAILED if LAMMPS fails. */
+status peer_export_and_time_scene(const char *scene_text, int step_count, double *seconds);
 
 #endif

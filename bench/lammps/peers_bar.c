@@ -42,20 +42,20 @@ static status bar_run(struct bar_result *r, bool yields, bool quick)
              quick ? "8 us" : "80 us", yields ? ", yield_stress: 157 MPa, yield_hardening: 425 MPa" : "",
              quick ? "0.76 mm" : "0.38 mm", yields ? -190 : -19);
     TRY(bench_engine_make(&e, &s, "bar", text, NULL, 0));
-    const double start = thread_cpu_clock();
-    const status ran = engine_run(&e);
-    r->seconds = fmin(r->seconds, thread_cpu_clock() - start);
+    const double start = thread_cpu_clock_seconds();
+    const status ran = engine_run_to_end(&e);
+    r->seconds = fmin(r->seconds, thread_cpu_clock_seconds() - start);
     r->particles = (double)e.part.n, r->steps = (double)e.clock.steps;
     bench_engine_free(&e, &s);
     return ran;
 }
 
-status bench_bar(bool quick)
+status bench_taylor_bar(bool quick)
 {
     struct bar_result bar[BARS] = {{"yields", 0, 0, INFINITY}, {"elastic", 0, 0, INFINITY}};
     struct bench_table t;
     printf("peers=bar\n");
-    bench_print_machine(team_set_threads(1));
+    bench_print_machine(team_set_thread_count(1));
     for (int r = 0; r < (quick ? 1 : ROUNDS); r++)
         for (int k = 0; k < BARS; k++) TRY(bar_run(&bar[k], k == 0, quick));
     bench_table_make(&t, "", "bar,particles,steps,ns_per_particle_step");
@@ -65,15 +65,16 @@ status bench_bar(bool quick)
     for (int k = 0; k < BARS; k++) {
         const double each = 1e9 * bar[k].seconds / bar[k].particles / bar[k].steps;
         printf("  %-10s %9.0f %6.0f %17.1f\n", bar[k].name, bar[k].particles, bar[k].steps, each);
-        bench_text(&t, bar[k].name);
-        bench_number(&t, bar[k].particles), bench_number(&t, bar[k].steps), bench_number(&t, each);
+        bench_table_append_text(&t, bar[k].name);
+        bench_table_append_number(&t, bar[k].particles), bench_table_append_number(&t, bar[k].steps),
+            bench_table_append_number(&t, each);
     }
     printf(
         "  MPM3D-F90, the bar that yields: %.0f to %.0f, not measured here but on two cores with AVX-512 in " MPM3D_DATE
         "\n\n",
         MPM3D_FASTEST, MPM3D_SLOWEST);
-    const status s = bench_write("peers_bar", &t, 1);
+    const status s = bench_write_result_tables("peers_bar", &t, 1);
     bench_table_free(&t);
-    team_set_threads(0);
+    team_set_thread_count(0);
     return s;
 }

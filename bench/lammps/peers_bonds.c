@@ -44,18 +44,18 @@ bool peer_has_bond_style(void)
     return found;
 }
 
-double peer_bond_style_ratio(bool lps) { return lps ? 5.4 : 3.6; }
+double peer_bond_style_speed_ratio(bool state_based) { return state_based ? 5.4 : 3.6; }
 
-status peer_spawn(const char *folder, const char *input, const char *log)
+status peer_run_lammps(const char *folder, const char *input_name, const char *log_name)
 {
-    char *argv[] = {"lmp", "-in", (char *)input, "-log", (char *)log, "-screen", "none", NULL};
+    char *argv[] = {"lmp", "-in", (char *)input_name, "-log", (char *)log_name, "-screen", "none", NULL};
     return lmp_run(argv, folder, "/dev/null");
 }
 
-status peer_seconds(const char *log, int steps, double *seconds)
+status peer_read_seconds_per_step(const char *log_path, int step_count, double *seconds)
 {
     char line[512];
-    FILE *f = fopen(log, "r");
+    FILE *f = fopen(log_path, "r");
     bool known = false;
     while (f && fgets(line, sizeof line, f)) {
         long found;
@@ -63,19 +63,19 @@ status peer_seconds(const char *log, int steps, double *seconds)
         const char *of = strstr(line, "Loop time of ");
         const char *number = of ? strstr(of, " for ") : NULL;
         if (number && sscanf(of, "Loop time of %lf", &spent) == 1 && sscanf(number, " for %ld steps", &found) == 1 &&
-            found == steps)
-            *seconds = spent / steps, known = true;
+            found == step_count)
+            *seconds = spent / step_count, known = true;
     }
     if (f) fclose(f);
     return known ? OK : status_set(FAILED, "bench peers: the log of lmp does not tell how long it took");
 }
 
-status peer_run_bond_style(const char *text, int steps, double *seconds)
+status peer_export_and_time_scene(const char *scene_text, int step_count, double *seconds)
 {
     const char *scene = PEERS_FOLDER "/bonds.yaml", *folder = PEERS_FOLDER "/bonds";
-    TRY(file_write_whole(scene, text, strlen(text)));
+    TRY(file_write_whole(scene, scene_text, strlen(scene_text)));
     TRY(export_lammps(&(struct export_request){
         .scene = scene, .folder = folder, .bond_style = true, .allow_different = true, .overwrite = true}));
-    TRY(peer_spawn(folder, "in.lammps", "log.lammps"));
-    return peer_seconds(PEERS_FOLDER "/bonds/log.lammps", steps, seconds);
+    TRY(peer_run_lammps(folder, "in.lammps", "log.lammps"));
+    return peer_read_seconds_per_step(PEERS_FOLDER "/bonds/log.lammps", step_count, seconds);
 }

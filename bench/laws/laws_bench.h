@@ -32,14 +32,14 @@ extern const struct laws_case laws_cases[];
 /* Number of cases. */
 extern const int laws_cases_count;
 
-/* Returns true if the measured value `found` is within the tolerance of asked->expected. */
-bool laws_figure_holds(const struct laws_figure *asked, double found);
+/* Returns true if the measured value `measured` is within the tolerance of asked->expected. */
+bool laws_figure_holds(const struct laws_figure *expected, double measured);
 
 /* ---- laws_elements.c: single elements ---------------------------------------------------------------------------- */
 
 /* Returns a copy of `law` with its derived constants. young [Pa], poisson [1], yield [Pa], density [kg/m^3]: constants
  * of the material. */
-struct law laws_material(struct law law, real young, real poisson, real yield, real density);
+struct law laws_law_with_derived_constants(struct law law, real young, real poisson, real yield, real density);
 
 /* Returns steel with one of the flow laws: Young's modulus 200 GPa, Poisson's ratio 0.3, yield stress 200 MPa. */
 struct law laws_steel(enum flow flow);
@@ -49,45 +49,53 @@ struct law laws_steel(enum flow flow);
 struct law_points laws_points_at_rest(void);
 
 /* Adds the elastic stress of a strain increment to the stress of all points of p, and keeps the previous stress in
- * p->before. strain[SYM_MAX]: tensor components of the increment [1]; normal components out of a plane or across a bar
- * are not used if `space` leaves them free. */
-void laws_add_trial_stress(const struct law *m, struct law_points *p, const real *strain, enum space space);
+ * p->before. strain_increment[SYM_MAX]: tensor components of the increment [1]; normal components out of a plane or
+ * across a bar are not used if `space` leaves them free. */
+void laws_add_elastic_stress_of_increment(const struct law *law, struct law_points *points,
+                                          const real *strain_increment, enum space space);
 
 /* Returns the elastic energy density of the first of the eight points of p with the law m [J/m^3]. */
-real laws_elastic_energy(const struct law *m, const struct law_points *p);
+real laws_elastic_energy_density(const struct law *law, const struct law_points *points);
 
 /* Strains an element with the law m by 500 random increments of up to 0.2 %, with an explicit law update after each.
  * Returns the work of the strains minus elastic energy and plastic work, which should be 0, over the sum of the
  * absolute values of the work of all increments [1]. Returns NAN if the element has hardly yielded. */
-double laws_cycled_energy(const struct law *m, enum space space);
+double laws_energy_error_of_random_strains(const struct law *law, enum space space);
 
 /* Measure the quantities of a case with a single element in tension, cycled or heated, in explicit steps.
- * found[LAWS_FIGURES]: receives the quantities in the order and units of c->asked; given: meaning of c->given. */
-status laws_hardening(const struct laws_case *c, double *found); /* given: enum flow, with the constants of laws_steel;
-    found: stress at the strains 0.01 and 0.05 [MPa], plastic work up to 0.05 [MJ/m^3] */
-status laws_table(const struct laws_case *c, double *found);
-status laws_prager(const struct laws_case *c, double *found);
-status laws_armstrong_frederick(const struct laws_case *c, double *found);
-status laws_plane_strain(const struct laws_case *c, double *found); /* given: hardening [MPa], strain */
-status laws_johnson_cook(const struct laws_case *c, double *found); /* given: 0 copper or 1 steel, m, plastic strain */
-status laws_cycled_rate(const struct laws_case *c, double *found);  /* given: amplitude, frequency [Hz] */
-status laws_held(const struct laws_case *c, double *found);         /* given: two times after which it is held [s] */
-status laws_turning(const struct laws_case *c, double *found);
-status laws_energy(const struct laws_case *c, double *found);
+ * measured[LAWS_FIGURES]: receives the quantities in the order and units of c->asked; given: meaning of c->given. */
+status laws_measure_hardening(const struct laws_case *c, double *measured); /* given: enum flow, with the constants of
+    laws_steel; measured: stress at the strains 0.01 and 0.05 [MPa], plastic work up to 0.05 [MJ/m^3] */
+status laws_measure_tabulated_hardening(const struct laws_case *c, double *measured);
+status laws_measure_prager_hardening(const struct laws_case *c, double *measured);
+status laws_measure_armstrong_frederick_hardening(const struct laws_case *c, double *measured);
+status laws_measure_plane_strain_tension(const struct laws_case *c,
+                                         double *measured); /* given: hardening [MPa], strain */
+status laws_measure_johnson_cook_heating(const struct laws_case *c,
+                                         double *measured); /* given: 0 copper or 1 steel, m, plastic strain */
+status laws_measure_rate_sensitive_cycles(const struct laws_case *c,
+                                          double *measured); /* given: amplitude, frequency [Hz] */
+status laws_measure_stress_relaxation(const struct laws_case *c,
+                                      double *measured); /* given: two times after which it is held [s] */
+status laws_measure_tension_then_shear(const struct laws_case *c, double *measured);
+status laws_measure_energy_of_random_strains(const struct laws_case *c, double *measured);
 
 /* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */
 
 /* Measure the quantities of a case with a body: bars that hit a wall, and bodies under static loads.
- * found[LAWS_FIGURES]: receives the quantities in the order and units of c->asked. c->given of bars: [0] shape
+ * measured[LAWS_FIGURES]: receives the quantities in the order and units of c->asked. c->given of bars: [0] shape
  * functions, 0 gimp or 1 linear; [1] dilatation, 0 the mean of a cell or 1 that of each point. */
-status laws_bar_wilkins(const struct laws_case *c, double *found);
-status laws_bar_copper(const struct laws_case *c, double *found);
-status laws_bar_johnson_cook(const struct laws_case *c, double *found);
-status laws_cook(const struct laws_case *c,
-                 double *found); /* given: 1 in space, 1 in the current frame, spacing [mm] */
-status laws_torsion(const struct laws_case *c, double *found); /* given: angle over that of first yield */
-status laws_beam(const struct laws_case *c, double *found); /* given: 1 in plane strain, curvature over first yield */
-status laws_sphere(const struct laws_case *c, double *found);
-status laws_cylinder(const struct laws_case *c, double *found); /* given: radius of the front over the inner radius */
+status laws_measure_wilkins_bar_impact(const struct laws_case *c, double *measured);
+status laws_measure_copper_bar_impact(const struct laws_case *c, double *measured);
+status laws_measure_johnson_cook_bar_impact(const struct laws_case *c, double *measured);
+status laws_measure_cook_membrane(const struct laws_case *c,
+                                  double *measured); /* given: 1 in space, 1 in the current frame, spacing [mm] */
+status laws_measure_torsion_moment(const struct laws_case *c,
+                                   double *measured); /* given: angle over that of first yield */
+status laws_measure_beam_bending(const struct laws_case *c,
+                                 double *measured); /* given: 1 in plane strain, curvature over first yield */
+status laws_measure_hollow_sphere(const struct laws_case *c, double *measured);
+status laws_measure_thick_cylinder(const struct laws_case *c,
+                                   double *measured); /* given: radius of the front over the inner radius */
 
 #endif

@@ -49,47 +49,47 @@ static status bar_strike(struct bar_rest *r, const char *path, const struct laws
 {
     struct run e;
     struct scene s;
-    bench_override(o, "mpm.shape", c->given[0] == 1 ? "linear" : "gimp");
-    bench_override(o, "output.frames", "0");
-    TRY(bench_engine_make(&e, &s, path, NULL, bench_overrides_ready(o), o->n));
+    bench_overrides_append(o, "mpm.shape", c->given[0] == 1 ? "linear" : "gimp");
+    bench_overrides_append(o, "output.frames", "0");
+    TRY(bench_engine_make(&e, &s, path, NULL, bench_overrides_as_array(o), o->n));
     if (c->given[1] == 1) points_have_own_dilatations(&e);
-    const status ran = engine_run(&e);
+    const status ran = engine_run_to_end(&e);
     *r = (struct bar_rest){.balance = e.diagnostics->now.balance_error};
     bar_measure(r, &e.part, s.spacing);
     bench_engine_free(&e, &s);
     return ran;
 }
 
-status laws_bar_wilkins(const struct laws_case *c, double *found)
+status laws_measure_wilkins_bar_impact(const struct laws_case *c, double *measured)
 {
     struct bench_overrides o = {0};
     struct bar_rest r;
     TRY(bar_strike(&r, "inputs/taylor_bar.yaml", c, &o));
-    found[0] = 1e3 * r.top + 0.2 /* half a spacing */, found[1] = 1e3 * r.radius, found[2] = 100 * r.balance;
+    measured[0] = 1e3 * r.top + 0.2 /* half a spacing */, measured[1] = 1e3 * r.radius, measured[2] = 100 * r.balance;
     return OK;
 }
 
-status laws_bar_copper(const struct laws_case *c, double *found)
+status laws_measure_copper_bar_impact(const struct laws_case *c, double *measured)
 {
     struct bench_overrides o = {0};
     struct bar_rest r;
-    bench_override(&o, "material",
-                   "{young: 117 GPa, poisson: 0.35, density: 8930, yield_stress: 157 MPa, "
-                   "hardening: {linear: {modulus: 425 MPa}}}");
+    bench_overrides_append(&o, "material",
+                           "{young: 117 GPa, poisson: 0.35, density: 8930, yield_stress: 157 MPa, "
+                           "hardening: {linear: {modulus: 425 MPa}}}");
     TRY(bar_strike(&r, "inputs/taylor_bar_jc.yaml", c, &o));
-    found[0] = 1e3 * r.top, found[1] = 1e3 * r.radius, found[2] = r.strain, found[3] = 1e-9 * r.pressure;
-    found[4] = 100 * r.balance;
+    measured[0] = 1e3 * r.top, measured[1] = 1e3 * r.radius, measured[2] = r.strain, measured[3] = 1e-9 * r.pressure;
+    measured[4] = 100 * r.balance;
     return OK;
 }
 
-status laws_bar_johnson_cook(const struct laws_case *c, double *found)
+status laws_measure_johnson_cook_bar_impact(const struct laws_case *c, double *measured)
 {
     struct bench_overrides o = {0};
     struct bar_rest r;
-    bench_override(&o, "material.density", "8930");
-    bench_override(&o, "material.taylor_quinney", "1");
+    bench_overrides_append(&o, "material.density", "8930");
+    bench_overrides_append(&o, "material.taylor_quinney", "1");
     TRY(bar_strike(&r, "inputs/taylor_bar_jc.yaml", c, &o));
-    found[0] = 1e3 * r.top, found[1] = 1e3 * r.radius, found[2] = r.temperature, found[3] = 100 * r.balance;
+    measured[0] = 1e3 * r.top, measured[1] = 1e3 * r.radius, measured[2] = r.temperature, measured[3] = 100 * r.balance;
     return OK;
 }
 
@@ -112,28 +112,28 @@ static const char *const cook[] = {
     "inf]}}}\n"
     "  - {name: sides, fixed: [z], region: {box: {from: [-inf, -inf, -inf], to: [inf, inf, inf]}}}\n"};
 
-status laws_cook(const struct laws_case *c, double *found)
+status laws_measure_cook_membrane(const struct laws_case *c, double *measured)
 {
     struct run e;
     struct scene s;
     struct bench_overrides o = {0};
     const bool solid = c->given[0] == 1, current = c->given[1] == 1;
     const real corner[DIM_MAX] = {48e-3, 60e-3, 0};
-    bench_override(&o, "variables.h", "%g mm", c->given[2]);
-    bench_override(&o, "mpm.frame", current ? "current" : "reference");
-    bench_override(&o, "solver", current ? "relaxation" : "static");
-    if (!current) bench_override(&o, "steps.number", "1");
-    if (current) bench_override(&o, "solver_steps", "1000000");
-    if (current) bench_override(&o, "solver_tolerance", "1e-3");
-    bench_override(&o, "output.frames", "0");
-    TRY(bench_engine_make(&e, &s, "cook", cook[solid], bench_overrides_ready(&o), o.n));
-    const status ran = engine_run(&e);
-    const int64_t i = particles_nearest(&e.part, corner);
+    bench_overrides_append(&o, "variables.h", "%g mm", c->given[2]);
+    bench_overrides_append(&o, "mpm.frame", current ? "current" : "reference");
+    bench_overrides_append(&o, "solver", current ? "relaxation" : "static");
+    if (!current) bench_overrides_append(&o, "steps.number", "1");
+    if (current) bench_overrides_append(&o, "solver_steps", "1000000");
+    if (current) bench_overrides_append(&o, "solver_tolerance", "1e-3");
+    bench_overrides_append(&o, "output.frames", "0");
+    TRY(bench_engine_make(&e, &s, "cook", cook[solid], bench_overrides_as_array(&o), o.n));
+    const status ran = engine_run_to_end(&e);
+    const int64_t i = particles_index_nearest_to_position(&e.part, corner);
     const struct load *end = &e.loads.load[1];
     double area = 0; /* the steps of the lattice make the loaded face longer than 16 mm */
     for (int64_t k = 0; k < end->n; k++) area += end->share[1][k];
     const double depth = solid ? 2 * s.spacing : 5e-3;
-    found[0] = 1e6 * (e.part.x[1][i] - e.part.X[1][i]) * 16e-3 * depth / area;
+    measured[0] = 1e6 * (e.part.x[1][i] - e.part.X[1][i]) * 16e-3 * depth / area;
     bench_engine_free(&e, &s);
     return ran;
 }
@@ -155,13 +155,13 @@ static status body_run(struct run *e, struct scene *s, const char *text)
              "material: {young: %g, poisson: %g, density: 7850, yield_stress: %g}\n%s",
              YOUNG, POISSON, YIELD, text);
     TRY(bench_engine_make(e, s, "body", whole, NULL, 0));
-    const status ran = engine_run(e);
+    const status ran = engine_run_to_end(e);
     if (ran != OK) return bench_engine_free(e, s), ran;
-    run_update_particles(e);
+    run_update_particle_motion_and_stress(e);
     return OK;
 }
 
-status laws_torsion(const struct laws_case *c, double *found)
+status laws_measure_torsion_moment(const struct laws_case *c, double *measured)
 {
     struct run e;
     struct scene s;
@@ -180,12 +180,12 @@ status laws_torsion(const struct laws_case *c, double *found)
     double moment = 0;
     for (int64_t i = 0; i < p->n; i++)
         moment += p->volume[i] * (p->X[0][i] * p->stress[4][i] - p->X[1][i] * p->stress[5][i]);
-    found[0] = moment / length;
+    measured[0] = moment / length;
     bench_engine_free(&e, &s);
     return OK;
 }
 
-status laws_beam(const struct laws_case *c, double *found)
+status laws_measure_beam_bending(const struct laws_case *c, double *measured)
 {
     struct run e;
     struct scene s;
@@ -206,7 +206,7 @@ status laws_beam(const struct laws_case *c, double *found)
     const struct particles *p = &e.part;
     double moment = 0;
     for (int64_t i = 0; i < p->n; i++) moment -= p->volume[i] * p->X[1][i] * p->stress[0][i];
-    found[0] = moment / length / (first * 1e-3 * 2 * half * half / 3);
+    measured[0] = moment / length / (first * 1e-3 * 2 * half * half / 3);
     bench_engine_free(&e, &s);
     return OK;
 }
@@ -292,14 +292,14 @@ static status shell_run(bool sphere, double spacing, double pressure, double gue
     return OK;
 }
 
-status laws_sphere(const struct laws_case *c, double *found)
+status laws_measure_hollow_sphere(const struct laws_case *c, double *measured)
 {
     (void)c;
     const double full = YIELD * (1 - POISSON) * 20e-3 / YOUNG; /* outer displacement when the front reaches it [m] */
     struct shell_state r;
     double low = 1.34, high = 1.46;
     TRY(shell_run(true, 0.5e-3, 1.19635 * YIELD, 1.5, &r));
-    found[0] = r.elastic, found[1] = r.plastic, found[2] = 1e6 * r.outer;
+    measured[0] = r.elastic, measured[1] = r.plastic, measured[2] = 1e6 * r.outer;
     while (high - low > 0.01) {
         const double middle = 0.5 * (low + high);
         const status ran = shell_run(true, 0.5e-3, middle * YIELD, 1.5, &r);
@@ -309,15 +309,15 @@ status laws_sphere(const struct laws_case *c, double *found)
         else
             low = middle;
     }
-    found[3] = 0.5 * (low + high);
+    measured[3] = 0.5 * (low + high);
     return OK;
 }
 
-status laws_cylinder(const struct laws_case *c, double *found)
+status laws_measure_thick_cylinder(const struct laws_case *c, double *measured)
 {
     const double s = 2 / sqrt(3), front = c->given[0];
     struct shell_state r;
     TRY(shell_run(false, 0.25e-3, (0.5 * s * (1 - front * front / 4) + s * log(front)) * YIELD, front, &r));
-    found[0] = r.elastic, found[1] = r.plastic;
+    measured[0] = r.elastic, measured[1] = r.plastic;
     return OK;
 }

@@ -9,13 +9,13 @@ static const char *const needed[] = {"inputs/edge_crack_k1.yaml", "inputs/inclin
 status bench_sif(bool quick)
 {
     struct bench_goals asked = {0};
-    TRY(bench_scenes_needed("sif", needed, COUNT_OF(needed)));
+    TRY(bench_check_scenes_exist("sif", needed, COUNT_OF(needed)));
     printf("stress-intensity factors\n");
-    bench_print_machine(team_set_threads(0));
-    TRY(edge_bench(&asked, quick));
-    TRY(inclined_bench(&asked, quick));
-    TRY(moving_bench(&asked, quick));
-    if (!quick) TRY(cracks_bench(&asked));
+    bench_print_machine(team_set_thread_count(0));
+    TRY(edge_crack_bench(&asked, quick));
+    TRY(inclined_crack_bench(&asked, quick));
+    TRY(moving_crack_bench(&asked, quick));
+    if (!quick) TRY(growing_cracks_bench(&asked));
     bench_goals_print(&asked);
     return bench_goals_write("sif", &asked);
 }

@@ -25,25 +25,25 @@ struct edge_table {
 };
 
 /* Runs a static edge crack with all peridynamic models at increasing resolution, prints K_I beside the closed form, and
- * adds the goals for its error to *asked. quick: coarse resolutions only. Returns FAILED if a run or a file fails. */
-status edge_bench(struct bench_goals *asked, bool quick);
+ * adds the goals for its error to *goals. quick: coarse resolutions only. Returns FAILED if a run or a file fails. */
+status edge_crack_bench(struct bench_goals *goals, bool quick);
 
 /* ---- sif_inclined.c: an inclined crack, both modes --------------------------------------------------------------- */
 
 /* Runs cracks at several angles to the load, prints K_I and K_II beside values from boundary collocation, and adds the
- * goals for their errors to *asked. quick: coarse spacing. Returns FAILED if a run or a file fails. */
-status inclined_bench(struct bench_goals *asked, bool quick);
+ * goals for their errors to *goals. quick: coarse spacing. Returns FAILED if a run or a file fails. */
+status inclined_crack_bench(struct bench_goals *goals, bool quick);
 
 /* ---- sif_moving.c: plane waves load a stationary or moving crack ------------------------------------------------- */
 
 /* Runs a stationary and a moving crack under plane waves, prints K_I(t) beside Freund's solution, and adds the goals
- * for its error to *asked. quick: two runs only. Returns FAILED if a run or a file fails. */
-status moving_bench(struct bench_goals *asked, bool quick);
+ * for its error to *goals. quick: two runs only. Returns FAILED if a run or a file fails. */
+status moving_crack_bench(struct bench_goals *goals, bool quick);
 
 /* ---- sif_fading.c: reactions and paths --------------------------------------------------------------------------- */
 
 /* Runs cracks that grow with gradual release of bonds, prints reactions and paths, and adds the goals for them to
- * *asked. Returns FAILED if a run or a file fails. */
-status cracks_bench(struct bench_goals *asked);
+ * *goals. Returns FAILED if a run or a file fails. */
+status growing_cracks_bench(struct bench_goals *goals);
 
 #endif

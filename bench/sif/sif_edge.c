@@ -87,10 +87,10 @@ static status sif_edge_take_row(void *row, const char *folder)
 static void override_probes(struct bench_overrides *o, int side)
 {
     if (paper_radius[EDGE_RINGS - 1] * width / side > 0.4 * width) return;
-    bench_override(o, "probes",
-                   "[sif, sif: {name: ring30, outer: %g mm}, sif: {name: ring50, outer: %g mm}, "
-                   "sif: {name: ring70, outer: %g mm}]",
-                   30 * width / side, 50 * width / side, 70 * width / side);
+    bench_overrides_append(o, "probes",
+                           "[sif, sif: {name: ring30, outer: %g mm}, sif: {name: ring50, outer: %g mm}, "
+                           "sif: {name: ring70, outer: %g mm}]",
+                           30 * width / side, 50 * width / side, 70 * width / side);
 }
 
 static status edge_add(struct edge_table *t, int model, int side, bool relaxed)
@@ -99,13 +99,13 @@ static status edge_add(struct edge_table *t, int model, int side, bool relaxed)
     struct edge_row *r = &t->row[t->n++];
     struct bench_job job = {.path = "inputs/edge_crack_k1.yaml", .row = r, .take = sif_edge_take_row};
     *r = (struct edge_row){.model = model, .side = side, .relaxed = relaxed};
-    bench_override(&job.overrides, "model", "%s", edge_model[model].model);
+    bench_overrides_append(&job.overrides, "model", "%s", edge_model[model].model);
     if (edge_model[model].normalisation)
-        bench_override(&job.overrides, "pd.normalisation", "%s", edge_model[model].normalisation);
-    bench_override(&job.overrides, "material.poisson", "%s", edge_model[model].poisson);
-    bench_override(&job.overrides, "particles.spacing", "%.9g mm", width / side);
-    bench_override(&job.overrides, "solver", "%s", relaxed ? "relaxation" : "cg");
-    bench_override(&job.overrides, "output.frames", "0");
+        bench_overrides_append(&job.overrides, "pd.normalisation", "%s", edge_model[model].normalisation);
+    bench_overrides_append(&job.overrides, "material.poisson", "%s", edge_model[model].poisson);
+    bench_overrides_append(&job.overrides, "particles.spacing", "%.9g mm", width / side);
+    bench_overrides_append(&job.overrides, "solver", "%s", relaxed ? "relaxation" : "cg");
+    bench_overrides_append(&job.overrides, "output.frames", "0");
     override_probes(&job.overrides, side);
     return bench_jobs_run(&job, 1, 1);
 }
@@ -148,8 +148,8 @@ static void fill(struct bench_table *rows, const struct edge_table *t)
         const struct edge_row *r = &t->row[k];
         const int paper = paper_of(r->model), side = paper_side(r->side);
         const bool has = paper >= 0 && side >= 0;
-        bench_text(rows, edge_model[r->model].name);
-        bench_text(rows, r->relaxed ? "relaxation" : "cg");
+        bench_table_append_text(rows, edge_model[r->model].name);
+        bench_table_append_text(rows, r->relaxed ? "relaxation" : "cg");
         const double number[] = {r->side,
                                  1e-3 * width / r->side,
                                  r->K,
@@ -164,7 +164,7 @@ static void fill(struct bench_table *rows, const struct edge_table *t)
                                  error_of(r->ring[2]),
                                  has ? paper_cost[side].steps[paper] : NAN,
                                  has ? paper_cost[side].seconds[paper] : NAN};
-        for (size_t m = 0; m < COUNT_OF(number); m++) bench_number(rows, number[m]);
+        for (size_t m = 0; m < COUNT_OF(number); m++) bench_table_append_number(rows, number[m]);
     }
 }
 
@@ -173,11 +173,11 @@ static void fill_paper(struct bench_table *rows)
     bench_table_make(rows, "paper_rings", "model,particles_a_side,radius_spacings,K_I,error");
     for (int p = 0; p < PAPERS; p++)
         for (int k = 0; k < EDGE_RINGS; k++) {
-            bench_text(rows, p == PAPER_OSPD ? "ospd" : "mospd");
-            bench_number(rows, 200);
-            bench_number(rows, paper_radius[k]);
-            bench_number(rows, paper_ring[p][k] * unit);
-            bench_number(rows, paper_ring[p][k] / exact - 1);
+            bench_table_append_text(rows, p == PAPER_OSPD ? "ospd" : "mospd");
+            bench_table_append_number(rows, 200);
+            bench_table_append_number(rows, paper_radius[k]);
+            bench_table_append_number(rows, paper_ring[p][k] * unit);
+            bench_table_append_number(rows, paper_ring[p][k] / exact - 1);
         }
 }
 
@@ -242,7 +242,7 @@ static status sif_edge_write_tables(const struct edge_table *t)
     struct bench_table table[2];
     fill(&table[0], t);
     fill_paper(&table[1]);
-    status s = bench_write("edge_crack_convergence", table, COUNT_OF(table));
+    status s = bench_write_result_tables("edge_crack_convergence", table, COUNT_OF(table));
     for (size_t k = 0; k < COUNT_OF(table); k++) bench_table_free(&table[k]);
     return s == OK ? bench_draw("edge_crack_convergence", 1400, 520, sif_edge_draw, t) : s;
 }
@@ -257,17 +257,17 @@ static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
         const struct edge_row *r = &t->row[k];
         if (r->relaxed || r->side < 100) continue;
         if (r->model == MOSPD)
-            bench_ask(asked, "%", fabs(error_of(r->K)), 0.003, "edge crack, mospd bulk, %d a side", r->side);
+            bench_add_goal(asked, "%", fabs(error_of(r->K)), 0.003, "edge crack, mospd bulk, %d a side", r->side);
         if (r->model == OSPD)
-            bench_ask(asked, "%", fabs(error_of(r->K)), r->side == 100 ? 0.01 : 0.005,
-                      "edge crack, ospd local, %d a side", r->side);
+            bench_add_goal(asked, "%", fabs(error_of(r->K)), r->side == 100 ? 0.01 : 0.005,
+                           "edge crack, ospd local, %d a side", r->side);
         if (r->side == 200 && (r->model == MOSPD || r->model == OSPD))
-            bench_ask(asked, "%", r->spread, 0.003, "edge crack, %s, 200 a side: between contours",
-                      edge_model[r->model].name);
+            bench_add_goal(asked, "%", r->spread, 0.003, "edge crack, %s, 200 a side: between contours",
+                           edge_model[r->model].name);
     }
 }
 
-status edge_bench(struct bench_goals *asked, bool quick)
+status edge_crack_bench(struct bench_goals *goals, bool quick)
 {
     struct edge_table t = {0};
     sif_edge_print_header();
@@ -278,6 +278,6 @@ status edge_bench(struct bench_goals *asked, bool quick)
         TRY(edge_add(&t, OSPD, side, true));
     }
     print_rings(&t);
-    sif_edge_ask(asked, &t);
+    sif_edge_ask(goals, &t);
     return sif_edge_write_tables(&t);
 }

@@ -88,16 +88,16 @@ static status write_reactions(const struct reaction_table *t)
     bench_table_make(&rows[1], "curves", "bonds,time,force");
     for (int k = 0; k < RELEASES; k++) {
         const struct reaction_row *r = &t->row[k];
-        bench_text(&rows[0], r->name);
-        bench_number(&rows[0], r->rough);
-        bench_number(&rows[0], r->last);
+        bench_table_append_text(&rows[0], r->name);
+        bench_table_append_number(&rows[0], r->rough);
+        bench_table_append_number(&rows[0], r->last);
         for (int i = 0; i < r->n; i++) {
-            bench_text(&rows[1], r->name);
-            bench_number(&rows[1], r->t[i]);
-            bench_number(&rows[1], r->force[i]);
+            bench_table_append_text(&rows[1], r->name);
+            bench_table_append_number(&rows[1], r->t[i]);
+            bench_table_append_number(&rows[1], r->force[i]);
         }
     }
-    status s = bench_write("load_displacement", rows, COUNT_OF(rows));
+    status s = bench_write_result_tables("load_displacement", rows, COUNT_OF(rows));
     for (size_t k = 0; k < COUNT_OF(rows); k++) bench_table_free(&rows[k]);
     return s == OK ? bench_draw("load_displacement", 1000, 560, draw_reactions, t) : s;
 }
@@ -110,10 +110,10 @@ static status sif_fading_reactions(struct bench_goals *asked)
     printf("\n  reaction of a plate whose crack runs slowly, about a parabola that moves along\n");
     for (int k = 0; k < RELEASES; k++) {
         job[k] = (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
-        bench_override(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
+        bench_overrides_append(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
     }
-    status s = bench_jobs_run(job, RELEASES, team_set_threads(0));
-    if (s == OK) bench_ask(asked, "%", t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
+    status s = bench_jobs_run(job, RELEASES, team_set_thread_count(0));
+    if (s == OK) bench_add_goal(asked, "%", t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
     if (s == OK) s = write_reactions(&t);
     for (int k = 0; k < RELEASES; k++) memory_free(t.row[k].t), memory_free(t.row[k].force);
     return s;
@@ -180,23 +180,23 @@ static status paths(void)
     for (int k = 0; k < PATHS; k++) {
         row[k] = path_row[k];
         job[k] = (struct bench_job){.path = "inputs/kalthoff_sif.yaml", .row = &row[k], .take = take_path};
-        bench_override(&job[k].overrides, "output.frames", "0");
-        if (row[k].key) bench_override(&job[k].overrides, row[k].key, "%s", row[k].value);
+        bench_overrides_append(&job[k].overrides, "output.frames", "0");
+        if (row[k].key) bench_overrides_append(&job[k].overrides, row[k].key, "%s", row[k].value);
     }
-    TRY(bench_jobs_run(job, PATHS, team_set_threads(0)));
+    TRY(bench_jobs_run(job, PATHS, team_set_thread_count(0)));
     bench_table_make(&rows, "", "name,angle_deg,length,start_time,K_II_over_K_I,seconds");
     for (int k = 0; k < PATHS; k++) {
-        bench_text(&rows, row[k].name);
+        bench_table_append_text(&rows, row[k].name);
         const double number[] = {row[k].angle, row[k].length, row[k].start, row[k].ratio, row[k].seconds};
-        for (size_t m = 0; m < COUNT_OF(number); m++) bench_number(&rows, number[m]);
+        for (size_t m = 0; m < COUNT_OF(number); m++) bench_table_append_number(&rows, number[m]);
     }
-    status s = bench_write("kalthoff_sif", &rows, 1);
+    status s = bench_write_result_tables("kalthoff_sif", &rows, 1);
     bench_table_free(&rows);
     return s;
 }
 
-status cracks_bench(struct bench_goals *asked)
+status growing_cracks_bench(struct bench_goals *goals)
 {
-    TRY(sif_fading_reactions(asked));
+    TRY(sif_fading_reactions(goals));
     return paths();
 }

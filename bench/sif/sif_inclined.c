@@ -70,13 +70,13 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
     struct inclined_row *r = &t->row[t->n++];
     struct bench_job job = {.path = "inputs/inclined_crack.yaml", .row = r, .take = sif_inclined_take_row};
     *r = (struct inclined_row){.at = c, .variant = v};
-    bench_override(&job.overrides, "cracks", "[{from: [%.6f mm, %.6f mm], to: [%.6f mm, %.6f mm]}]", 10 - x, 5 - y,
-                   10 + x, 5 + y);
-    bench_override(&job.overrides, "probes", "[sif: {at: [%.6f mm, %.6f mm], outer: 2 mm}]", 10 + x, 5 + y);
-    bench_override(&job.overrides, "pd.normalisation", "%s", variant[v].normalisation);
-    bench_override(&job.overrides, "particles.horizon", "%s", variant[v].horizon);
-    bench_override(&job.overrides, "particles.spacing", "%s", quick ? "0.1 mm" : "0.05 mm");
-    bench_override(&job.overrides, "output.frames", "0");
+    bench_overrides_append(&job.overrides, "cracks", "[{from: [%.6f mm, %.6f mm], to: [%.6f mm, %.6f mm]}]", 10 - x,
+                           5 - y, 10 + x, 5 + y);
+    bench_overrides_append(&job.overrides, "probes", "[sif: {at: [%.6f mm, %.6f mm], outer: 2 mm}]", 10 + x, 5 + y);
+    bench_overrides_append(&job.overrides, "pd.normalisation", "%s", variant[v].normalisation);
+    bench_overrides_append(&job.overrides, "particles.horizon", "%s", variant[v].horizon);
+    bench_overrides_append(&job.overrides, "particles.spacing", "%s", quick ? "0.1 mm" : "0.05 mm");
+    bench_overrides_append(&job.overrides, "output.frames", "0");
     return bench_jobs_run(&job, 1, 1);
 }
 
@@ -126,8 +126,8 @@ static status sif_inclined_write_tables(const struct inclined_table *t)
     for (int k = 0; k < t->n; k++) {
         const struct inclined_row *r = &t->row[k];
         const struct inclined_case *c = r->at;
-        bench_number(&rows, c->angle);
-        bench_text(&rows, r->variant == LOCAL ? "local 1.5" : "bulk 3.015");
+        bench_table_append_number(&rows, c->angle);
+        bench_table_append_text(&rows, r->variant == LOCAL ? "local 1.5" : "bulk 3.015");
         const double number[] = {c->exact[0],
                                  c->exact[1],
                                  r->F[0],
@@ -141,14 +141,14 @@ static status sif_inclined_write_tables(const struct inclined_table *t)
                                  r->spread,
                                  r->steps,
                                  r->seconds};
-        for (size_t m = 0; m < COUNT_OF(number); m++) bench_number(&rows, number[m]);
+        for (size_t m = 0; m < COUNT_OF(number); m++) bench_table_append_number(&rows, number[m]);
     }
-    status s = bench_write("inclined_crack", &rows, 1);
+    status s = bench_write_result_tables("inclined_crack", &rows, 1);
     bench_table_free(&rows);
     return s == OK ? bench_draw("inclined_crack", 1000, 560, sif_inclined_draw, t) : s;
 }
 
-status inclined_bench(struct bench_goals *asked, bool quick)
+status inclined_crack_bench(struct bench_goals *goals, bool quick)
 {
     struct inclined_table t = {0};
     double worst[INCLINED_MODES] = {0};
@@ -163,8 +163,8 @@ status inclined_bench(struct bench_goals *asked, bool quick)
         for (int m = 0; m < INCLINED_MODES && t.row[k].variant == LOCAL; m++)
             worst[m] = fmax(worst[m], fabs(sif_inclined_off(t.row[k].at, t.row[k].F, m)));
     if (!quick) {
-        bench_ask(asked, "%", worst[0], 0.01, "inclined crack, K_I, worst angle");
-        bench_ask(asked, "%", worst[1], 0.015, "inclined crack, K_II, worst angle");
+        bench_add_goal(goals, "%", worst[0], 0.01, "inclined crack, K_I, worst angle");
+        bench_add_goal(goals, "%", worst[1], 0.015, "inclined crack, K_II, worst angle");
     }
     return sif_inclined_write_tables(&t);
 }

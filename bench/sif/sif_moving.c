@@ -99,9 +99,9 @@ static status closed_form(struct moving_table *t)
 {
     struct scene s = {0};
     TRY(scene_read(&s, SCENE, NULL, 0));
-    t->medium = crack_medium_of(&s.material[0], s.space);
-    t->factor = crack_sif_ratio_at_speed(&t->medium, SPEED_EXACT, speed);
-    t->printed = crack_sif_ratio_at_speed(&t->medium, SPEED_APPROXIMATE, speed);
+    t->medium = crack_medium_of_material(&s.material[0], s.space);
+    t->factor = crack_moving_to_resting_sif_ratio(&t->medium, SPEED_EXACT, speed);
+    t->printed = crack_moving_to_resting_sif_ratio(&t->medium, SPEED_APPROXIMATE, speed);
     scene_free(&s);
     return OK;
 }
@@ -187,7 +187,7 @@ static struct bench_job job_of(struct moving_row *r, const struct moving_case *c
     struct bench_job job = {.path = SCENE, .row = r, .take = sif_moving_take_row};
     *r = (struct moving_row){.at = c, .moves = !c->pair[0].key || strcmp(c->pair[0].key, "growth") != 0};
     for (int k = 0; k < PAIRS && c->pair[k].key; k++)
-        bench_override(&job.overrides, c->pair[k].key, "%s", c->pair[k].value);
+        bench_overrides_append(&job.overrides, c->pair[k].key, "%s", c->pair[k].value);
     return job;
 }
 
@@ -199,7 +199,7 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
     t->n = quick ? QUICK : CASES;
     for (int k = 0; k < t->n; k++) job[k] = job_of(&t->row[k], &moving_case[k]);
     table = t;
-    return bench_jobs_run(job, t->n, team_set_threads(0));
+    return bench_jobs_run(job, t->n, team_set_thread_count(0));
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
@@ -213,10 +213,10 @@ static void fill_curves(struct bench_table *rows, const struct moving_table *t)
         const struct moving_row *r = &t->row[k];
         for (int i = 0; i < r->n; i++) {
             const double rest = sif_moving_at_rest(t, r->t[i]);
-            bench_text(rows, r->at->name);
+            bench_table_append_text(rows, r->at->name);
             const double number[] = {r->t[i], r->K[0][i], r->K[1][i], rest * (r->moves ? t->factor : 1),
                                      rest * (r->moves ? t->printed : 1)};
-            for (size_t m = 0; m < COUNT_OF(number); m++) bench_number(rows, number[m]);
+            for (size_t m = 0; m < COUNT_OF(number); m++) bench_table_append_number(rows, number[m]);
         }
     }
 }
@@ -227,12 +227,12 @@ static status sif_moving_write_tables(const struct moving_table *t)
     bench_table_make(&rows[0], "", "name,low,high,mean,ripple,ripple_disc,seconds");
     for (int k = 0; k < t->n; k++) {
         const struct moving_row *r = &t->row[k];
-        bench_text(&rows[0], r->at->name);
+        bench_table_append_text(&rows[0], r->at->name);
         const double number[] = {r->low, r->high, r->mean, r->ripple[0], r->ripple[1], r->seconds};
-        for (size_t m = 0; m < COUNT_OF(number); m++) bench_number(&rows[0], number[m]);
+        for (size_t m = 0; m < COUNT_OF(number); m++) bench_table_append_number(&rows[0], number[m]);
     }
     fill_curves(&rows[1], t);
-    status s = bench_write("moving_crack", rows, COUNT_OF(rows));
+    status s = bench_write_result_tables("moving_crack", rows, COUNT_OF(rows));
     for (size_t k = 0; k < COUNT_OF(rows); k++) bench_table_free(&rows[k]);
     return s;
 }
@@ -343,8 +343,8 @@ static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 
 static void sif_moving_ask(struct bench_goals *asked, const struct moving_table *t)
 {
     double worst = 0, slow = 0;
-    bench_ask(asked, "%", farthest(&t->row[0]), 0.03, "crack at rest under waves, 5 to 9 us");
-    bench_ask(asked, "%", farthest(&t->row[1]), 0.05, "moving crack, 5.5 to 9 us");
+    bench_add_goal(asked, "%", farthest(&t->row[0]), 0.03, "crack at rest under waves, 5 to 9 us");
+    bench_add_goal(asked, "%", farthest(&t->row[1]), 0.05, "moving crack, 5.5 to 9 us");
     if (t->n <= 2) return;
     for (int k = 2; k < t->n; k++) {
         const char *name = t->row[k].at->name;
@@ -352,12 +352,13 @@ static void sif_moving_ask(struct bench_goals *asked, const struct moving_table 
         double *most = strstr(name, "of a horizon") ? &slow : &worst;
         *most = fmax(*most, farthest(&t->row[k]));
     }
-    bench_ask(asked, "%", worst, 0.05, "moving crack, worst of all ways to 0.25 mm");
-    bench_ask(asked, "%", slow, 0.05, "moving crack, damping of a whole horizon");
-    bench_ask(asked, "%", t->row[1].ripple[1] / t->row[2].ripple[1], 1.0 / 3, "ripple, fading over sudden, whole disc");
+    bench_add_goal(asked, "%", worst, 0.05, "moving crack, worst of all ways to 0.25 mm");
+    bench_add_goal(asked, "%", slow, 0.05, "moving crack, damping of a whole horizon");
+    bench_add_goal(asked, "%", t->row[1].ripple[1] / t->row[2].ripple[1], 1.0 / 3,
+                   "ripple, fading over sudden, whole disc");
 }
 
-status moving_bench(struct bench_goals *asked, bool quick)
+status moving_crack_bench(struct bench_goals *goals, bool quick)
 {
     struct moving_table *t = NEW("bench.moving", 1, struct moving_table);
     status s = closed_form(t);
@@ -368,7 +369,7 @@ status moving_bench(struct bench_goals *asked, bool quick)
             t->factor, t->printed, "", "low, high", "mean", "ripple", "disc", "s");
         s = sif_moving_run_all(t, quick);
     }
-    if (s == OK) sif_moving_ask(asked, t);
+    if (s == OK) sif_moving_ask(goals, t);
     if (s == OK) s = sif_moving_write_tables(t);
     if (s == OK && !quick) s = draw_groups(t);
     memory_free(t);

@@ -9,12 +9,12 @@ static const char *const needed[] = {"inputs/compact_tension.yaml",   "inputs/ed
 status bench_slow(bool quick)
 {
     struct bench_goals asked = {0};
-    TRY(bench_scenes_needed("slow", needed, COUNT_OF(needed)));
+    TRY(bench_check_scenes_exist("slow", needed, COUNT_OF(needed)));
     printf("load steps\n");
-    bench_print_machine(team_set_threads(0));
-    TRY(slow_specimens(&asked, quick));
-    TRY(slow_paths(&asked, quick));
-    TRY(slow_speed(&asked, quick));
+    bench_print_machine(team_set_thread_count(0));
+    TRY(slow_run_specimens(&asked, quick));
+    TRY(slow_compare_crack_paths(&asked, quick));
+    TRY(slow_time_load_steps(&asked, quick));
     bench_goals_print(&asked);
     return bench_goals_write("slow", &asked);
 }

@@ -57,7 +57,7 @@ static status kink_take(void *row, const char *folder)
     const double side = place[0] * start[0] + place[1] * start[1] > 0 ? 1 : -1;
     start[0] *= side, start[1] *= side;
     place[0] = start[0], place[1] = start[1];
-    r->expected = crack_kink_angle_of_sif(K) / degree, r->found = NAN;
+    r->expected = crack_kink_angle_from_sif(K) / degree, r->found = NAN;
     if (path_next(&h, &line, place))
         r->found =
             remainder(atan2(side * (place[1] - start[1]), side * (place[0] - start[0])) / degree - r->angle, 360);
@@ -72,9 +72,9 @@ static status kink_take(void *row, const char *folder)
  * [degree], or sets it to NAN if that is NAN. */
 static void path_put(struct bench_table *t, const char *name, const struct path_row *r, double *worst)
 {
-    bench_text(t, name);
+    bench_table_append_text(t, name);
     const double number[] = {r->spacing, r->angle, r->found, r->expected, r->apart};
-    for (size_t k = 0; k < COUNT_OF(number); k++) bench_number(t, number[k]);
+    for (size_t k = 0; k < COUNT_OF(number); k++) bench_table_append_number(t, number[k]);
     if (!(r->apart <= *worst)) *worst = r->apart;
 }
 
@@ -87,16 +87,16 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
         for (int angle = quick ? 45 : 15; angle <= 75; angle += quick ? 45 : 15) {
             struct path_row r = {.spacing = 1e-3 / fine, .angle = angle};
             struct bench_job job = {.path = "inputs/mixed_mode.yaml", .row = &r, .take = kink_take};
-            bench_override(&job.overrides, "variables.angle", "%d deg", angle);
-            bench_override(&job.overrides, "particles.spacing", "%.9g mm", 1.0 / fine);
-            bench_override(&job.overrides, "steps.number", "6");
-            bench_override(&job.overrides, "probes", "[]");
-            bench_override(&job.overrides, "output.frames", "0");
+            bench_overrides_append(&job.overrides, "variables.angle", "%d deg", angle);
+            bench_overrides_append(&job.overrides, "particles.spacing", "%.9g mm", 1.0 / fine);
+            bench_overrides_append(&job.overrides, "steps.number", "6");
+            bench_overrides_append(&job.overrides, "probes", "[]");
+            bench_overrides_append(&job.overrides, "output.frames", "0");
             TRY(bench_jobs_run(&job, 1, 1));
             path_put(t, "inclined crack", &r, &worst);
         }
     }
-    bench_ask(asked, "degrees", worst, 3, "inclined crack, kinks at 15 to 75 degrees, worst");
+    bench_add_goal(asked, "degrees", worst, 3, "inclined crack, kinks at 15 to 75 degrees, worst");
     return OK;
 }
 
@@ -116,7 +116,7 @@ static status bend_take(void *row, const char *folder)
     r->apart = 0;
     for (int64_t line = 1; path_next(&h, &line, place);) {
         const double along[2] = {place[0] - start[0], place[1] - start[1]}, length = hypot(along[0], along[1]);
-        const double expected = bend_chord(length), found = atan2(along[0], along[1]) / degree;
+        const double expected = bend_crack_chord_angle(length), found = atan2(along[0], along[1]) / degree;
         if (isnan(expected)) break;
         if (fabs(found - expected) >= r->apart)
             r->found = found, r->expected = expected, r->apart = fabs(found - expected);
@@ -133,26 +133,26 @@ static status bends(struct bench_table *t, struct bench_goals *asked, bool quick
     for (int fine = 1; fine <= (quick ? 1 : 4); fine *= 2) {
         struct path_row r = {.spacing = 1e-3 / fine, .angle = NAN};
         struct bench_job job = {.path = "inputs/bend_offset_notch.yaml", .row = &r, .take = bend_take};
-        bench_override(&job.overrides, "variables.h", "%.9g mm", 1.0 / fine);
-        bench_override(&job.overrides, "cracks.0", "{from: [%g mm, -1 mm], to: [%g mm, %g mm]}", 1e3 * notch[0],
-                       1e3 * notch[0], 1e3 * notch[1]);
-        bench_override(&job.overrides, "steps.number", "%d", 12 * fine);
-        bench_override(&job.overrides, "output.frames", "0");
+        bench_overrides_append(&job.overrides, "variables.h", "%.9g mm", 1.0 / fine);
+        bench_overrides_append(&job.overrides, "cracks.0", "{from: [%g mm, -1 mm], to: [%g mm, %g mm]}", 1e3 * notch[0],
+                               1e3 * notch[0], 1e3 * notch[1]);
+        bench_overrides_append(&job.overrides, "steps.number", "%d", 12 * fine);
+        bench_overrides_append(&job.overrides, "output.frames", "0");
         TRY(bench_jobs_run(&job, 1, 1));
         worst = 0;
         path_put(t, "notch beside middle", &r, &worst);
     }
-    bench_ask(asked, "degrees", worst, 3, "notch beside the middle of a beam, worst chord");
+    bench_add_goal(asked, "degrees", worst, 3, "notch beside the middle of a beam, worst chord");
     return OK;
 }
 
-status slow_paths(struct bench_goals *asked, bool quick)
+status slow_compare_crack_paths(struct bench_goals *goals, bool quick)
 {
     struct bench_table t;
     bench_table_make(&t, "", "case,spacing,angle,found,expected,apart");
-    status s = kinks(&t, asked, quick);
-    if (s == OK) s = bends(&t, asked, quick);
-    if (s == OK) s = bench_write("slow_paths", &t, 1);
+    status s = kinks(&t, goals, quick);
+    if (s == OK) s = bends(&t, goals, quick);
+    if (s == OK) s = bench_write_result_tables("slow_paths", &t, 1);
     bench_table_free(&t);
     return s;
 }

@@ -95,7 +95,7 @@ static double longest_crack(const struct slow_case *c)
  * crack grows. By that theory both follow from the crack length, which is eliminated. */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
-    const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
+    const double unit = specimen_load_at_crack_growth(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
     const double squared = opening * s->modulus * s->thickness * pow(s->width, 3) / (8 * unit);
     return load / (unit / sqrt(squared));
 }
@@ -119,8 +119,8 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
     r->mean = r->farthest = 0, r->opening = s->kind == DOUBLE_CANTILEVER ? 0 : NAN;
     for (int64_t k = 1; k < h->rows && r->n < POINTS_MOST; k++) {
         const double load = fabs(history_value_at(h, k, force)), grown = history_value_at(h, k, area) / s->thickness;
-        const double a = crack + grown, off = load / specimen_load(s, a) - 1;
-        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load(s, s->crack);
+        const double a = crack + grown, off = load / specimen_load_at_crack_growth(s, a) - 1;
+        r->crack[r->n] = a / s->width, r->load[r->n++] = load / specimen_load_at_crack_growth(s, s->crack);
         largest = fmax(largest, load);
         if (!(grown > 0) || a > longest_crack(r->of)) continue;
         sum += off, later++;
@@ -129,7 +129,7 @@ static void slow_row_read(struct slow_row *r, const struct history *h)
         const double apart = cantilever_at_opening(s, load, 2 * fabs(history_value_at(h, k, displacement))) - 1;
         if (fabs(apart) > fabs(r->opening)) r->opening = apart;
     }
-    r->peak = largest / specimen_load(s, crack) - 1;
+    r->peak = largest / specimen_load_at_crack_growth(s, crack) - 1;
     r->mean = later > 0 ? sum / later : NAN;
     r->released = history_value_at(h, h->rows - 1, lost) / history_value_at(h, h->rows - 1, area) / toughness;
 }
@@ -164,12 +164,12 @@ static status slow_add(struct slow_table *t, int of, int model, double fine)
     struct slow_row *r = &t->row[t->n++];
     *r = (struct slow_row){.of = c, .model = model, .fine = fine};
     struct bench_job job = {.path = c->scene, .row = r, .take = slow_row_take};
-    bench_override(&job.overrides, c->size, "%.9g mm", 1e3 * c->spacing / fine);
-    bench_override(&job.overrides, "steps.number", "%.0f", c->steps * fine);
-    bench_override(&job.overrides, "output.frames", "0");
-    bench_override(&job.overrides, "model", "%s", slow_model[model]);
-    if (model > 0) bench_override(&job.overrides, "material.poisson", "0.3");
-    if (c->crack) bench_override(&job.overrides, "cracks.0", "%s", c->crack);
+    bench_overrides_append(&job.overrides, c->size, "%.9g mm", 1e3 * c->spacing / fine);
+    bench_overrides_append(&job.overrides, "steps.number", "%.0f", c->steps * fine);
+    bench_overrides_append(&job.overrides, "output.frames", "0");
+    bench_overrides_append(&job.overrides, "model", "%s", slow_model[model]);
+    if (model > 0) bench_overrides_append(&job.overrides, "material.poisson", "0.3");
+    if (c->crack) bench_overrides_append(&job.overrides, "cracks.0", "%s", c->crack);
     return bench_jobs_run(&job, 1, 1);
 }
 
@@ -186,10 +186,10 @@ static status slow_rows_write(const struct slow_table *t)
         const struct slow_row *r = &t->row[k];
         const double number[] = {
             r->of->across * r->fine, r->particles, r->seconds, r->peak, r->mean, r->farthest, r->opening, r->released};
-        bench_text(&rows, r->of->name), bench_text(&rows, slow_model[r->model]);
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(&rows, number[c]);
+        bench_table_append_text(&rows, r->of->name), bench_table_append_text(&rows, slow_model[r->model]);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(&rows, number[c]);
     }
-    const status s = bench_write("slow_specimens", &rows, 1);
+    const status s = bench_write_result_tables("slow_specimens", &rows, 1);
     bench_table_free(&rows);
     return s;
 }
@@ -209,7 +209,8 @@ static void slow_curves_draw(FILE *to, const void *context)
         fprintf(to, "set title '%s'\n$exact << EOD\n", slow_case[c].name);
         for (int k = 0; k <= 100; k++) {
             const double x = from + (end - from) * k / 100;
-            fprintf(to, "%.6g %.6g\n", x, specimen_load(s, x * s->width) / specimen_load(s, s->crack));
+            fprintf(to, "%.6g %.6g\n", x,
+                    specimen_load_at_crack_growth(s, x * s->width) / specimen_load_at_crack_growth(s, s->crack));
         }
         fputs("EOD\n", to);
         for (int k = 0; k < t->n; k++) {
@@ -237,11 +238,12 @@ static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {
     const char *name = r->of->name, *model = slow_model[r->model];
     const double across = r->of->across * r->fine;
-    bench_ask(asked, "%", fabs(r->peak), 0.03, "%s, %s, %.0f across: largest load", name, model, across);
-    bench_ask(asked, "%", fabs(r->farthest), 0.03, "%s, %s, %.0f across: later loads", name, model, across);
+    bench_add_goal(asked, "%", fabs(r->peak), 0.03, "%s, %s, %.0f across: largest load", name, model, across);
+    bench_add_goal(asked, "%", fabs(r->farthest), 0.03, "%s, %s, %.0f across: later loads", name, model, across);
     if (r->of->specimen.kind == DOUBLE_CANTILEVER)
-        bench_ask(asked, "%", fabs(r->opening), 0.03, "%s, %s, %.0f across: load by opening", name, model, across);
-    bench_ask(asked, "%", fabs(r->released - 1), 0.03, "%s, %s, %.0f across: released over area", name, model, across);
+        bench_add_goal(asked, "%", fabs(r->opening), 0.03, "%s, %s, %.0f across: load by opening", name, model, across);
+    bench_add_goal(asked, "%", fabs(r->released - 1), 0.03, "%s, %s, %.0f across: released over area", name, model,
+                   across);
 }
 
 static status slow_rows(struct slow_table *t, struct bench_goals *asked, bool quick)
@@ -256,12 +258,12 @@ static status slow_rows(struct slow_table *t, struct bench_goals *asked, bool qu
     return OK;
 }
 
-status slow_specimens(struct bench_goals *asked, bool quick)
+status slow_run_specimens(struct bench_goals *goals, bool quick)
 {
     struct slow_table *t = calloc(1, sizeof *t);
     printf("\n  %-20s %-6s %7s %9s %8s %10s %10s %10s %10s %9s\n", "load beside LEFM", "model", "across", "particles",
            "s", "largest", "later mean", "farthest", "by opening", "G/G_c");
-    status s = t ? slow_rows(t, asked, quick) : status_set(FAILED, "bench slow: no memory");
+    status s = t ? slow_rows(t, goals, quick) : status_set(FAILED, "bench slow: no memory");
     if (s == OK) s = slow_rows_write(t);
     if (s == OK) s = bench_draw("slow_specimens", 1200, 900, slow_curves_draw, t);
     free(t);

@@ -60,7 +60,7 @@ static status stability_measure(void *context, const struct stability_case *c)
     m->map->n++;
     stability_label(c, r->label, sizeof r->label);
     const bool slow = c->shape && !strcmp(c->shape, "linear");
-    const status s = stability_observe(c, slow ? STEPS_OF_LINEAR : m->steps, m->long_steps, &r->l);
+    const status s = stability_determine_limits(c, slow ? STEPS_OF_LINEAR : m->steps, m->long_steps, &r->l);
     if (s != OK && s != REFUSED) return s;
     if (s == REFUSED) {
         const char *why = strstr(status_message(), "was measured unstable")
@@ -83,31 +83,31 @@ static void stability_put_table(struct bench_table *t, const struct stability_ma
         const struct stability_case *c = &r->c;
         const struct stability_limits *l = &r->l;
         const bool there = !r->refusal[0];
-        bench_text(t, stability_group_name[c->group]);
-        bench_text(t, r->label);
-        bench_number(t, c->dim);
-        bench_text(t, c->method);
-        bench_text(t, c->model ? c->model : "bond");
-        bench_text(t, c->coupling ? c->coupling : "-");
-        bench_text(t, c->shape ? c->shape : "-");
-        bench_text(t, c->transfer ? c->transfer : "-");
-        bench_number(t, c->cell > 0 ? c->cell : 2);
-        bench_number(t, c->horizon > 0 ? c->horizon : 3.015);
-        bench_text(t, c->group == GROUP_POINTS ? "h/c" : "D/c");
-        bench_number(t, there ? l->observed / l->unit : NAN);
-        bench_number(t, there ? l->offset : NAN);
-        bench_number(t, there ? l->largest / l->unit : NAN);
-        bench_number(t, there ? l->critical / l->unit : NAN);
-        bench_number(t, there ? l->automatic / l->unit : NAN);
-        bench_number(t, there ? l->automatic / l->observed : NAN);
-        bench_number(t, c->quoted_low > 0 ? c->quoted_low : NAN);
-        bench_number(t, c->quoted_high > 0 ? c->quoted_high : NAN);
-        bench_number(t, there ? l->silling / l->observed : NAN);
-        bench_number(t, there ? l->gershgorin / l->observed : NAN);
-        bench_text(t, run[l->automatic_run]);
-        bench_text(t, run[l->below]);
-        bench_text(t, run[l->above]);
-        bench_text(t, there ? outside(r) ? "outside" : "inside" : r->refusal);
+        bench_table_append_text(t, stability_group_name[c->group]);
+        bench_table_append_text(t, r->label);
+        bench_table_append_number(t, c->dim);
+        bench_table_append_text(t, c->method);
+        bench_table_append_text(t, c->model ? c->model : "bond");
+        bench_table_append_text(t, c->coupling ? c->coupling : "-");
+        bench_table_append_text(t, c->shape ? c->shape : "-");
+        bench_table_append_text(t, c->transfer ? c->transfer : "-");
+        bench_table_append_number(t, c->cell > 0 ? c->cell : 2);
+        bench_table_append_number(t, c->horizon > 0 ? c->horizon : 3.015);
+        bench_table_append_text(t, c->group == GROUP_POINTS ? "h/c" : "D/c");
+        bench_table_append_number(t, there ? l->observed / l->unit : NAN);
+        bench_table_append_number(t, there ? l->offset : NAN);
+        bench_table_append_number(t, there ? l->largest / l->unit : NAN);
+        bench_table_append_number(t, there ? l->critical / l->unit : NAN);
+        bench_table_append_number(t, there ? l->automatic / l->unit : NAN);
+        bench_table_append_number(t, there ? l->automatic / l->observed : NAN);
+        bench_table_append_number(t, c->quoted_low > 0 ? c->quoted_low : NAN);
+        bench_table_append_number(t, c->quoted_high > 0 ? c->quoted_high : NAN);
+        bench_table_append_number(t, there ? l->silling / l->observed : NAN);
+        bench_table_append_number(t, there ? l->gershgorin / l->observed : NAN);
+        bench_table_append_text(t, run[l->automatic_run]);
+        bench_table_append_text(t, run[l->below]);
+        bench_table_append_text(t, run[l->above]);
+        bench_table_append_text(t, there ? outside(r) ? "outside" : "inside" : r->refusal);
     }
 }
 
@@ -144,34 +144,34 @@ status bench_stability(bool quick)
         "group,case,dimension,method,model,coupling,shape,transfer,points_per_cell,horizon,unit,observed,"
         "observed_at_offset,observed_largest,predicted,automatic,automatic_over_observed,sheet_low,sheet_high,"
         "silling_askari_over_observed,gershgorin_over_observed,run_automatic,run_below,run_above,verdict");
-    status s = stability_cases(quick, stability_measure, &m);
+    status s = stability_call_for_all_cases(quick, stability_measure, &m);
     if (s == OK) {
         print_verdict(map);
         stability_put_table(&t[0], map);
-        s = stability_scenes(&t[1]);
+        s = stability_measure_failing_scenes(&t[1]);
     }
-    if (s == OK) s = drift_map(&t[2], NULL, quick);
+    if (s == OK) s = drift_run_all_cases(&t[2], NULL, quick);
     if (s == OK) {
-        s = bench_write("stability", t, 3);
+        s = bench_write_result_tables("stability", t, 3);
         if (!quick)
             puts("  a run of APIC that stays above the limit: growth moves points at an edge to where the limit is "
                  "another");
     }
-    if (s == OK) s = bench_draw("stability", 1800, 1150, stability_draw, map);
-    if (s == OK) s = stability_scenes_draw(&t[1]);
+    if (s == OK) s = bench_draw("stability", 1800, 1150, stability_write_picture_commands, map);
+    if (s == OK) s = stability_draw_failing_scenes(&t[1]);
     if (s == OK) s = drift_draw(&t[2]);
     for (int k = 0; k < 3; k++) bench_table_free(&t[k]);
     memory_free(map);
     return s;
 }
 
-status bench_stability_of(const char *only, bool quick)
+status bench_stability_of_energy(const char *case_name_part, bool quick)
 {
     struct bench_table t = {0};
-    const bool all = !strcmp(only, "lasting");
+    const bool all = !strcmp(case_name_part, "lasting");
     bench_print_machine(1);
-    status s = drift_map(&t, all ? NULL : only, quick);
-    if (s == OK && all) s = bench_write("stability", &t, 1);
+    status s = drift_run_all_cases(&t, all ? NULL : case_name_part, quick);
+    if (s == OK && all) s = bench_write_result_tables("stability", &t, 1);
     if (s == OK && all) s = drift_draw(&t);
     bench_table_free(&t);
     return s;

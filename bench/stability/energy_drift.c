@@ -27,21 +27,21 @@ static void energy_drift_put(struct bench_table *t, const struct drift_case *l, 
                              const char *label)
 {
     const bool there = !r->refused;
-    bench_text(t, drift_group_name[l->group]);
-    bench_text(t, label);
-    bench_text(t, promise_of(r));
-    bench_number(t, there ? (double)r->particles : NAN);
-    bench_number(t, (double)r->steps);
-    bench_number(t, r->stopped > 0 ? (double)r->stopped : NAN);
-    bench_number(t, there ? r->end : NAN);
-    bench_number(t, there ? r->largest : NAN);
-    bench_number(t, there ? r->least : NAN);
-    bench_number(t, there ? r->loudest : NAN);
-    bench_number(t, there ? r->rate : NAN);
-    bench_number(t, there ? r->turn : NAN);
-    bench_number(t, there && l->converts ? r->converted : NAN);
-    bench_text(t, verdict_of(l, r));
-    bench_text(t, r->why[0] ? r->why : "-");
+    bench_table_append_text(t, drift_group_name[l->group]);
+    bench_table_append_text(t, label);
+    bench_table_append_text(t, promise_of(r));
+    bench_table_append_number(t, there ? (double)r->particles : NAN);
+    bench_table_append_number(t, (double)r->steps);
+    bench_table_append_number(t, r->stopped > 0 ? (double)r->stopped : NAN);
+    bench_table_append_number(t, there ? r->end : NAN);
+    bench_table_append_number(t, there ? r->largest : NAN);
+    bench_table_append_number(t, there ? r->least : NAN);
+    bench_table_append_number(t, there ? r->loudest : NAN);
+    bench_table_append_number(t, there ? r->rate : NAN);
+    bench_table_append_number(t, there ? r->turn : NAN);
+    bench_table_append_number(t, there && l->converts ? r->converted : NAN);
+    bench_table_append_text(t, verdict_of(l, r));
+    bench_table_append_text(t, r->why[0] ? r->why : "-");
 }
 
 /* Prints the result r of a long run, case l, and its label `label`. A case whose energy drifts too much is printed to
@@ -81,16 +81,18 @@ static status energy_drift_measure(void *context, const struct drift_case *l)
     return OK;
 }
 
-status drift_map(struct bench_table *t, const char *only, bool quick)
+status drift_run_all_cases(struct bench_table *table, const char *case_name_part, bool quick)
 {
-    struct mapping_of m = {.t = t, .only = only, .steps = quick ? LASTING_STEPS_QUICK : LASTING_STEPS, .group = -1};
-    bench_table_make(t, "lasting", header);
+    struct mapping_of m = {
+        .t = table, .only = case_name_part, .steps = quick ? LASTING_STEPS_QUICK : LASTING_STEPS, .group = -1};
+    bench_table_make(table, "lasting", header);
     printf("\n  %lld steps at the automatic step: energy less the work of loads, over what it was at the start (asked: "
            "within %g %%, "
            "points of the current frame never above it), and its rate\n",
            (long long)m.steps, 100 * LASTING_ENERGY);
-    TRY(drift_cases(quick && !only, energy_drift_measure, &m));
-    if (t->cells == 0) return status_set(REFUSED, "bench stability: no case of the long map has %s in its name", only);
+    TRY(drift_call_for_all_cases(quick && !case_name_part, energy_drift_measure, &m));
+    if (table->cells == 0)
+        return status_set(REFUSED, "bench stability: no case of the long map has %s in its name", case_name_part);
     printf("\n  %d of %d cases hold, %d are refused; couplings published by others are not counted\n", m.held, m.cases,
            m.refused);
     return OK;

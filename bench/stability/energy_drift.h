@@ -55,33 +55,34 @@ enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 /* Growth rate that changes the energy by 0.5 % over the steps of the map. */
 #define LASTING_RATE (LASTING_ENERGY / LASTING_STEPS)
 
-/* Runs the case l for `steps` steps on one thread and stores energy, growth rate and angular momentum in *to. Returns
- * FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
-status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to);
+/* Runs the case l for `steps` steps on one thread and stores energy, growth rate and angular momentum in *result.
+ * Returns FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
+status drift_run(const struct drift_case *drift_case, int64_t steps, struct lasting *result);
 
 /* Returns true if the result r meets the requirements of the case l. */
-bool drift_holds(const struct drift_case *l, const struct lasting *r);
+bool drift_holds(const struct drift_case *drift_case, const struct lasting *result);
 
 /* Composes the label of the case l in text[size]. */
-void drift_label(const struct drift_case *l, char *text, size_t size);
+void drift_label(const struct drift_case *drift_case, char *text, size_t capacity);
 
-/* A function that drift_cases calls for each case l. context: its argument. A status that is not OK ends the calls. */
+/* A function that drift_call_for_all_cases calls for each case l. context: its argument. A status that is not OK ends
+ * the calls. */
 typedef status drift_take(void *context, const struct drift_case *l);
 
 /* Calls take(context, case) for all cases, with `quick` for every fourth (energy_drift_cases.c). Returns the first
  * status that is not OK. */
-status drift_cases(bool quick, drift_take *take, void *context);
+status drift_call_for_all_cases(bool quick, drift_take *callback, void *context);
 
 /* Cases of the group LASTING_NAMED (energy_drift_named.c). */
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 
-/* Runs all cases, or those whose name contains `only` if it is not NULL, prints their results, and fills t, the table
- * of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns FAILED if the bench
- * itself fails. */
-status drift_map(struct bench_table *t, const char *only, bool quick);
+/* Runs all cases, or those whose name contains `case_name_part` if it is not NULL, prints their results, and fills t,
+ * the table of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns FAILED if
+ * the bench itself fails. */
+status drift_run_all_cases(struct bench_table *table, const char *case_name_part, bool quick);
 
 /* Draws the picture of the table t of these results (energy_drift_draw.c). Returns FAILED if it cannot be drawn. */
-status drift_draw(const struct bench_table *t);
+status drift_draw(const struct bench_table *table);
 
 #endif

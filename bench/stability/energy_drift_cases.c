@@ -264,10 +264,10 @@ static status energy_drift_cases_published(struct taker *t)
     return OK;
 }
 
-status drift_cases(bool quick, drift_take *take, void *context)
+status drift_call_for_all_cases(bool quick, drift_take *callback, void *context)
 {
-    struct taker t = {quick, 0, take, context};
-    for (int k = 0; k < drift_named_count; k++) TRY(take(context, &drift_named[k]));
+    struct taker t = {quick, 0, callback, context};
+    for (int k = 0; k < drift_named_count; k++) TRY(callback(context, &drift_named[k]));
     TRY(bodies(&t));
     TRY(energy_drift_cases_reference(&t));
     TRY(current(&t));
@@ -290,15 +290,15 @@ static const char *const support_name[] = {[MIRROR] = "mirror",
                                            [FIXED] = "fixed",
                                            [DRIVEN] = "driven"};
 
-void drift_label(const struct drift_case *l, char *text, size_t size)
+void drift_label(const struct drift_case *drift_case, char *text, size_t capacity)
 {
     static const char *const space[] = {"", "line", "plate", "solid"};
-    const struct stability_case *c = &l->c;
-    if (l->name) {
-        snprintf(text, size, "%s", l->name);
+    const struct stability_case *c = &drift_case->c;
+    if (drift_case->name) {
+        snprintf(text, capacity, "%s", drift_case->name);
         return;
     }
-    FILE *to = fmemopen(text, size, "w");
+    FILE *to = fmemopen(text, capacity, "w");
     const bool coupled = !strcmp(c->method, "adaptive");
     fprintf(to, "%s, %s", c->space ? c->space : space[c->dim],
             !coupled                                ? c->method
@@ -319,5 +319,5 @@ void drift_label(const struct drift_case *l, char *text, size_t size)
     if (c->surface) fputs(", surface correction", to);
     fputc('\0', to);
     fclose(to);
-    text[size - 1] = 0;
+    text[capacity - 1] = 0;
 }

@@ -98,7 +98,7 @@ static void put_cases(FILE *to, int last)
 static void energy_drift_draw_put_label(FILE *to, const char *text, double x, double y, const char *style)
 {
     fputs("set label ", to);
-    gnuplot_quote(to, text);
+    gnuplot_write_quoted_string(to, text);
     fprintf(to, " at screen %g,%g %s\n", x, y, style);
 }
 
@@ -139,7 +139,8 @@ static void energy_drift_draw_picture(FILE *to, const void *table)
     put_cases(to, at);
 }
 
-status drift_draw(const struct bench_table *t)
+status drift_draw(const struct bench_table *table)
 {
-    return bench_draw("stability_lasting", WIDTH, (drift_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture, t);
+    return bench_draw("stability_lasting", WIDTH, (drift_named_count + 2) * LINE_HEIGHT, energy_drift_draw_picture,
+                      table);
 }

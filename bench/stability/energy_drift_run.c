@@ -181,15 +181,15 @@ static status energy_drift_body_make(struct run *e, struct scene *s, const struc
 {
     struct bench_overrides o = {0};
     char text[4096];
-    stability_text(&l->c, text, sizeof text);
+    stability_write_scene_text(&l->c, text, sizeof text);
     TRY(bench_engine_make(e, s, "body", text, NULL, 0));
     const real dt = e->clock.dt;
     bench_engine_free(e, s);
-    bench_override(&o, "time.step", "%.17g", dt);
-    bench_override(&o, "duration", "%.17g", dt * (real)steps);
-    bench_override(&o, "output.samples", "%d", SAMPLES);
-    bench_override(&o, "output.frames", "0");
-    return bench_engine_make(e, s, "body", text, bench_overrides_ready(&o), o.n);
+    bench_overrides_append(&o, "time.step", "%.17g", dt);
+    bench_overrides_append(&o, "duration", "%.17g", dt * (real)steps);
+    bench_overrides_append(&o, "output.samples", "%d", SAMPLES);
+    bench_overrides_append(&o, "output.frames", "0");
+    return bench_engine_make(e, s, "body", text, bench_overrides_as_array(&o), o.n);
 }
 
 /* Energies at the samples of a run over the step number [J]. energy: the sum that stable steps conserve; plain: with
@@ -270,8 +270,8 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     to->free = energy_drift_run_is_free(e), to->turn = to->free ? 0 : NAN;
     while (s == OK && e->clock.step < e->clock.steps) {
         earlier_take(&before, e);
-        s = engine_step(e);
-        if (s == OK) s = stability_check(e);
+        s = engine_adapt_refinement_and_step(e);
+        if (s == OK) s = stability_check_after_step(e);
         if (s != OK || !e->report->sampling.due) continue;
         course_add(c, e, &before);
         if (to->free) to->turn = fmax(to->turn, turned(e, centre, L, size));
@@ -285,33 +285,33 @@ static status energy_drift_run_body(struct run *e, const struct drift_case *l, s
     return s == OK || s == FAILED ? OK : s;
 }
 
-status drift_run(const struct drift_case *l, int64_t steps, struct lasting *to)
+status drift_run(const struct drift_case *drift_case, int64_t steps, struct lasting *result)
 {
     struct run e;
     struct scene s;
     const int team = omp_get_max_threads();
-    *to = (struct lasting){.steps = steps};
+    *result = (struct lasting){.steps = steps};
     omp_set_num_threads(1);
-    status made = energy_drift_body_make(&e, &s, l, steps);
+    status made = energy_drift_body_make(&e, &s, drift_case, steps);
     if (made == OK) {
-        to->particles = e.part.n;
-        to->keeps = e.part.n_free == 0 && e.part.n_grid_coupled == 0;
-        made = energy_drift_run_body(&e, l, to);
+        result->particles = e.part.n;
+        result->keeps = e.part.n_free == 0 && e.part.n_grid_coupled == 0;
+        made = energy_drift_run_body(&e, drift_case, result);
         bench_engine_free(&e, &s);
     } else if (made == REFUSED) {
-        to->refused = true;
-        snprintf(to->why, sizeof to->why, "%s", status_message());
+        result->refused = true;
+        snprintf(result->why, sizeof result->why, "%s", status_message());
         made = OK;
     }
     omp_set_num_threads(team);
     return made;
 }
 
-bool drift_holds(const struct drift_case *l, const struct lasting *r)
+bool drift_holds(const struct drift_case *drift_case, const struct lasting *result)
 {
-    const bool within = r->largest <= LASTING_ENERGY && r->loudest <= LASTING_LOUDEST;
-    if (r->refused || r->stopped > 0 || r->inverted || !within) return false;
-    if (l->converts && r->converted > 0) return false;
-    if (!r->keeps) return !(r->rate > LASTING_RATE);
-    return r->least >= -LASTING_ENERGY && !(r->free && !l->moves && !(r->turn <= LASTING_TURN));
+    const bool within = result->largest <= LASTING_ENERGY && result->loudest <= LASTING_LOUDEST;
+    if (result->refused || result->stopped > 0 || result->inverted || !within) return false;
+    if (drift_case->converts && result->converted > 0) return false;
+    if (!result->keeps) return !(result->rate > LASTING_RATE);
+    return result->least >= -LASTING_ENERGY && !(result->free && !drift_case->moves && !(result->turn <= LASTING_TURN));
 }

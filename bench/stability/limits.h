@@ -38,22 +38,22 @@ enum { FAILING_SCENES = 18 };
 extern const struct limits_scene *const limits_scene[FAILING_SCENES];
 
 /* Measures the quantities of a scene with the method of row r on one thread, because bodies are small, and stores them
- * in figure[]; NAN if the run fails. Returns REFUSED if the scene is invalid. */
-status limits_measure(const struct limits_scene *s, const struct limits_row *r, double figure[FAILING_FIGURES]);
+ * in measured[]; NAN if the run fails. Returns REFUSED if the scene is invalid. */
+status limits_measure(const struct limits_scene *s, const struct limits_row *r, double measured[FAILING_FIGURES]);
 
 /* Composes the label of row r of a scene, its method and parameter, in text[size]. */
-void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t size);
+void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t capacity);
 
 /* Returns the number of quantities that are measured in a scene. */
-int limits_figures(const struct limits_scene *s);
+int limits_quantity_count(const struct limits_scene *s);
 
-/* Returns true if all measured quantities figure[] of the scene are at or below their thresholds. */
-bool limits_holds(const struct limits_scene *s, const double *figure);
+/* Returns true if all measured quantities measured[] of the scene are at or below their thresholds. */
+bool limits_quantities_are_below_thresholds(const struct limits_scene *s, const double *measured);
 
 /* Creates the run e of a scene with the scene keys of row r as overrides, and stores the scene in *s. text: the scene,
  * a format of printf followed by its arguments. Returns REFUSED or FAILED if the scene is invalid. Release with
  * bench_engine_free. */
-status limits_make(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
+status limits_make_run_of_scene(struct run *e, struct scene *s, const struct limits_row *r, const char *text, ...)
     __attribute__((format(printf, 4, 5)));
 
 #endif

@@ -14,14 +14,15 @@ static status single(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
-                    "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
-                    "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
-                    "particles: {spacing: 1e-3}\n"
-                    "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
-                    "output: {frames: 0, samples: 20}\n"));
-    const status ran = engine_run(&e);
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1e-3\nduration: 2e-5\ntime: {safety: 0.2}\n"
+        "material: {young: 72e9, density: 2440, critical_stretch: 0.01, poisson: 1/3}\n"
+        "body: {box: {from: [0, 0], to: [12e-3, 12e-3]}}\n"
+        "particles: {spacing: 1e-3}\n"
+        "initial:\n  - {velocity: [400, 300], region: {box: {from: [11e-3, 11e-3], to: [inf, inf]}}}\n"
+        "output: {frames: 0, samples: 20}\n"));
+    const status ran = engine_run_to_end(&e);
     const int64_t i = e.part.n - 1;
     to[0] = isfinite(e.part.x[0][i]) && e.part.v[0][i] > 100 ? 0 : 1;
     to[1] = e.diagnostics->now.momentum_error;
@@ -71,7 +72,7 @@ static status inversion(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(
+    TRY(limits_make_run_of_scene(
         &e, &s, r,
         "space: plane stress\nthickness: 1\nduration: 0.3\ntime: {safety: 0.2}\nmethod: pd\n"
         "material: {young: 1e4, density: 1}\nbody: {box: {from: [0, 0], to: [40, 6]}}\nparticles: {spacing: 1}\n"
@@ -79,8 +80,8 @@ static status inversion(const struct limits_row *r, double *to)
         "  - {velocity: [%g, 0], region: {box: {from: [20, -inf], to: [inf, inf]}}}\n"
         "output: {frames: 0, samples: 10}\n",
         100 * r->given, -100 * r->given));
-    const status ran = engine_run(&e);
-    if (e.frame->mesh.points > 0) reference_frame_update_points(e.frame, &e.part, &e.loads);
+    const status ran = engine_run_to_end(&e);
+    if (e.frame->mesh.points > 0) reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
     to[0] = inverted(&e.part);
     to[1] = fabs(e.diagnostics->now.balance_error);
     bench_engine_free(&e, &s);
@@ -140,15 +141,16 @@ static status closing(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
-                    "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
-                    "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
-                    "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1\nduration: 0.25\nmaterial: {young: 1e4, density: 1}\n"
+        "bodies:\n  - {name: left, shape: {box: {from: [0, 0], to: [12, 6]}}, velocity: [4, 0]}\n"
+        "  - {name: right, shape: {box: {from: [12, 0], to: [24, 6]}}, velocity: [-4, 0]}\n"
+        "particles: {spacing: 1}\noutput: {frames: 0, samples: 1}\n"));
     status ran = bench_engine_run(&e, 1, NULL);
     to[0] = 0, to[1] = 0;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
-        ran = engine_step(&e);
+        ran = engine_adapt_refinement_and_step(&e);
         to[0] = fmax(to[0], overlap(&e));
     }
     for (int64_t i = 0; i < e.part.n; i++) to[1] += e.part.v[0][i] * (e.part.body[i] ? -1 : 1) / 4 / (double)e.part.n;

@@ -23,19 +23,20 @@ static status corner(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     const double c = sqrt(72e9 * 9 / 8 / 2440), peak = 2440 * c * SPEED;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1e-3\nduration: %.9g\nmaterial: {young: 72e9, density: 2440}\n"
-                    "body: {box: {from: [0, 0], to: [100e-3, 40e-3]}}\nparticles: {spacing: 1e-3}\n"
-                    "pd: {weights: isotropic, surface: none, region: {box: {from: [0, 0], to: [50e-3, %ge-3]}}}\n"
-                    "conversion: {stress: %.9g, alpha: 0.5}\n"
-                    "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 40e-3}}\n"
-                    "initial: [{pulse: {at: [%g, 0], direction: [1, 0], width: %g, velocity: %g}}]\n"
-                    "output: {frames: 0, samples: 1}\n",
-                    35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
-    const status ran = engine_run(&e);
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1e-3\nduration: %.9g\nmaterial: {young: 72e9, density: 2440}\n"
+        "body: {box: {from: [0, 0], to: [100e-3, 40e-3]}}\nparticles: {spacing: 1e-3}\n"
+        "pd: {weights: isotropic, surface: none, region: {box: {from: [0, 0], to: [50e-3, %ge-3]}}}\n"
+        "conversion: {stress: %.9g, alpha: 0.5}\n"
+        "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 40e-3}}\n"
+        "initial: [{pulse: {at: [%g, 0], direction: [1, 0], width: %g, velocity: %g}}]\n"
+        "output: {frames: 0, samples: 1}\n",
+        35e-3 / c, r->given, peak, START, WIDTH, -SPEED));
+    const status ran = engine_run_to_end(&e);
     const struct particles *p = &e.part;
     const bool converts = e.coupling->conversion.converted > 0 || e.scene->method != METHOD_ADAPTIVE;
-    if (e.frame->mesh.points > 0) reference_frame_update_points(e.frame, &e.part, &e.loads);
+    if (e.frame->mesh.points > 0) reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
     to[0] = converts ? 0 : INFINITY;
     for (int64_t i = 0; i < p->n; i++) to[0] = fmax(to[0], fabs(p->v[1][i]) / SPEED);
     to[1] = fabs(e.diagnostics->now.balance_error);

@@ -50,7 +50,7 @@ static void put_list(FILE *to, const struct twin *t)
 
 static status list_write(const struct twin *t, char *path)
 {
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     strcpy(path, BENCH_FOLDER "/twin-XXXXXX.csv");
     const int file = mkstemps(path, 4);
     FILE *to = file >= 0 ? fdopen(file, "w") : NULL;
@@ -119,10 +119,10 @@ static status plate_run(struct run *e, struct scene *s, const struct twin *t, co
     FILE *to = fmemopen(text, sizeof text, "w");
     put_plate(to, t, r, list);
     fclose(to);
-    const status made = limits_make(e, s, r, "%s", text);
+    const status made = limits_make_run_of_scene(e, s, r, "%s", text);
     if (t->listed) remove(list);
     TRY(made);
-    return engine_run(e);
+    return engine_run_to_end(e);
 }
 
 /* Returns the index of that particle of q, the particles of the plate transformed by t, which corresponds to particle i

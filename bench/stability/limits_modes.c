@@ -84,12 +84,12 @@ enum { RIGID = 3 };  /* rigid motions in the plane */
 
 static status square_make(struct run *e, struct scene *s, const struct limits_row *r, double poisson)
 {
-    return limits_make(e, s, r,
-                       "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
-                       "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
-                       "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
-                       "output: {frames: 0, samples: 1}\n",
-                       poisson, SIDE, SIDE);
+    return limits_make_run_of_scene(e, s, r,
+                                    "space: plane stress\nthickness: 1e-3\nduration: 1e-6\nmethod: pd\n"
+                                    "material: {young: 72e9, density: 2440, poisson: %.17g}\n"
+                                    "body: {box: {from: [0, 0], to: [%de-3, %de-3]}}\nparticles: {spacing: 1e-3}\n"
+                                    "output: {frames: 0, samples: 1}\n",
+                                    poisson, SIDE, SIDE);
 }
 
 /* ---- zero-energy modes ------------------------------------------------------------------------------------------- */

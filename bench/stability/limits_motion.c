@@ -32,9 +32,9 @@ static struct turning turning_of(const struct particles *p)
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->frame->mesh.points > 0) reference_frame_update_points(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     const struct turning start = turning_of(p);
-    TRY(engine_run(e));
+    TRY(engine_run_to_end(e));
     const struct turning end = turning_of(p);
     if (p->n_of[KIND_MPM] == 0) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     to[0] = 0, to[1] = fabs(end.momentum / start.momentum - 1), to[2] = fabs(end.kinetic / start.kinetic - 1);
@@ -56,13 +56,14 @@ static status spin(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     const double rate = r->given / 14.1421356237e-3;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
-                    "material: {young: 192 GPa, density: 8000}\n"
-                    "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
-                    "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
-                    "output: {frames: 0, samples: 2}\n",
-                    -rate, rate));
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1 mm\nduration: 888.5766 us\n"
+        "material: {young: 192 GPa, density: 8000}\n"
+        "body: {box: {from: [-10 mm, -10 mm], to: [10 mm, 10 mm]}}\nparticles: {spacing: 0.5 mm}\n"
+        "initial: [{velocity_gradient: [[0, %.12g], [%.12g, 0]]}]\n"
+        "output: {frames: 0, samples: 2}\n",
+        -rate, rate));
     const status ran = limits_motion_turn(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -99,12 +100,13 @@ static status disc(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
-                    "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
-                    "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
-                    "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
-                    "output: {frames: 0, samples: 2}\n"));
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1e-3\nduration: 6.2831853e-4\nmethod: adaptive\n"
+        "material: {young: 192e9, density: 8000}\nbody: {disc: {centre: [0, 0], radius: 10e-3}}\n"
+        "particles: {spacing: 0.5e-3}\npd: {region: {disc: {centre: [0, 0], radius: 4e-3}}}\n"
+        "conversion: {criteria: none}\ninitial: [{velocity_gradient: [[0, -1e4], [1e4, 0]]}]\n"
+        "output: {frames: 0, samples: 2}\n"));
     const status ran = limits_motion_turn(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -142,7 +144,7 @@ static void lame(const void *context, const real *X, real *v)
 static double projection(struct run *e)
 {
     double sum = 0;
-    if (e->frame->mesh.points > 0) reference_frame_update_points(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];
@@ -166,7 +168,7 @@ static status periods(struct run *e, double *steps)
     *steps = NAN;
     TRY(bench_engine_run(e, 1, NULL)); /* creates the record of the first sample */
     for (double now; times < STANDS && e->clock.step < e->clock.steps - 1; before = now) {
-        TRY(engine_step(e));
+        TRY(engine_adapt_refinement_and_step(e));
         now = projection(e);
         if ((now > 0) == (before > 0)) continue;
         times++;
@@ -182,12 +184,13 @@ static status shear(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     double steps = 0;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane strain\nthickness: 1 mm\nduration: 1 ms\nmaterial: {young: 72e9, density: 2440, "
-                    "poisson: %.17g}\nbody: {box: {from: [0, 0], to: [32e-3, 32e-3]}}\nparticles: {spacing: 1e-3}\n"
-                    "output: {frames: 0, samples: 1}\n",
-                    r->given));
-    bench_engine_start(&e, lame, NULL);
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane strain\nthickness: 1 mm\nduration: 1 ms\nmaterial: {young: 72e9, density: 2440, "
+        "poisson: %.17g}\nbody: {box: {from: [0, 0], to: [32e-3, 32e-3]}}\nparticles: {spacing: 1e-3}\n"
+        "output: {frames: 0, samples: 1}\n",
+        r->given));
+    bench_engine_set_velocities(&e, lame, NULL);
     const status ran = periods(&e, &steps);
     const double omega = M_PI / EDGE * sqrt(72e9 / (1 + r->given) / 2440);
     *to = fabs((STANDS - 0.5) * M_PI / (steps * e.clock.dt) / omega - 1);
@@ -255,7 +258,7 @@ static status million_steps(struct run *e, double *to)
     double mean[2] = {0};
     TRY(bench_engine_run(e, 1, NULL));
     for (int k = 0; k < 1000000; k++) {
-        TRY(engine_step(e));
+        TRY(engine_adapt_refinement_and_step(e));
         if (k < 20000) mean[0] += energy_of(e);
         if (k >= 980000) mean[1] += energy_of(e);
     }
@@ -267,11 +270,12 @@ static status million(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
-                    "density: 2440}\nbody: {box: {from: [0, 0], to: [5e-3, 4e-3]}}\nparticles: {spacing: 1e-3}\n"
-                    "initial: [{velocity_gradient: [[300, 100], [0, -200]], centre: [2.5e-3, 2e-3]}]\n"
-                    "output: {frames: 0, samples: 1}\n"));
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, "
+        "density: 2440}\nbody: {box: {from: [0, 0], to: [5e-3, 4e-3]}}\nparticles: {spacing: 1e-3}\n"
+        "initial: [{velocity_gradient: [[300, 100], [0, -200]], centre: [2.5e-3, 2e-3]}]\n"
+        "output: {frames: 0, samples: 1}\n"));
     const status ran = million_steps(&e, to);
     bench_engine_free(&e, &s);
     return ran;
@@ -304,14 +308,15 @@ static status vibration(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     double first = 0, last = 0;
-    TRY(limits_make(&e, &s, r,
-                    "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\nduration: 0.128\n"
-                    "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
-    bench_engine_start(&e, first_mode, NULL);
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        "space: line\nmaterial: {young: 1e4, density: 1}\nparticles: {spacing: 0.01}\nduration: 0.128\n"
+        "body: {box: {from: [0], to: [0.64]}}\noutput: {frames: 0, samples: 1}\n"));
+    bench_engine_set_velocities(&e, first_mode, NULL);
     status ran = bench_engine_run(&e, 1, NULL);
     const int64_t period = e.clock.steps / 10;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
-        ran = engine_step(&e);
+        ran = engine_adapt_refinement_and_step(&e);
         const double kinetic = particles_kinetic_energy(&e.part) + mesh_kinetic(&e.frame->mesh);
         if (e.clock.step < period) first = fmax(first, kinetic);
         if (e.clock.step >= e.clock.steps - period) last = fmax(last, kinetic);

@@ -32,7 +32,7 @@ static status crossing(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     status done = OK;
-    TRY(limits_make(&e, &s, r, BAR "duration: 1e-3\nmethod: mpm\nbody: {box: {from: [0], to: [0.6]}}\n"));
+    TRY(limits_make_run_of_scene(&e, &s, r, BAR "duration: 1e-3\nmethod: mpm\nbody: {box: {from: [0], to: [0.6]}}\n"));
     *to = 0;
     for (int place = 0; place < 64 && done == OK; place++) {
         real from[DIM_MAX] = {-0.1}, until[DIM_MAX] = {0.1 + 0.6 * lambda};
@@ -40,7 +40,8 @@ static status crossing(const struct limits_row *r, double *to)
         stretch(&e.part, lambda, (place + 0.37) / 64 * e.grid->field[0].grid.h);
         done = grid_extend_box(&e.grid->field[0].grid, from, until, 100000, &changed);
         if (done != OK) break;
-        transfer_order_sort(&e.grid->field[0].order, &e.part, e.part.list_free, e.part.n_free, &e.grid->field[0].grid);
+        transfer_order_sort_points_by_cell(&e.grid->field[0].order, &e.part, e.part.list_free, e.part.n_free,
+                                           &e.grid->field[0].grid);
         grid_clear(&e.grid->field[0].grid);
         e.kernels.p2g(&e.grid->field[0].grid, &e.part, &e.grid->transfer);
         for (int64_t I = 0; I < e.grid->field[0].grid.n; I++) {
@@ -96,15 +97,16 @@ static status homologous(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r,
-                    BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
-                        "initial: [{velocity_gradient: [[%.9g]]}]\n",
-                    r->given / 0.01));
-    const status ran = engine_run(&e);
+    TRY(limits_make_run_of_scene(
+        &e, &s, r,
+        BAR "duration: 0.01\ntime: {step: 1e-5}\nmethod: mpm\nbody: {box: {from: [-2.5], to: [2.5]}}\n"
+            "initial: [{velocity_gradient: [[%.9g]]}]\n",
+        r->given / 0.01));
+    const status ran = engine_run_to_end(&e);
     *to = 0;
     const bool meshed = e.frame->mesh.points > 0;
     const double stress = 1e4 * (meshed ? r->given : log(1 + r->given));
-    if (meshed) reference_frame_update_points(e.frame, &e.part, &e.loads);
+    if (meshed) reference_frame_update_motion_and_stress(e.frame, &e.part, &e.loads);
     for (int64_t i = 0; i < e.part.n; i++)
         if (fabs(e.part.X[0][i]) < 1) *to = fmax(*to, fabs(e.part.stress[0][i] / stress - 1));
     bench_engine_free(&e, &s);
@@ -137,7 +139,7 @@ static status null_mode(const struct limits_row *r, double *to)
 {
     struct run e;
     struct scene s;
-    TRY(limits_make(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
+    TRY(limits_make_run_of_scene(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
     for (int64_t i = 0; i < e.part.n; i++) e.part.v[0][i] = i % 2 ? 1e-3 : -1e-3;
     const double first = particles_kinetic_energy(&e.part);
     const status ran = bench_engine_run(&e, (int64_t)r->given, NULL);
@@ -172,14 +174,14 @@ static status on_faces(const struct limits_row *r, double *to)
     struct run e;
     struct scene s;
     *to = 0;
-    TRY(limits_make(&e, &s, r,
-                    "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
-                    "material: {young: 1, density: 1}\n"
-                    "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\n"
-                    "initial: [{velocity: [0.03125, -0.0625]}]\n"
-                    "mpm: {origin: [%.17g, %.17g]}\noutput: {frames: 0, samples: 1}\n",
-                    r->given, r->given));
-    const status ran = engine_run(&e);
+    TRY(limits_make_run_of_scene(&e, &s, r,
+                                 "space: plane stress\nthickness: 1\nduration: 300\nmethod: mpm\n"
+                                 "material: {young: 1, density: 1}\n"
+                                 "body: {box: {from: [0, 0], to: [12, 8]}}\nparticles: {spacing: 1}\n"
+                                 "initial: [{velocity: [0.03125, -0.0625]}]\n"
+                                 "mpm: {origin: [%.17g, %.17g]}\noutput: {frames: 0, samples: 1}\n",
+                                 r->given, r->given));
+    const status ran = engine_run_to_end(&e);
     for (int c = 0; c < 3; c++)
         for (int64_t i = 0; i < e.part.n; i++) *to = fmax(*to, fabs(e.part.stress[c][i]) / 0.07);
     bench_engine_free(&e, &s);

@@ -14,7 +14,7 @@ static bool says_all(const char *message)
     return true;
 }
 
-status stability_caught(const struct stability_case *c, double times, double *step)
+status stability_find_step_of_automatic_stop(const struct stability_case *c, double time_step_ratio, double *stop_step)
 {
     static const char *const at[] = {"", "[3e-3], direction: [1]", "[3e-3, 3e-3], direction: [1, 0.2]",
                                      "[3e-3, 3e-3, 3e-3], direction: [1, 0.2, 0.1]"};
@@ -23,14 +23,14 @@ status stability_caught(const struct stability_case *c, double times, double *st
     struct run e;
     struct scene s;
     char text[4096];
-    TRY(stability_observe(c, 250, 0, &l));
-    stability_text(c, text, sizeof text);
-    bench_override(&o, "time.step", "%.17g", times * l.observed);
-    bench_override(&o, "duration", "%.17g", 1000 * times * l.observed);
-    bench_override(&o, "initial", "[{pulse: {at: %s, width: 5e-3, velocity: 1}}]", at[c->dim]);
-    bench_override(&o, "output.samples", "100");
-    TRY(bench_engine_make(&e, &s, "block", text, bench_overrides_ready(&o), o.n));
-    *step = engine_run(&e) == FAILED && says_all(status_message()) ? (double)e.clock.step : INFINITY;
+    TRY(stability_determine_limits(c, 250, 0, &l));
+    stability_write_scene_text(c, text, sizeof text);
+    bench_overrides_append(&o, "time.step", "%.17g", time_step_ratio * l.observed);
+    bench_overrides_append(&o, "duration", "%.17g", 1000 * time_step_ratio * l.observed);
+    bench_overrides_append(&o, "initial", "[{pulse: {at: %s, width: 5e-3, velocity: 1}}]", at[c->dim]);
+    bench_overrides_append(&o, "output.samples", "100");
+    TRY(bench_engine_make(&e, &s, "block", text, bench_overrides_as_array(&o), o.n));
+    *stop_step = engine_run_to_end(&e) == FAILED && says_all(status_message()) ? (double)e.clock.step : INFINITY;
     bench_engine_free(&e, &s);
     return OK;
 }
@@ -52,7 +52,7 @@ static const struct stability_case beyond[] = {
  * if the limit cannot be determined. */
 static status caught(const struct limits_row *r, double *to)
 {
-    return stability_caught(&beyond[(int)r->given], 1.2, to);
+    return stability_find_step_of_automatic_stop(&beyond[(int)r->given], 1.2, to);
 }
 
 #define BEYOND(name, k)                                                                                                \

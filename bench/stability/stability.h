@@ -54,10 +54,11 @@ struct stability_limits {
     enum { RUN_NONE, RUN_STAYS, RUN_GROWS } automatic_run, below, above;
 };
 
-/* Determines the stability limits of the case c and stores them in *to. steps: number of steps of each trial run;
- * long_steps: number of steps of three further runs at and near the limit, 0 for none. Returns REFUSED, with the reason
- * as message, if the scene is refused. */
-status stability_observe(const struct stability_case *c, int steps, int long_steps, struct stability_limits *to);
+/* Determines the stability limits of the case c and stores them in *limits. trial_steps: number of steps of each trial
+ * run; long_steps: number of steps of three further runs at and near the limit, 0 for none. Returns REFUSED, with the
+ * reason as message, if the scene is refused. */
+status stability_determine_limits(const struct stability_case *c, int trial_steps, int long_steps,
+                                  struct stability_limits *limits);
 
 /* Initial motion and length of a run. speed: largest random velocity over the wave speed; drift: velocity of a
  * translation along each axis over the wave speed; steps: number of steps. */
@@ -66,29 +67,31 @@ struct stability_shake {
     int steps;
 };
 
-/* Runs the case c with the initial motion `how` and the time step dt [s], or the automatic one if dt is 0, and sets
- * *stays to true if the motion remains bounded. Returns REFUSED or FAILED if the run cannot be created. */
-status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays);
+/* Runs the case c with the initial motion `initial_motion` and the time step dt [s], or the automatic one if dt is 0,
+ * and sets *is_bounded to true if the motion remains bounded. Returns REFUSED or FAILED if the run cannot be created.
+ */
+status stability_run_and_test_boundedness(const struct stability_case *c, double time_step,
+                                          struct stability_shake initial_motion, bool *is_bounded);
 
-/* Runs the case c with `times` the observed limit of its time step, and stores in *step the number of steps after which
- * the run stops with a message that states position, step and remedy; INFINITY if it runs 1000 steps or the message is
- * incomplete (limits_time_step.c). Returns REFUSED or FAILED if the limit cannot be determined. */
-status stability_caught(const struct stability_case *c, double times, double *step);
+/* Runs the case c with `time_step_ratio` the observed limit of its time step, and stores in *stop_step the number of
+ * steps after which the run stops with a message that states position, step and remedy; INFINITY if it runs 1000 steps
+ * or the message is incomplete (limits_time_step.c). Returns REFUSED or FAILED if the limit cannot be determined. */
+status stability_find_step_of_automatic_stop(const struct stability_case *c, double time_step_ratio, double *stop_step);
 
 /* Writes the scene of the case c into text[size]: its own text c->text if it has one, else that of a block
  * (stability_scene.c). */
-void stability_text(const struct stability_case *c, char *text, size_t size);
+void stability_write_scene_text(const struct stability_case *c, char *text, size_t capacity);
 
 /* Composes the label of the case c in text[size]. */
-void stability_label(const struct stability_case *c, char *text, size_t size);
+void stability_label(const struct stability_case *c, char *text, size_t capacity);
 
-/* A function that stability_cases calls for each case c. context: its argument. A status that is not OK ends the
- * calls. */
+/* A function that stability_call_for_all_cases calls for each case c. context: its argument. A status that is not OK
+ * ends the calls. */
 typedef status stability_take(void *context, const struct stability_case *c);
 
 /* Calls take(context, case) for all cases of the map (stability_cases.c). quick: fewer of them. Returns the first
  * status that is not OK. */
-status stability_cases(bool quick, stability_take *take, void *context);
+status stability_call_for_all_cases(bool quick, stability_take *callback, void *context);
 
 /* A row of the map. */
 struct stability_row {
@@ -109,14 +112,14 @@ struct stability_map {
 #define STABILITY_MOST 0.95
 
 /* Sends the gnuplot commands of the picture of the map. map: a struct stability_map (stability_draw.c). */
-void stability_draw(FILE *to, const void *map);
+void stability_write_picture_commands(FILE *gnuplot, const void *map);
 
 /* Measures and prints the scenes in which methods fail (limits.h), and fills the table t with them
  * (stability_scenes.c). Returns REFUSED or FAILED if a scene cannot be run. */
-status stability_scenes(struct bench_table *t);
+status stability_measure_failing_scenes(struct bench_table *table);
 
 /* Draws the picture of the table t of the scenes in which methods fail (stability_scenes.c). Returns FAILED if it
  * cannot be drawn. */
-status stability_scenes_draw(const struct bench_table *t);
+status stability_draw_failing_scenes(const struct bench_table *table);
 
 #endif

@@ -226,9 +226,9 @@ static status stability_cases_reference(const struct taker *t)
     return OK;
 }
 
-status stability_cases(bool quick, stability_take *take, void *context)
+status stability_call_for_all_cases(bool quick, stability_take *callback, void *context)
 {
-    const struct taker t = {quick, take, context};
+    const struct taker t = {quick, callback, context};
     TRY(stability_cases_published(&t));
     TRY(horizons(&t));
     TRY(variants(&t));

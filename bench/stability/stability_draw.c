@@ -129,13 +129,13 @@ static void draw_shares(FILE *to, const struct stability_map *map)
           to);
 }
 
-void stability_draw(FILE *to, const void *context)
+void stability_write_picture_commands(FILE *gnuplot, const void *context)
 {
     const struct stability_map *map = context;
-    fputs("set multiplot\n", to);
-    draw_horizons(to, map);
-    draw_points(to, map, "flip", 1, 0, "material points, FLIP, in the plane");
-    draw_points(to, map, "apic", 0, 1, "material points, APIC, in the plane");
-    draw_shares(to, map);
-    fputs("unset multiplot\n", to);
+    fputs("set multiplot\n", gnuplot);
+    draw_horizons(gnuplot, map);
+    draw_points(gnuplot, map, "flip", 1, 0, "material points, FLIP, in the plane");
+    draw_points(gnuplot, map, "apic", 0, 1, "material points, APIC, in the plane");
+    draw_shares(gnuplot, map);
+    fputs("unset multiplot\n", gnuplot);
 }

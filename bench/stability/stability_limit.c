@@ -55,28 +55,29 @@ static status limit_block_make(struct run *e, struct scene *s, const struct stab
 {
     struct bench_overrides o = {0};
     char text[4096];
-    stability_text(c, text, sizeof text);
+    stability_write_scene_text(c, text, sizeof text);
     if (dt > 0) {
-        bench_override(&o, "time.step", "%.17g", dt);
-        bench_override(&o, "duration", "%.17g", dt * 1e9);
+        bench_overrides_append(&o, "time.step", "%.17g", dt);
+        bench_overrides_append(&o, "duration", "%.17g", dt * 1e9);
     }
-    return bench_engine_make(e, s, "block", text, bench_overrides_ready(&o), o.n);
+    return bench_engine_make(e, s, "block", text, bench_overrides_as_array(&o), o.n);
 }
 
-status stability_stays(const struct stability_case *c, double dt, struct stability_shake how, bool *stays)
+status stability_run_and_test_boundedness(const struct stability_case *c, double time_step,
+                                          struct stability_shake initial_motion, bool *is_bounded)
 {
     struct run e;
     struct scene s;
-    TRY(limit_block_make(&e, &s, c, dt));
-    const double drift = how.drift * e.tables.wave_speed;
-    stability_limit_shake(&e, how.speed * e.tables.wave_speed, drift);
+    TRY(limit_block_make(&e, &s, c, time_step));
+    const double drift = initial_motion.drift * e.tables.wave_speed;
+    stability_limit_shake(&e, initial_motion.speed * e.tables.wave_speed, drift);
     const double first = motion(&e, drift);
-    *stays = bench_engine_run(&e, 1, NULL) == OK; /* creates the record of the first sample */
-    while (*stays && e.clock.step < how.steps) {
-        if (engine_step(&e) != OK)
-            *stays = false;
+    *is_bounded = bench_engine_run(&e, 1, NULL) == OK; /* creates the record of the first sample */
+    while (*is_bounded && e.clock.step < initial_motion.steps) {
+        if (engine_adapt_refinement_and_step(&e) != OK)
+            *is_bounded = false;
         else if (e.clock.step % 8 == 0 && !(motion(&e, drift) < GROWN * GROWN * first))
-            *stays = false;
+            *is_bounded = false;
     }
     bench_engine_free(&e, &s);
     return OK;
@@ -94,12 +95,12 @@ static status limit_of(const struct stability_case *c, double critical, int step
     bool stays;
     for (double f = 1.05; low == 0 || high == 0; f *= stays ? 1.2 : 0.85) {
         if (f > 20 || f < 0.02) return status_set(REFUSED, "no limit between 0.02 and 20 of the predicted step");
-        TRY(stability_stays(c, f * critical, quietly, &stays));
+        TRY(stability_run_and_test_boundedness(c, f * critical, quietly, &stays));
         *(stays ? &low : &high) = f * critical;
     }
     while (high - low > WITHIN * low) {
         const double middle = 0.5 * (low + high);
-        TRY(stability_stays(c, middle, quietly, &stays));
+        TRY(stability_run_and_test_boundedness(c, middle, quietly, &stays));
         *(stays ? &low : &high) = middle;
     }
     *limit = 0.5 * (low + high);
@@ -138,7 +139,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
 static status real_run(const struct stability_case *c, double dt, double drift, int steps, int *run)
 {
     bool stays;
-    TRY(stability_stays(c, dt, (struct stability_shake){LOUD, drift, steps}, &stays));
+    TRY(stability_run_and_test_boundedness(c, dt, (struct stability_shake){LOUD, drift, steps}, &stays));
     *run = stays ? RUN_STAYS : RUN_GROWS;
     return OK;
 }
@@ -147,26 +148,27 @@ static status real_run(const struct stability_case *c, double dt, double drift, 
  * before a node; still closer to the node, the node beyond the edge follows its neighbours (grid_move.c). */
 #define BEYOND 0.01 /* [cells] */
 
-status stability_observe(const struct stability_case *given, int steps, int long_steps, struct stability_limits *to)
+status stability_determine_limits(const struct stability_case *given, int trial_steps, int long_steps,
+                                  struct stability_limits *limits)
 {
     struct stability_case c = *given;
-    *to = (struct stability_limits){.observed = INFINITY};
-    TRY(predict(&c, to));
+    *limits = (struct stability_limits){.observed = INFINITY};
+    TRY(predict(&c, limits));
     for (int k = 0; k < (c.offsets > 0 ? c.offsets : 1); k++) {
         double limit = 0;
         const double beyond = c.transfer && !strcmp(c.transfer, "apic") ? k % 2 ? -BEYOND : BEYOND : 0;
         if (c.offsets > 0) c.offset = (double)k / c.offsets + beyond;
-        TRY(limit_of(&c, to->critical, steps, &limit));
-        to->largest = fmax(to->largest, limit);
-        if (limit < to->observed) to->observed = limit, to->offset = c.offset;
+        TRY(limit_of(&c, limits->critical, trial_steps, &limit));
+        limits->largest = fmax(limits->largest, limit);
+        if (limit < limits->observed) limits->observed = limit, limits->offset = c.offset;
     }
     if (long_steps <= 0) return OK;
     const bool drifts = c.group == GROUP_POINTS;
     int run[3];
-    c.offset = to->offset;
-    TRY(real_run(&c, to->automatic, drifts ? DRIFT : 0, long_steps, &run[0]));
-    TRY(real_run(&c, 0.97 * to->observed, 0, long_steps, &run[1]));
-    TRY(real_run(&c, 1.03 * to->observed, 0, long_steps, &run[2]));
-    to->automatic_run = run[0], to->below = run[1], to->above = run[2];
+    c.offset = limits->offset;
+    TRY(real_run(&c, limits->automatic, drifts ? DRIFT : 0, long_steps, &run[0]));
+    TRY(real_run(&c, 0.97 * limits->observed, 0, long_steps, &run[1]));
+    TRY(real_run(&c, 1.03 * limits->observed, 0, long_steps, &run[2]));
+    limits->automatic_run = run[0], limits->below = run[1], limits->above = run[2];
     return OK;
 }

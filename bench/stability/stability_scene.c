@@ -184,14 +184,14 @@ static void put_support(FILE *to, const struct stability_case *c, double edge)
     fputs("}\n", to);
 }
 
-void stability_text(const struct stability_case *c, char *text, size_t size)
+void stability_write_scene_text(const struct stability_case *c, char *text, size_t capacity)
 {
     if (c->text) {
-        snprintf(text, size, "%s", c->text);
+        snprintf(text, capacity, "%s", c->text);
         return;
     }
     const double edge = edge_of(c), cell = c->cell > 0 ? c->cell : 2, origin = c->offset * cell * SPACING;
-    FILE *to = fmemopen(text, size, "w");
+    FILE *to = fmemopen(text, capacity, "w");
     fprintf(to, "name: block\nspace: %s\nmethod: %s\nduration: 1\n", space_of(c), c->method);
     if (c->dim == 2) fputs("thickness: 1 mm\n", to);
     if (c->model) fprintf(to, "model: %s\n", c->model);
@@ -237,9 +237,9 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
 
 /* Writes a label that describes the case into text[size]: dimension, method, model, horizon or points per cell, and its
  * special property. */
-void stability_label(const struct stability_case *c, char *text, size_t size)
+void stability_label(const struct stability_case *c, char *text, size_t capacity)
 {
-    FILE *to = fmemopen(text, size, "w");
+    FILE *to = fmemopen(text, capacity, "w");
     fputs(space_of(c), to);
     if (stability_scene_is(c->method, "pd"))
         fprintf(to, " %s, horizon %g", c->model ? c->model : "bond", c->horizon > 0 ? c->horizon : 3.015);
@@ -255,5 +255,5 @@ void stability_label(const struct stability_case *c, char *text, size_t size)
     if (c->note) fprintf(to, ", %s", c->note);
     fputc('\0', to);
     fclose(to);
-    text[size - 1] = 0;
+    text[capacity - 1] = 0;
 }

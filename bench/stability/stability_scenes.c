@@ -23,15 +23,15 @@ static status stability_scenes_take(struct bench_table *t, const struct limits_s
     TRY(limits_measure(s, r, figure));
     limits_label(s, r, label, sizeof label);
     printf("  %-48s", label);
-    for (int k = 0; k < limits_figures(s); k++) {
+    for (int k = 0; k < limits_quantity_count(s); k++) {
         const bool holds = figure[k] <= s->figure[k].threshold;
-        bench_text(t, s->name);
-        bench_text(t, label);
-        bench_text(t, s->figure[k].quantity);
-        bench_number(t, s->figure[k].threshold);
-        bench_number(t, figure[k]);
-        bench_text(t, holds ? "holds" : "fails");
-        bench_text(t, holds ? "-" : r->remedy ? r->remedy : "none yet");
+        bench_table_append_text(t, s->name);
+        bench_table_append_text(t, label);
+        bench_table_append_text(t, s->figure[k].quantity);
+        bench_table_append_number(t, s->figure[k].threshold);
+        bench_table_append_number(t, figure[k]);
+        bench_table_append_text(t, holds ? "holds" : "fails");
+        bench_table_append_text(t, holds ? "-" : r->remedy ? r->remedy : "none yet");
         printf(" %10.3g%s", figure[k], holds ? "  " : " !");
     }
     printf("%s%s\n", r->remedy ? "  remedy: " : "", r->remedy ? r->remedy : "");
@@ -39,16 +39,16 @@ static status stability_scenes_take(struct bench_table *t, const struct limits_s
     return OK;
 }
 
-status stability_scenes(struct bench_table *t)
+status stability_measure_failing_scenes(struct bench_table *table)
 {
-    bench_table_make(t, "scenes", header);
+    bench_table_make(table, "scenes", header);
     for (int k = 0; k < FAILING_SCENES; k++) {
         const struct limits_scene *s = limits_scene[k];
         printf("\n  %s:", s->name);
-        for (int f = 0; f < limits_figures(s); f++)
+        for (int f = 0; f < limits_quantity_count(s); f++)
             printf("%s %s, at most %.3g", f ? ";" : "", s->figure[f].quantity, s->figure[f].threshold);
         putchar('\n');
-        for (int r = 0; r < s->rows; r++) TRY(stability_scenes_take(t, s, &s->row[r]));
+        for (int r = 0; r < s->rows; r++) TRY(stability_scenes_take(table, s, &s->row[r]));
     }
     return OK;
 }
@@ -104,7 +104,7 @@ static int lines_of(const struct bench_table *t)
 static void stability_scenes_put_label(FILE *to, const char *text, double x, int line, const char *style)
 {
     fputs("set label ", to);
-    gnuplot_quote(to, text);
+    gnuplot_write_quoted_string(to, text);
     fprintf(to, " at screen %g, first %d %s\n", x, -line, style);
 }
 
@@ -173,7 +173,7 @@ static void stability_scenes_picture(FILE *to, const void *table)
         1 - 2.0 / (line + 7), 4.0 / (line + 7), 0.7 * LEAST, 1.5 * MOST, -line - 0.8, LEAST, 0.7 * LEAST, 1.5 * MOST);
 }
 
-status stability_scenes_draw(const struct bench_table *t)
+status stability_draw_failing_scenes(const struct bench_table *table)
 {
-    return bench_draw("stability_scenes", WIDTH, (lines_of(t) + 6) * LINE_HEIGHT, stability_scenes_picture, t);
+    return bench_draw("stability_scenes", WIDTH, (lines_of(table) + 6) * LINE_HEIGHT, stability_scenes_picture, table);
 }

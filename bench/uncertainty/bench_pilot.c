@@ -45,7 +45,7 @@ static status chosen_run(const struct pilot *p, const char *scene, const char *f
     TRY(study_make(&s, scene, folder, "run"));
     study_add_case(&s, "run", p->override, p->overrides);
     status done = study_determine_case_states(&s, false);
-    if (done == OK) done = study_run(&s, (struct study_options){.quiet = true});
+    if (done == OK) done = study_execute_waiting_runs(&s, (struct study_options){.quiet = true});
     if (done == OK) done = summary_read_number(study_case_folder(&s, &s.at[0]).text, figure, value);
     study_free(&s);
     return done;
@@ -65,13 +65,14 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
     struct pilot p = {0};
     double value = NAN;
-    const double begun = wall_clock();
+    const double begun = wall_clock_seconds();
     status done = pilot_scene_write(scene.text, k, within);
     struct scene s;
     if (done == OK)
-        done = pilot_scene_read(&s, &p, scene.text, NULL, 0, into.text, (struct study_options){.quiet = true});
+        done = pilot_scene_read_or_choose_method(&s, &p, scene.text, NULL, 0, into.text,
+                                                 (struct study_options){.quiet = true});
     if (done == OK) scene_free(&s);
-    const double pilots = wall_clock() - begun;
+    const double pilots = wall_clock_seconds() - begun;
     if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);
     const double error = fabs(value / k->exact - 1), spacing = atof(chosen_value(&p, "particles.spacing"));
     t->asked++;
@@ -81,13 +82,14 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
         t->kept += kept;
         printf("  %-22s %-26s %5.2g %% %8.3f %%  %-8s %-5s %8.4g mm %7.1f s %7.1f s%s\n", k->name, k->figure,
                100 * within, 100 * error, chosen_value(&p, "method"), chosen_value(&p, "model"), 1e3 * spacing, pilots,
-               wall_clock() - begun - pilots, kept ? "" : "  missed");
+               wall_clock_seconds() - begun - pilots, kept ? "" : "  missed");
     } else
         printf("  %-22s %-26s %5.2g %% refused: %s\n", k->name, k->figure, 100 * within, status_message());
     fflush(stdout);
-    const double number[] = {within, k->exact, value, error, spacing, pilots, wall_clock() - begun - pilots};
-    bench_text(t->table, k->name), bench_text(t->table, k->figure), bench_text(t->table, chosen_value(&p, "method"));
-    for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t->table, number[c]);
+    const double number[] = {within, k->exact, value, error, spacing, pilots, wall_clock_seconds() - begun - pilots};
+    bench_table_append_text(t->table, k->name), bench_table_append_text(t->table, k->figure),
+        bench_table_append_text(t->table, chosen_value(&p, "method"));
+    for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(t->table, number[c]);
     pilot_free(&p);
     bench_folder_remove(into.text);
     bench_folder_remove(path_join(folder, "run_pilot").text);
@@ -103,9 +105,9 @@ status bench_pilot(bool quick)
     struct bench_table table;
     struct pilot_tally t = {.table = &table};
     char folder[] = BENCH_FOLDER "/pilot-XXXXXX";
-    TRY(bench_folder_make());
+    TRY(bench_create_results_folder());
     printf("pilot\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     if (!mkdtemp(folder)) return file_report_write_failure(folder, errno);
     printf("  %-22s %-26s %7s %10s  %-14s %11s %9s %9s\n", "scene", "figure", "asked", "error", "chosen", "spacing",
            "pilots", "run");
@@ -116,7 +118,7 @@ status bench_pilot(bool quick)
     bench_folder_remove(folder);
     printf("  %d requests: %d refused; %d of %d answers are as accurate as asked (%.0f %%, asked 90)\n", t.asked,
            t.asked - t.answered, t.kept, t.answered, 100.0 * t.kept / t.answered);
-    const status s = bench_write("pilot", &table, 1);
+    const status s = bench_write_result_tables("pilot", &table, 1);
     bench_table_free(&table);
     return s;
 }

@@ -67,7 +67,7 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
     for (int f = 0; f < KNOWN_FIGURES_MOST && k->figure[f].name; f++) {
         struct scalar_result_study *figure = NULL;
         int n = 0;
-        if (scalar_results_find(&s, &k->figure[f].name, 1, &figure, &n) == OK && rows->n < ROWS_MOST)
+        if (scalar_results_determine_convergence(&s, &k->figure[f].name, 1, &figure, &n) == OK && rows->n < ROWS_MOST)
             rows->at[rows->n++] =
                 (struct known_row){k, variant[0], spacing, k->figure[f].name, k->figure[f].exact, figure[0].c};
         else
@@ -91,7 +91,7 @@ static double covered(const struct known_rows *rows, double nominal)
     int held = 0;
     for (int k = 0; k < rows->n; k++) {
         const struct known_row *r = &rows->at[k];
-        held += true_error(r) <= convergence_half_width(&r->c, r->c.level[0].mean, nominal);
+        held += true_error(r) <= convergence_interval_half_width(&r->c, r->c.level[0].mean, nominal);
     }
     return (double)held / rows->n;
 }
@@ -136,13 +136,14 @@ static status rows_write(const struct known_rows *rows)
                                  r->c.level[2].mean,
                                  r->c.level[2].error,
                                  r->c.level[0].spacing};
-        bench_text(&t[0], r->scene->name), bench_text(&t[0], r->variant);
-        bench_text(&t[0], r->spacing), bench_text(&t[0], r->figure);
-        for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(&t[0], number[c]);
-        bench_text(&t[0], verdict_name[r->c.verdict]);
+        bench_table_append_text(&t[0], r->scene->name), bench_table_append_text(&t[0], r->variant);
+        bench_table_append_text(&t[0], r->spacing), bench_table_append_text(&t[0], r->figure);
+        for (size_t c = 0; c < COUNT_OF(number); c++) bench_table_append_number(&t[0], number[c]);
+        bench_table_append_text(&t[0], verdict_name[r->c.verdict]);
     }
-    for (int k = 0; k < SHARES; k++) bench_number(&t[1], share[k]), bench_number(&t[1], covered(rows, share[k]));
-    const status s = bench_write("uncertainty", t, 2);
+    for (int k = 0; k < SHARES; k++)
+        bench_table_append_number(&t[1], share[k]), bench_table_append_number(&t[1], covered(rows, share[k]));
+    const status s = bench_write_result_tables("uncertainty", t, 2);
     bench_table_free(&t[0]), bench_table_free(&t[1]);
     return s;
 }
@@ -193,9 +194,9 @@ status bench_uncertainty(bool quick)
 {
     struct known_rows *rows = NEW("bench.known", 1, struct known_rows);
     char folder[] = BENCH_FOLDER "/study-XXXXXX";
-    status s = bench_folder_make();
+    status s = bench_create_results_folder();
     printf("uncertainty\n");
-    bench_print_machine(team_set_threads(0));
+    bench_print_machine(team_set_thread_count(0));
     if (s == OK && !mkdtemp(folder)) s = file_report_write_failure(folder, errno);
     printf("  %-18s %-20s %-8s %-28s %9s %9s %6s  %s\n", "scene", "method", "spacing", "figure", "error", "+-",
            "+-/err", "verdict");

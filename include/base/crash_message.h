@@ -4,7 +4,7 @@
 
 /* Installs handlers for crashes inside libraries that are caused by lack of memory or by a damaged file: the program
  * then prints one line on standard error and exits with status 1. */
-void crash_message_install(void);
+void crash_message_install_signal_handlers(void);
 
 /* Announces that HDF5 is about to read the file `path`; NULL: it has finished. A crash in between is reported as a
  * damaged file. */

@@ -7,14 +7,14 @@
 
 #include "base.h"
 
-/* Opens a regular file for reading and registers it as an input of this command. The caller closes *file. expected:
- * what the file should be, for the message; NULL: left out. REFUSED with `PATH: cause; EXPECTED is expected` if the
- * file cannot be opened or is a folder, pipe, socket or device, except for a pipe that is already open (/dev/stdin,
- * /dev/fd/N). */
-status input_file_open(FILE **file, const char *path, const char *expected);
+/* Opens a regular file for reading and registers it as an input of this command. The caller closes *file.
+ * expected_content: what the file should be, for the message; NULL: left out. REFUSED with `PATH: cause; EXPECTED is
+ * expected` if the file cannot be opened or is a folder, pipe, socket or device, except for a pipe that is already open
+ * (/dev/stdin, /dev/fd/N). */
+status input_file_open(FILE **file, const char *path, const char *expected_content);
 
 /* Registers the file at `path`, which a library opens, as an input of this command. A missing file is ignored. */
-void input_file_register(const char *path);
+void input_file_register_as_read(const char *path);
 
 /* Returns true if `path` is a file that this command has read as an input, also through a link or a second name. */
 bool input_file_was_read(const char *path);

@@ -47,7 +47,7 @@ void memory_free(void *pointer);
 /* Sets whether memory_free keeps released arrays for later allocations of similar size (reuse true) or returns them to
  * the system (false), including those kept so far. Keeping them saves time in the time loop, which rebuilds equal
  * arrays whenever particles convert. */
-void memory_set_reuse(bool reuse);
+void memory_set_reuse_of_freed_arrays(bool reuse);
 
 /* Returns the largest resident size of the process so far, from the operating system [byte]. */
 int64_t memory_peak_resident_size(void);

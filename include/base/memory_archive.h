@@ -23,7 +23,7 @@ void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
 
 /* Switches an archive in memory from saving to restoring and returns to its first entry. The state functions, called in
  * the same order with &m->archive, then restore what they saved. It may be called repeatedly. */
-void memory_archive_rewind(struct memory_archive *m);
+void memory_archive_rewind_for_loading(struct memory_archive *m);
 
 /* Frees all entries of an archive in memory. Does nothing if it has none. */
 void memory_archive_free(struct memory_archive *m);

@@ -12,46 +12,46 @@ struct machine {
     char model[128];            /* name of the processor */
 };
 
-/* Sets the number of threads: `threads` if > 0, else the value of OMP_NUM_THREADS, else the number of physical cores
- * that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are enough and the user has
- * set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is not bound to it. Returns
- * the number of threads. */
-int team_set_threads(int threads);
+/* Sets the number of requested_threads: `requested_threads` if > 0, else the value of OMP_NUM_THREADS, else the number
+ * of physical cores that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are
+ * enough and the user has set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is
+ * not bound to it. Returns the number of threads. */
+int team_set_thread_count(int requested_threads);
 
 /* Returns the number of cores, the sizes of caches and memory, as far as this process may use them, and the name of the
  * processor. */
 struct machine machine_properties(void);
 
-/* Returns the name of the processor; does not read the topology of the machine again after team_set_threads. */
+/* Returns the name of the processor; does not read the topology of the machine again after team_set_thread_count. */
 const char *machine_processor_name(void);
 
 /* Returns the memory that this process may use [byte]: that of the machine or, if it is less, what a limit (ulimit,
- * control group) had left when team_set_threads was called. */
+ * control group) had left when team_set_thread_count was called. */
 int64_t machine_memory_size(void);
 
 /* Returns the name of the limit that machine_memory_size reports: "memory of the machine", "ulimit -v", ... */
 const char *machine_memory_limit_name(void);
 
 /* Returns the number of physical cores that the process may use. */
-int machine_cores(void);
+int machine_physical_core_count(void);
 
-/* Divides the cores that this process may use into `shares` equal parts, for processes that run side by side
- * (core_share_bind). Returns NULL if there are fewer cores than shares, or only one share. Release with
+/* Divides the cores that this process may use into `share_count` equal parts, for processes that run side by side
+ * (core_share_bind_calling_thread). Returns NULL if there are fewer cores than shares, or only one share. Release with
  * core_shares_free. */
-struct core_shares *core_shares_make(int shares);
+struct core_shares *core_shares_make(int share_count);
 
 /* Binds the calling thread, and processes that it starts later, to the cores of share number `share_number` of s; -1
  * restores its previous binding. Does nothing if s is NULL. */
-void core_share_bind(const struct core_shares *s, int share_number);
+void core_share_bind_calling_thread(const struct core_shares *s, int share_number);
 
 /* Releases the shares of cores s. */
 void core_shares_free(struct core_shares *s);
 
 /* Returns the wall clock [s]. */
-double wall_clock(void);
+double wall_clock_seconds(void);
 
 /* Returns the processor time that the calling thread has used [s]; time taken by other programs does not count. */
-double thread_cpu_clock(void);
+double thread_cpu_clock_seconds(void);
 
 /* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
@@ -59,12 +59,13 @@ enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 /* Returns the sum of the terms term(context, i) for i = 0 .. n - 1. Terms are added in blocks of SUM_BLOCK, and the
  * sums of the blocks in order, so that the result has equal bits with any number of threads. `term` is called by
  * several threads at once and must not write. */
-real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
+real reproducible_sum(int64_t term_count, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Computes `terms` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of threads.
- * block(context, first, end, sum) must add the terms first .. end - 1 of all sums to sum[terms]; threads call it at
- * once for different ranges. sum: receives the results. */
-void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+/* Computes `sum_count` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of
+ * threads. block(context, first, end, sum) must add the terms first .. end - 1 of all sums to sum[terms]; threads call
+ * it at once for different ranges. sum: receives the results. */
+void reproducible_sums(int64_t term_count, int sum_count,
+                       void (*add_block_of_terms)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
 /* Timed sections of a time step; timer_name has their names. */
@@ -72,7 +73,7 @@ enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT
 extern const char *const timer_name[TIMERS];
 
 /* Timer of the sections of a time step. spent: time spent in each section so far [s]; last: wall clock at the last call
- * of timer_add_elapsed or timers_start [s]. */
+ * of timer_add_elapsed_to_section or timers_start [s]. */
 struct timers {
     double last, spent[TIMERS];
 };
@@ -80,7 +81,7 @@ struct timers {
 /* Sets the time spent in each section of *timers to 0 and starts timing the first one. */
 void timers_start(struct timers *timers);
 
-/* Adds the time since the last call of timer_add_elapsed (or timers_start) to section `which`. */
-void timer_add_elapsed(struct timers *timers, enum timer which);
+/* Adds the time since the last call of timer_add_elapsed_to_section (or timers_start) to section `section`. */
+void timer_add_elapsed_to_section(struct timers *timers, enum timer section);
 
 #endif

@@ -26,7 +26,7 @@
  * When rows are rebuilt, unchanged row blocks keep their columns; others are placed in the holes of removed row blocks,
  * or behind all stored columns.
  *
- * Invariants (bonds_find_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are made):
+ * Invariants (bonds_describe_first_inconsistency, called by builds with -DCLEAVE_ASSERT whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
  *     an implicit row block follows a stencil, has as many columns as its stencil, and no broken bond;
  *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` row blocks;
@@ -171,7 +171,8 @@ struct stencil_column {
 
 /* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
  * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
- * Columns of such row blocks are written only when a bond is accessed by index (row_block_write_columns_from_stencil).
+ * Columns of such row blocks are written only when a bond is accessed by index
+ * (bond_row_block_write_columns_from_stencil).
  */
 struct stencil {
     int columns;
@@ -243,7 +244,7 @@ struct bonds {
 
 /* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
  * particles, which store their complete families. */
-static inline bool row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
+static inline bool bond_row_block_has_eight_pd_particles(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes_as_word(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
@@ -283,7 +284,7 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
 static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
 /* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */
-static inline bool row_block_has_softening(const struct bonds *b, int64_t row_block)
+static inline bool bond_row_block_has_begun_softening(const struct bonds *b, int64_t row_block)
 {
     return b->soft.curve && b->soft.begun[row_block];
 }
@@ -292,7 +293,7 @@ static inline bool row_block_has_softening(const struct bonds *b, int64_t row_bl
  * on. row_block: row block (the bonds of eight particles) that contains it. */
 static inline bool bond_is_softening(const struct bonds *b, int64_t row_block, int64_t bond)
 {
-    return row_block_has_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
+    return bond_row_block_has_begun_softening(b, row_block) && b->soft.onset[bond] < SOFTENING_NEVER;
 }
 
 /* Returns the weight that the bond with index `bond` had before it softened [1]. row_block: row block (the bonds of
@@ -305,7 +306,7 @@ static inline real bond_weight_before_softening(const struct bonds *b, int64_t r
 
 /* Requests an examination of row block `row_block` (the bonds of eight particles) before forces are computed next,
  * because one of its bonds may begin to soften (kernels/pd/bond_begin.c). May be called by several threads at once. */
-static inline void row_block_request_softening_check(struct bonds *b, int64_t row_block)
+static inline void bond_row_block_request_softening_check(struct bonds *b, int64_t row_block)
 {
     if (b->soft.due[row_block] == DUE_NOT) b->soft.due[row_block] = DUE_NEW;
     __atomic_store_n(&b->soft.any_due, true, __ATOMIC_RELAXED); /* several threads may set it */
@@ -346,22 +347,23 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
 /* Recomputes b->common[column], the properties that the eight bonds of a column (one bond of each particle of a row
  * block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
  * inverse_length of a bond; usually called through bond_column_update_after_bond_change. */
-void bond_column_update_common_properties(const struct bonds *b, int64_t column);
+void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
 /* Recomputes the common properties of the column that contains bond `bond` after its weight or the sign of its inverse
- * length has changed. A column has one bond of each of eight particles, which form a row block. row: row of the bond,
- * i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row blocks share. */
-void bond_column_update_after_bond_change(struct bonds *b, int64_t row, int64_t bond);
+ * length has changed. A column has one bond of each of eight particles, which form a row block. row_number: row of the
+ * bond, i.e. the bonds of one particle; its row block no longer follows a stencil, the pattern that row blocks share.
+ */
+void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t bond);
 
 /* Initialises the stored softening state of all bonds of a row block (the bonds of eight particles), none of which has
  * begun to soften. limit: critical stretches and softening by pair of materials. */
-void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                    int64_t row_block);
+void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                         int64_t row_block);
 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
  * called by several threads at once. */
-void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
+void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond `bond_number` of the particle in lane
  * `lane` (0 to 7) of a row block, so that the caller may write to it. Expands the row block first if its columns are
@@ -369,7 +371,8 @@ void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block);
  * bond_column_update_after_bond_change. */
 static inline int64_t bond_index_for_writing(struct bonds *b, int64_t row_block, int64_t bond_number, int lane)
 {
-    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns_from_stencil(b, row_block);
+    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE))
+        bond_row_block_write_columns_from_stencil(b, row_block);
     return (b->column[row_block] + bond_number) * LANES + lane;
 }
 

@@ -38,9 +38,10 @@ static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bo
     return norm + bound->total;
 }
 
-/* Returns true if one of the `cracks` pre-cracks in the array `crack` cuts the segment between the reference positions
- * of particles i and j of p. */
-bool precracks_cut_bond_between(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
+/* Returns true if one of the `precrack_count` pre-cracks in the array `precrack` cuts the segment between the reference
+ * positions of particles i and j of p. */
+bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
+                                int64_t particle, int64_t other_particle);
 
 /* Returns an upper bound of the number of neighbours of any particle within the cutoff: source->room if it is set (>
  * 0), else computed from the counts of particles in search cells. source: inputs of the bonds. */
@@ -59,15 +60,15 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
  * inputs, of which the list of images is used. */
-void mirror_images_copy_kinds(struct particles *p, const struct bond_source *source);
+void mirror_images_copy_particle_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
  * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
-void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *source);
+void bonds_rebuild_after_particle_kind_change(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Returns an upper bound of the largest eigenvalue of the stiffness matrix of the bonds of one row, i.e. of all bonds
  * of one particle [N/m], by block-Gershgorin. */
-real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
+real bonds_row_stiffness_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of b. */
 void bonds_free(struct bonds *b);
@@ -98,15 +99,15 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
  * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
-real state_row_intact_weighted_volume(const struct bonds *b, int64_t row);
+real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
  * state-based models. source: inputs as in bonds_make. */
-void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
+void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
  * violated one, or NULL if all hold. */
-const char *bonds_find_inconsistency(const struct bonds *b);
+const char *bonds_describe_first_inconsistency(const struct bonds *b);
 
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
@@ -137,7 +138,7 @@ real bonds_row_softening_damage(const struct bonds *b, const struct particles *p
 real bonds_fracture_energy(const struct bonds *b);
 
 /* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
-static inline unsigned row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
+static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
     unsigned bits = 0;
@@ -153,19 +154,19 @@ static inline unsigned row_block_lanes_with_intact_bonds(const struct bonds *b, 
 static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
-    return row >= 0 && row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
+    return row >= 0 && bond_row_block_lanes_with_intact_bonds(b, row / LANES) >> row % LANES & 1;
 }
 
-/* Clears the bits of all particles and mirror images to which the particle of row `row` has intact bonds. marks: one
- * bit for each particle or image, bit i % 64 of marks[i / 64]. Does nothing if row is -1. */
-void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks);
+/* Clears the bits of all particles and mirror images to which the particle of row `row` has intact bonds.
+ * particle_bits: one bit for each particle or image, bit i % 64 of particle_bits[i / 64]. Does nothing if row is -1. */
+void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
 /* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
-static inline int32_t row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
+static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
 /* Returns the number of columns of a row block, which is the largest possible number of bonds of each of its eight
  * particles. */
-static inline int64_t row_block_column_count(const struct bonds *b, int64_t row_block)
+static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t row_block)
 {
     return b->column_count[row_block];
 }
@@ -187,9 +188,9 @@ struct column_copy {
 };
 
 /* Reads neighbours, inverse lengths and weights of one column of a row block (bond number `column` of each of its eight
- * particles) into *to. They come from the stencil, the pattern of bonds that row blocks share, if the row block stores
- * no columns of its own. Does not change b. */
-void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t column);
+ * particles) into *copy. They come from the stencil, the pattern of bonds that row blocks share, if the row block
+ * stores no columns of its own. Does not change b. */
+void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
 /* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
  * plastic_stretch, plastic_path and pair. */

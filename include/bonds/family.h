@@ -93,7 +93,7 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
     const real critical = bond_breaking_stretch(p, limit, i, j);
     const real most = real_max(slow.onset, critical / sqrt(RATE_LEAST_RATIO));
     return softening_range_from_onset(
-        limit->curve, real_min(most, slow.onset * strength_rate_interpolate(r, r->onset, rate)), critical);
+        limit->curve, real_min(most, slow.onset * strength_rate_interpolate_table(r, r->onset, rate)), critical);
 }
 
 /* Plastic constants of bonds by pair of materials. stretch: yield stretch s_y [materials^2][1], NULL if no bond yields;
@@ -147,7 +147,7 @@ struct bond_source {
 /* Computes horizon, cutoff, weights by direction and the sums over a complete family on the lattice into f. The rules
  * f->volume, calibration, surface, shells and influence must be set. spacing: lattice spacing [m]; horizon_in_spacings:
  * delta/spacing [1]; section: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D. */
-void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
+void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 
 /* Returns the micro-modulus c of bond-based peridynamics for material m and the complete family f, by the calibration
  * rule of f [N/m^6]. */
@@ -161,9 +161,9 @@ void family_elastic_constants(const struct family *f, const struct material *m, 
 
 /* Returns G/s_c^2 [N/m] in the model with particle rotations, with the work G per area that separates the two halves of
  * a lattice along a plane and the stretch s_c at which bonds break (separation.c). modulus: moduli of the material;
- * present_family: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
-real family_separation_work_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
-                                                 bool present_family);
+ * intact_bonds_only: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
+real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
+                                                 bool intact_bonds_only);
 
 /* Returns the energy that the bonds across a lattice plane normal to an axis store, per area of the plane, if each has
  * the critical stretch of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
@@ -177,7 +177,7 @@ static inline bool family_has_equal_weights(const struct family *f)
 }
 
 /* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
- * and weight by direction [1]. bond_vector: reference vector, dim components [m]; length: of this vector [m]. */
-real family_bond_weight(const struct family *f, const real *bond_vector, real length);
+ * and weight by direction [1]. bond_vector: reference vector, dim components [m]; bond_length: of this vector [m]. */
+real family_bond_weight(const struct family *f, const real *bond_vector, real bond_length);
 
 #endif

@@ -23,12 +23,12 @@ struct site_map {
 };
 
 /* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of `map`. */
-int64_t site_map_find_site(const struct site_map *map, const struct particles *p, int64_t i);
+int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle);
 
 /* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
  * cutoff). Returns false, with nothing to release, if the particles are not on a lattice. Release with
  * site_map_free. */
-bool site_map_make(struct site_map *map, const struct bond_source *source, const struct particles *p);
+bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *source, const struct particles *p);
 
 /* Releases the arrays of `map`. */
 void site_map_free(struct site_map *map);
@@ -45,13 +45,14 @@ void site_map_release(struct site_map *map);
 /* Lists in neighbour[], ascending, the particles and images within the cutoff of particle i that belong to its body, by
  * means of the map `map` from lattice sites to particles. found must have room for map->most entries. Returns their
  * number, or -1 if images are among them: these cannot be listed in ascending order, and the caller must search. */
-int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *neighbour);
+int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
+                                         int32_t *neighbour);
 
 /* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
-bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i);
+bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
 /* Returns true if one of the bonds in row block `row_block` (the bonds of eight particles) may be to a mirror image.
  * Most row blocks follow a stencil, of which this reads the last column only. */
-bool row_block_may_meet_images(const struct bonds *b, const struct particles *p, int64_t row_block);
+bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block);
 
 #endif

@@ -38,8 +38,8 @@ struct surface_weights {
  * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
  * lattice; weights->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was
  * found). Release with surface_weights_free. */
-status surface_weights_make(struct surface_weights *weights, const struct particles *p,
-                            const struct bond_source *source, bool with_rotations);
+status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
+                                               const struct bond_source *source, bool with_rotations);
 
 /* Releases the arrays of the weights w. */
 void surface_weights_free(struct surface_weights *w);

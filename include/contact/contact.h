@@ -151,38 +151,39 @@ struct contact {
 
 /* Initialises the contact c of a run, without a search for pairs. between: which bodies can be in contact; law: form,
  * contact distance and friction, of which a copy is kept. The stiffness of contacts is computed here from the elastic
- * constants of the bonds times `stiffness_factor` [1]. source: bond law with spacing and pre-cracks; shape: region of
- * each body; rigid: `rigids` rigid bodies. shape and rigid are kept by reference and must outlive c. Release with
- * contact_free. */
+ * constants of the bonds times `stiffness_factor` [1]. source: bond law with spacing and pre-cracks; body_shapes:
+ * region of each body; rigid: `rigid_body_count` rigid bodies. shape and rigid are kept by reference and must outlive
+ * c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
-                  const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
-                  int rigids);
+                  const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
+                  int rigid_body_count);
 
 /* Frees the arrays of c; rigid bodies and shapes stay with the caller. */
 void contact_free(struct contact *c);
 
 /* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s].
- * material: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
-real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
+ * materials: array of the materials; bonds_time_step: critical time step of the bonds alone [s]. */
+real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step);
 
-/* Updates the list of pairs of particles that may come into contact, before step number `step`. A new search is done in
- * three cases: particles have moved farther than contact_pair_list_safe_displacement since the last search; bonds have
- * been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due). Particles on
- * which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be computed.
- * family: horizon and lattice; broken_bonds: number of directed bonds broken so far; conversions: number of conversions
- * and reversions so far. */
-void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
-                              const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions);
+/* Updates the list of pairs of particles that may come into contact, before step number `step_number`. A new search is
+ * done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last search;
+ * bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due).
+ * Particles on which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be
+ * computed. family: horizon and lattice; broken_bond_count: number of directed bonds broken so far; conversion_count:
+ * number of conversions and reversions so far. */
+void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
+                                          struct loads *loads, const struct family *family, int64_t step_number,
+                                          int64_t broken_bond_count, int64_t conversion_count);
 
 /* Requests a search for contact pairs before the next step if one of n listed particles is at the surface of a body,
- * i.e. some of the bonds of a complete family are missing. list: indices of particles that have become peridynamic;
- * family: horizon and lattice. Does nothing if contact is not possible in this run. */
+ * i.e. some of the bonds of a complete family are missing. particle_list: indices of particles that have become
+ * peridynamic; family: horizon and lattice. Does nothing if contact is not possible in this run. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
-                                          const int32_t *list, int64_t n);
+                                          const int32_t *particle_list, int64_t particle_count);
 
 /* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds in b as active, i.e. to be
- * computed. Needed after a restart; in all other cases contact_update_pair_list does it. */
+ * computed. Needed after a restart; in all other cases contact_update_pair_list_if_outdated does it. */
 void contact_activate_particles_after_restart(struct contact *c, const struct particles *p, struct bonds *b,
                                               struct loads *loads);
 
@@ -197,54 +198,54 @@ void contact_allocate_force_record(struct contact *c, const struct particles *p)
 
 /* Records the times of first and last contact of the run: if particles were in contact at the last call of
  * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
-void contact_record_first_and_last_time(struct contact *c, real t);
+void contact_record_first_and_last_contact_time(struct contact *c, real t);
 
 /* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
  * springs included [J]. A pair with a mirror image of a particle counts half. */
-real contact_energy(const struct contact *c, const struct particles *p);
+real contact_elastic_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles that touch rigid body number `rigid_body` at present [m],
  * or 0 if no particle does. */
 real contact_patch_bounding_box_diagonal(const struct contact *c, const struct particles *p, int rigid_body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
-real contact_friction_work(const struct contact *c);
+real contact_friction_dissipated_energy(const struct contact *c);
 
 /* Searches for the pairs that may come into contact, and selects the contacts that act in an equilibrium solution:
- * those that overlap, and those between different bodies whose gap is less than `gap_limit` [spacings]. Selected
+ * those that overlap, and those between different bodies whose gap is less than `max_gap` [spacings]. Selected
  * contacts act as linear springs, also with a positive gap, until the next selection, so that forces are smooth. An
  * equilibrium satisfies the contact law if exactly the overlapping contacts are selected. Forces that correct the
  * energy error of earlier time steps (struct contact_balance) are set to 0. family: horizon and lattice. Returns the
  * number of contacts whose selection changed. */
-int64_t contact_search_and_select_for_equilibrium(struct contact *c, const struct particles *p, struct bonds *b,
-                                                  struct loads *loads, const struct family *family, real gap_limit);
+int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
+                                                struct loads *loads, const struct family *family, real max_gap);
 
 /* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: those that overlap, and
- * those between different bodies whose gap is less than `gap_limit` [spacings]. A contact whose gap is 0 within
+ * those between different bodies whose gap is less than `max_gap` [spacings]. A contact whose gap is 0 within
  * round-off stays as it was. Returns the number of contacts whose selection changed. */
-int64_t contact_select_for_equilibrium(struct contact *c, const struct particles *p, real gap_limit);
+int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
-/* Chooses which contacts act when forces are computed next. use: true for those selected by
- * contact_select_for_equilibrium, as linear springs; false for all that overlap. */
-void contact_use_equilibrium_selection(struct contact *c, bool use);
+/* Chooses which contacts act when forces are computed next. selected_only: true for those selected by
+ * contact_select_active_and_count_changes, as linear springs; false for all that overlap. */
+void contact_restrict_forces_to_selection(struct contact *c, bool selected_only);
 
 /* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
  * requested. */
-void contact_end_equilibrium_selection(struct contact *c);
+void contact_discard_equilibrium_selection(struct contact *c);
 
 /* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
  * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
  * search. */
-bool contact_search_needed(struct contact *c, const struct particles *p);
+bool contact_search_is_needed(struct contact *c, const struct particles *p);
 
 /* Returns the largest distance that each particle may move after a search for pairs [m]. Up to it, no pair that is
  * missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_select_for_equilibrium. term: the contact as a linear
- * spring, valid during the call only. Does nothing if no selection has been made. */
-void contact_visit_springs(const struct contact *c, const struct particles *p,
-                           void (*visit)(void *context, const struct contact_term *term), void *context);
+/* Calls visit(context, term) for each contact selected by contact_select_active_and_count_changes. term: the contact as
+ * a linear spring, valid during the call only. Does nothing if no selection has been made. */
+void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
+                                       void (*visit)(void *context, const struct contact_term *term), void *context);
 
 /* Returns the root of the sum of squares of the contact forces of rigid bodies on particles [N]. Serves as a scale for
  * the residual of an equilibrium. */

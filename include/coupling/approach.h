@@ -11,10 +11,11 @@
 enum { APPROACH_STEPS = 5 };
 #define APPROACH_REACH 3.0
 
-/* Finds the particles within `reach` [m] of a particle of another body or of a rigid body. Material points among them
- * get FLAG_NEAR, by which they convert. For peridynamic ones the time since which their stress is low starts anew, so
- * that they do not become material points. bodies: number of bodies that consist of particles; rigid: array of `rigids`
- * rigid bodies. */
-void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
+/* Finds the particles within `max_distance` [m] of a particle of another body or of a rigid body. Material points among
+ * them get FLAG_NEAR, by which they convert. For peridynamic ones the time since which their stress is low starts anew,
+ * so that they do not become material points. body_count: number of bodies that consist of particles; rigid: array of
+ * `rigid_body_count` rigid bodies. */
+void flag_points_near_other_bodies_to_convert(struct particles *p, int body_count, const struct rigid_body *rigid,
+                                              int rigid_body_count, real max_distance);
 
 #endif

@@ -26,18 +26,18 @@ struct coupling_state {
 /* Determines how peridynamic particles and material points of run e are coupled: by partial stress, hand-shake or
  * another method of the scene; by hand-shake unless the method is adaptive. Then computes, for the present bonds, the
  * partial stresses of material points and the interface zone, in which motion is damped. */
-void coupling_compute_partial_stress(struct run *e);
+void coupling_choose_and_compute_partial_stress(struct run *e);
 
 /* Makes the mesh of the bodies in the reference frame, with the present partial stresses and the slits of pre-cracks.
- * motion_set_later: true if the caller sets displacement and velocity of the nodes afterwards, false to fit them to
+ * caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards, false to fit them to
  * those of the particles. Returns REFUSED or FAILED, with a message, if no mesh is possible (mesh_make). */
-status coupling_make_mesh(struct run *e, bool motion_set_later);
+status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion);
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
  * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone, in
  * which motion is damped, for FLIP with partial stress only. source: inputs of the bonds. */
-void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                                         const struct bond_source *source);
+void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
+                                              const struct bonds *b, const struct bond_source *source);
 
 /* Updates the strains p->end_strain of all material points with state-based bonds to peridynamic particles: what the
  * deformation of the cell of such a point contributes to the mean strain of its family. They follow from the strain of
@@ -52,15 +52,16 @@ void bonded_points_update_strain(const struct partial_stress *partial, const str
  * slits where they are impossible. */
 status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
-/* Writes how pre-crack number `crack` is represented, in words, to `text` (`capacity` bytes): as a slit of the
+/* Writes how pre-crack number `crack_number` is represented, in words, to `text` (`capacity` bytes): as a slit of the
  * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
  * [m]. */
-void notch_describe_representation(const struct notches *n, int crack, real spacing, char *text, size_t capacity);
+void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_number, real spacing, char *text,
+                                         size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
  * before the faces touch. The faces are examined every APPROACH_STEPS steps, and only if the scene allows contact of a
  * body with itself. Returns true if they were examined in this step, whether or not points were marked. */
-bool flag_points_at_closing_slits(struct run *e);
+bool flag_points_at_closing_slits_if_due(struct run *e);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
  * sides. v: voids; NULL: nothing is done. include_meshed: true to include particles of the mesh of the reference frame,
@@ -71,40 +72,41 @@ void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids
  * s does not pass through nodes of g, because doubled nodes are not possible then. */
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
-/* Adds warnings to `to` for voids that are too narrow, so that the run treats them as closed: voids whose two sides
- * share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or images,
- * whose surfaces are not known. */
-void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *to);
+/* Adds warnings to `warning_list` for voids that are too narrow, so that the run treats them as closed: voids whose two
+ * sides share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or
+ * images, whose surfaces are not known. */
+void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *warning_list);
 
-/* Adds warnings to `to` for bodies that will pass through each other or stick together, and for voids that are too
- * narrow to stay open (warn_of_voids_treated_as_closed). */
-void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *to);
+/* Adds warnings to `warning_list` for bodies that will pass through each other or stick together, and for voids that
+ * are too narrow to stay open (warn_of_voids_treated_as_closed). */
+void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
 
 /* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
  * crack faces that approach each other. Also updates the list of row blocks of bonds that are active, i.e. may move.
  * Returns true if the faces of cracks and voids were examined in this step, so that points beside them may be
  * marked. */
-bool conversion_flag_points(struct run *e);
+bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts the marked material points to peridynamic particles, and updates all that depends on it: bonds, contact,
- * partial stresses, interface zone and mesh. broken_bonds: number of directed bonds broken in this step;
- * faces_examined: value that conversion_flag_points returned in this step; bonds_fade: true if bonds of growing cracks
- * lose strength gradually. Returns the number of particles converted. */
-int64_t conversion_convert_and_update_run(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade);
+ * partial stresses, interface zone and mesh. broken_bond_count: number of directed bonds broken in this step;
+ * faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this step; bonds_fade: true if
+ * bonds of growing cracks lose strength gradually. Returns the number of particles converted. */
+int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
+                                                 bool bonds_fade);
 
 /* Updates the mesh of run e, and the strains of material points with state-based bonds to peridynamic particles, after
- * conversion. converted: number of particles that have become peridynamic; 0 if at most partial stresses have changed.
- * Energy lost by removing points from the mesh is added to e->damped. */
-void conversion_update_mesh(struct run *e, int64_t converted);
+ * conversion. converted_count: number of particles that have become peridynamic; 0 if at most partial stresses have
+ * changed. Energy lost by removing points from the mesh is added to e->damped. */
+void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count);
 
 /* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a
  * message, if it has no conversion by stress, another coupling than partial stress or hand-shake, growing cracks, a
  * solver of a single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
-status reversion_check_scene(const struct scene *s);
+status reversion_check_scene_allows_reversion(const struct scene *s);
 
 /* Turns peridynamic particles of run e back into material points if their stress has been low for long enough and no
- * bond near them was ever cut (reversion_select_particles). Called before each step; examines the particles only in
- * step numbers that are multiples of a period. Does nothing if the scene has no reversion. */
-void reversion_revert_relaxed_particles(struct run *e);
+ * bond near them was ever cut (reversion_select_particles_to_become_mpm). Called before each step; examines the
+ * particles only in step numbers that are multiples of a period. Does nothing if the scene has no reversion. */
+void reversion_convert_relaxed_particles_to_mpm(struct run *e);
 
 #endif

@@ -33,21 +33,22 @@ struct interface_zone {
  * spacing. Neighbours of a point are particles within 1.5 spacings. Pairs cut by a pre-crack and particles with
  * prescribed motion are left out. Replaces the previous zone in *r. source: inputs of the bonds. Release with
  * interface_zone_free. */
-void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source);
+void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
+                                               const struct bond_source *source);
 
 /* Releases all arrays of the interface zone r. */
 void interface_zone_free(struct interface_zone *r);
 
 /* Damps the motion in the interface zone r before the forces of a step are computed: changes the momentum of the points
- * of the zone and their neighbours by impulses J of fourth-order viscosity. strength: strength k of the viscosity [1],
+ * of the zone and their neighbours by impulses J of fourth-order viscosity. viscosity: strength k of the viscosity [1],
  * at most 1/16; with 1/16, motion that alternates from point to point stops in one step. Returns the first half of the
  * energy removed [J]: the sum of -J . v/2, with the velocities v before the change.
- * interface_zone_damped_energy_second_half returns the second half. */
-real interface_zone_damp_velocities(struct interface_zone *r, struct particles *p, real strength);
+ * interface_zone_second_half_of_damped_energy returns the second half. */
+real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity);
 
-/* Returns the second half of the energy that interface_zone_damp_velocities has removed in this step [J]: the sum of -J
- * . v'/2 over the members of the zone, with its impulses J (r->change) and the present velocities v', those after the
- * step. */
-real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p);
+/* Returns the second half of the energy that interface_zone_damp_and_return_half_energy has removed in this step [J]:
+ * the sum of -J . v'/2 over the members of the zone, with its impulses J (r->change) and the present velocities v',
+ * those after the step. */
+real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p);
 
 #endif

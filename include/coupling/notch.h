@@ -33,13 +33,12 @@ struct notches {
  * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. Also finds the particles
  * beside slits and narrow voids. tip_radius: radius of the peridynamic zones at the ends of slits [m];
  * reason_against_slits: why no pre-crack may be a slit, NULL if slits are allowed. Release with notches_free. */
-void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real tip_radius,
-                  const char *reason_against_slits);
+void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
+                                       real tip_radius, const char *reason_against_slits);
 
 /* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit if the slit separates them from
  * a part of their family. source: inputs of the bonds. */
-void notches_convert_particles_at_slit_ends(const struct notches *n, struct particles *p,
-                                            const struct bond_source *source);
+void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of n; cracks and voids stay with their owners. */
 void notches_free(struct notches *n);
@@ -49,6 +48,6 @@ void notches_free(struct notches *n);
  * present positions and velocities, which must be up to date. At a slit, points are marked if this distance is less
  * than spacing (1 - NOTCH_GAP); at a notch of width `width`, if it is less than spacing (1 + NOTCH_GAP) - width; at a
  * void, if the faces are close to contact. spacing: of the particles [m]. */
-void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
+void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead);
 
 #endif

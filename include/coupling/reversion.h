@@ -15,22 +15,22 @@ struct reversion_rule {
 
 /* Selects the peridynamic particles that may become material points at time t [s], by their present stress (call
  * bonds_compute_particle_stress before). Also updates p->low_since, the time since which the stress of each particle is
- * low. *list receives the indices of the selected particles in ascending order, an array that the caller frees. Returns
- * their number. A particle is selected if three conditions hold. It is outside the region rule->kept, and its stress
- * and that of all peridynamic particles of its family have been low for rule->hold_time. No bond of it or of a particle
- * within two horizons was ever cut, by load or by a pre-crack. It is inside a ball with the radius of one horizon that
- * will contain material points only. The remaining peridynamic regions thus consist of full families, as conversion
- * makes them, and the regions that revert are at least as wide as a family. */
-int64_t reversion_select_particles(const struct reversion_rule *rule, struct particles *p, const struct bonds *b,
-                                   real t, int32_t **list);
+ * low. *selected receives the indices of the selected particles in ascending order, an array that the caller frees.
+ * Returns their number. A particle is selected if three conditions hold. It is outside the region rule->kept, and its
+ * stress and that of all peridynamic particles of its family have been low for rule->hold_time. No bond of it or of a
+ * particle within two horizons was ever cut, by load or by a pre-crack. It is inside a ball with the radius of one
+ * horizon that will contain material points only. The remaining peridynamic regions thus consist of full families, as
+ * conversion makes them, and the regions that revert are at least as wide as a family. */
+int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
+                                                 const struct bonds *b, real t, int32_t **selected);
 
 /* Turns n listed peridynamic particles into material points. Their stress follows from the bonds that cross their cells
  * (state-based models: from the virial of the family), their volume from the determinant of the deformation gradient of
  * the family. The velocity gradient becomes 0; positions and velocities are unchanged. Beside a surface the stress is
  * that of a full family under the same strain. Rebuilds the bonds b and, if `partial` is not NULL, the partial stresses
- * around the particles. Counts the reversion in c. list: n particle indices; source: inputs of the bonds. */
-void reversion_revert_listed_particles(struct conversion *c, struct particles *p, struct bonds *b,
-                                       const struct bond_source *source, struct partial_stress *partial,
-                                       const int32_t *list, int64_t n);
+ * around the particles. Counts the reversion in c. particle_list: n particle indices; source: inputs of the bonds. */
+void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
+                                               const struct bond_source *source, struct partial_stress *partial,
+                                               const int32_t *particle_list, int64_t particle_count);
 
 #endif

@@ -23,16 +23,16 @@ struct active_set {
     bool over;                     /* sets of row blocks: all active blocks have moved, so no other becomes active */
 };
 
-/* Allocates the active set r of `blocks` blocks of particles or nodes, all active: computations include every block.
- * Release with active_set_free. */
-void active_set_make(struct active_set *r, int64_t blocks);
+/* Allocates the active set r of `block_count` blocks of particles or nodes, all active: computations include every
+ * block. Release with active_set_free. */
+void active_set_make_with_all_blocks_active(struct active_set *r, int64_t block_count);
 
 /* Releases all arrays of the active set r. */
 void active_set_free(struct active_set *r);
 
 /* Rebuilds r->list, the ascending list of the blocks that computations visit (activity level above 0), and r->active,
  * their number. Call it after r->level has changed. */
-void active_set_rebuild_list(struct active_set *r);
+void active_set_rebuild_active_block_list(struct active_set *r);
 
 /* Saves the activity levels of the blocks to the archive under `name` if a->saving, else restores them. After
  * restoring, computations include all blocks in the next step, because the forces of inactive blocks are not stored.

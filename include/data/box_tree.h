@@ -19,9 +19,9 @@ struct box_tree {
     } * node;
 };
 
-/* Creates a tree over copies of the n boxes box[n] in dim dimensions. box_search_start and
+/* Creates a tree over copies of the n boxes boxes[n] in dim dimensions. box_search_start and
  * box_search_find_next_box_within then find the boxes near a point. Release with box_tree_free. */
-void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim);
+void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count, int dim);
 
 /* Releases the nodes of the tree. */
 void box_tree_free(struct box_tree *t);
@@ -42,9 +42,9 @@ struct box_search {
  * then returns them one by one. `tree` and `point` are kept by reference. */
 void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim);
 
-/* Returns the number of another box that is at most `reach` [m] away from the point of `search`, or -1 if there are no
- * more. The distance is the largest over the coordinate directions, negative inside the box. The caller may reduce
- * `reach` between calls. */
-int box_search_find_next_box_within(struct box_search *search, real reach);
+/* Returns the number of another box that is at most `max_distance` [m] away from the point of `search`, or -1 if there
+ * are no more. The distance is the largest over the coordinate directions, negative inside the box. The caller may
+ * reduce `max_distance` between calls. */
+int box_search_find_next_box_within(struct box_search *search, real max_distance);
 
 #endif

@@ -17,17 +17,17 @@ struct cells {
 };
 
 /* Sorts the particles and mirror images of p into search cells by their reference positions, so that neighbours within
- * a radius of up to `edge` [m] can be found. Release with cells_free. */
-void cells_make(struct cells *c, const struct particles *p, real edge);
+ * a radius of up to `cell_edge` [m] can be found. Release with cells_free. */
+void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge);
 
 /* Releases all arrays of c. */
 void cells_free(struct cells *c);
 
 /* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
- * in `found`, ascending, except particle `skip` (-1: no exception). Writes at most `capacity` indices. Returns the
- * number of particles found, which may exceed `capacity`. */
-int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                    int32_t *found, int capacity);
+ * in `found`, ascending, except particle `excluded_particle` (-1: no exception). Writes at most `capacity` indices.
+ * Returns the number of particles found, which may exceed `capacity`. */
+int cells_list_particles_near_point(const struct cells *c, const struct particles *p, const real *X, real radius,
+                                    int32_t excluded_particle, int32_t *found, int capacity);
 
 /* Returns an upper bound of the number of particles and mirror images within `radius` [m] of any particle, itself
  * included: the largest number of particles in the search cells around any cell. It is fast, because no distances are
@@ -44,13 +44,14 @@ struct neighbour_list {
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
  * number in near->n. c: search cells, whose edge must be at least the radius; include_itself: true to include particle
  * i. */
-void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
-                         real radius, bool include_itself);
+void particles_list_neighbours_within_radius(struct neighbour_list *near, const struct cells *c,
+                                             const struct particles *p, int64_t particle, real radius,
+                                             bool include_itself);
 
 /* Lists the particles and mirror images within `radius` [m] of particle i in near->at, and their number in near->n, in
- * the order of the search cells: slightly faster than the ascending order of particles_find_near if there are images.
- * include_itself: true to include particle i. */
-void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
-                                   int64_t i, real radius, bool include_itself);
+ * the order of the search cells: slightly faster than the ascending order of particles_list_neighbours_within_radius if
+ * there are images. include_itself: true to include particle i. */
+void particles_list_neighbours_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
+                                         int64_t particle, real radius, bool include_itself);
 
 #endif

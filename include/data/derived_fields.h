@@ -20,12 +20,12 @@ enum { DERIVED_FIELDS = 5 };
 extern const struct derived_field derived_fields[DERIVED_FIELDS];
 
 /* Returns the entry of derived_fields with the given name, or NULL if there is none. */
-const struct derived_field *derived_field_find(const char *name);
+const struct derived_field *derived_field_find_by_name(const char *name);
 
 /* Computes the eigenvalues of a symmetric tensor (xx, yy, zz, xy, yz, xz), descending, and unit eigenvectors in this
  * order: components 3 k .. 3 k + 2 of `direction` belong to value[k]. The largest component of the first two vectors is
  * positive, the third completes a right-handed system. direction NULL: only eigenvalues are computed. */
-void tensor_principal_values(const real tensor[6], real value[3], real direction[9]);
+void tensor_compute_principal_values(const real tensor[6], real value[3], real direction[9]);
 
 /* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s, of a stress tensor with components
  * xx, yy, zz, xy, yz, xz; unit as `tensor`. */

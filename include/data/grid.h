@@ -81,8 +81,8 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
 /* Releases all arrays of g. */
 void grid_free(struct grid *g);
 
-/* Appends a copy of `wall`, a prescribed velocity component of a node, to the list of this step. */
-void grid_add_prescribed_velocity(struct grid *g, const struct wall *wall);
+/* Appends a copy of `prescribed_velocity`, a prescribed velocity component of a node, to the list of this step. */
+void grid_add_prescribed_velocity(struct grid *g, const struct wall *prescribed_velocity);
 
 /* Appends a copy of `mirror_node`, a node beyond a plane of symmetry that moves as the image of another one, to the
  * list of g. */
@@ -160,6 +160,6 @@ static inline int64_t grid_cell_index_in_other_grid(const struct grid *from_grid
 /* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
  * `lower` and `upper` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box
  * would have more than `max_nodes` nodes. */
-bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
+bool grid_set_box_if_not_too_large(struct grid *g, const real *lower, const real *upper, int64_t max_nodes);
 
 #endif

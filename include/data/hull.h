@@ -28,7 +28,7 @@ struct hull {
     int32_t nodes;
     struct hull_node *node; /* node[0] contains all faces */
     bool open;              /* has no inside: distances are positive */
-    /* findings of hull_make */
+    /* findings of hull_make_closed_surface */
     int64_t open_edges;    /* edges of faces that no other face continues; in 2D: end points */
     real open_at[DIM_MAX]; /* the middle of one of them [m] */
     int64_t shells;        /* connected components */
@@ -39,18 +39,18 @@ struct hull {
 
 enum { HULL_CORNERS_MAX = INT32_MAX / 4 };
 
-/* Creates a closed surface from `faces` faces of `dim` corners; takes ownership of both arrays, which memory_new must
- * have allocated. Pairs of coincident opposite faces, as between two elements of a mesh, and faces without area are
- * removed; a surface with inward normals is reversed. Stores what it finds, such as open edges, in s. Release with
+/* Creates a closed surface from `face_count` faces of `dim` corners; takes ownership of both arrays, which memory_new
+ * must have allocated. Pairs of coincident opposite faces, as between two elements of a mesh, and faces without area
+ * are removed; a surface with inward normals is reversed. Stores what it finds, such as open edges, in s. Release with
  * hull_free. */
-void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
-               int32_t (*face)[DIM_MAX]);
+void hull_make_closed_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
+                              int64_t face_count, int32_t (*face_corners)[DIM_MAX]);
 
-/* Creates an open surface, which has no inside, from `faces` faces of `dim` corners. The faces are not changed: none is
- * removed or reversed, and a face with equal corners is a line or a point. s takes ownership of the arrays `corner` and
- * `face`, which memory_new must have allocated. Release with hull_free. */
-void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
-                    int32_t (*face)[DIM_MAX]);
+/* Creates an open surface, which has no inside, from `face_count` faces of `dim` corners. The faces are not changed:
+ * none is removed or reversed, and a face with equal corners is a line or a point. s takes ownership of the arrays
+ * `corner_positions` and `face_corners`, which memory_new must have allocated. Release with hull_free. */
+void hull_make_open_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
+                            int64_t face_count, int32_t (*face_corners)[DIM_MAX]);
 
 /* Releases all arrays of s. */
 void hull_free(struct hull *s);
@@ -61,10 +61,11 @@ real hull_winding_number(const struct hull *s, const real *X);
 
 /* Returns the signed distance of the point X (s->dim components [m]) from the surface [m], negative inside (an open
  * surface has no inside). normal: NULL, or receives the unit vector that points away from the surface, outwards. */
-real hull_distance(const struct hull *s, const real *X, real *normal);
+real hull_signed_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns true if the signed distance of the point X (s->dim components [m]) from the surface, negative inside, is at
- * most `max_distance` [m]. It is faster than hull_distance, because faces farther away than that are not examined. */
+ * most `max_distance` [m]. It is faster than hull_signed_distance, because faces farther away than that are not
+ * examined. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
 /* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
@@ -74,14 +75,14 @@ real hull_support_function(const struct hull *s, const real *direction);
 /* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
  * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
  * surface with outward normals. */
-real hull_ambiguous_inside_fraction(const struct hull *s);
+real hull_sample_fraction_with_unclear_inside(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
- * are consecutive. Corners and faces must be set before. Part of hull_make. */
-void hull_build_face_tree(struct hull *s);
+ * are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */
+void hull_build_face_search_tree(struct hull *s);
 
 /* Computes the area vector of the face, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
  * normal times the length [m]. */
-void hull_face_area_vector(const struct hull *s, int64_t face, real area[DIM_MAX]);
+void hull_compute_face_area_vector(const struct hull *s, int64_t face, real area_vector[DIM_MAX]);
 
 #endif

@@ -99,17 +99,17 @@ real bond_based_poisson_ratio(enum space space);
  * 1D, 8 k/family_sum in 2D, 18 k/family_sum in 3D, with k = m->bulk. Bonds then have the energy of the continuum under
  * uniform dilatation (Silling & Askari 2005). family_sum: sum of r V_j beta over a full family [m^4], where beta is the
  * fraction of the volume of neighbour j within the horizon. */
-real material_micro_modulus(const struct material *m, enum space space, real family_sum);
+real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum);
 
 /* Returns the micro-modulus c of bond-based peridynamics, for a continuous family [N/m^6]: 2 k/(A d^2) in 1D, 12 k/(pi
  * h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A
  * in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
-real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section);
+real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section);
 
 /* Returns the critical stretch of the bonds of material m [1]: at this stretch, all bonds that cross a unit area of a
  * plane have the energy release rate G_c. horizon [m]; model: STRETCH_BOND bond-based with the continuum micro-modulus
  * (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci & Oterkus 2014). For the model with particle
- * rotations use family_separation_work_over_stretch_squared. */
+ * rotations use family_fracture_energy_over_stretch_squared. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
@@ -130,7 +130,7 @@ struct surface_strengths {
 
 /* Returns the strengths of material m, which must have a strength surface, in the given space (plane stress, plane
  * strain, solid). */
-struct surface_strengths material_surface_strengths(const struct material *m, enum space space);
+struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space);
 
 /* Returns the smallest strain at which the strength surface of material m can be reached [1]: the minimum, over all
  * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond.

@@ -41,7 +41,7 @@ struct particles {
     const struct material *plane_strain; /* [materials] of a body in plane strain, borrowed; NULL in other spaces */
     int64_t n_of[KINDS];                 /* number of particles of each kind */
     int64_t n_grid_coupled;              /* peridynamic particles moved by the grid */
-    int32_t *list[KINDS]; /* [n_of] indices of each kind, ascending; rebuilt by particles_update_kind_lists */
+    int32_t *list[KINDS]; /* [n_of] indices of each kind, ascending; rebuilt by particles_rebuild_lists_by_kind */
     int64_t n_free;       /* material points on the grid, not of the mesh */
     int32_t *list_free;   /* [n_free] indices of these points, ascending */
     /* every array below has n_all (+ LANES) entries */
@@ -52,8 +52,8 @@ struct particles {
     real *mass;             /* [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
     /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by
-     * reference_frame_update_points, peridynamic particles: by bonds_compute_particle_stress, for frames
-     * (run_update_particles) and for samples and reversion that read it; out of date in between. */
+     * reference_frame_update_motion_and_stress, peridynamic particles: by bonds_compute_particle_stress, for frames
+     * (run_update_particle_motion_and_stress) and for samples and reversion that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
@@ -240,11 +240,11 @@ static inline real particle_out_of_plane_stress(const struct particles *p, int64
 
 /* Allocates n particles without mirror images, with all values 0, in dim dimensions. optional_arrays: arrays that are
  * allocated in addition, sum of WITH_*. Release with particles_free. */
-void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays);
+void particles_make(struct particles *p, int dim, int64_t particle_count, int optional_arrays);
 
-/* Extends every array of p by `images` zeroed entries for mirror images, behind those of the body; pointers to the
+/* Extends every array of p by `image_count` zeroed entries for mirror images, behind those of the body; pointers to the
  * arrays change. optional_arrays: optional arrays of p, sum of WITH_*. Called once, at set-up. */
-void particles_add_mirror_images(struct particles *p, int64_t images, int optional_arrays);
+void particles_extend_arrays_for_mirror_images(struct particles *p, int64_t image_count, int optional_arrays);
 
 /* Releases all arrays of p. */
 void particles_free(struct particles *p);
@@ -266,10 +266,10 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
 
 /* Returns the index of the particle whose reference position is nearest to X (dim components [m]), the lowest one of
  * several; mirror images are not considered. */
-int64_t particles_nearest(const struct particles *p, const real *X);
+int64_t particles_index_nearest_to_position(const struct particles *p, const real *X);
 
-/* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
-real particles_largest_speed_of_list(const struct particles *p, const int32_t *list, int64_t n);
+/* Returns the largest speed of the particles particle_list[n] [m/s], 0 for an empty list. */
+real particles_largest_speed_of_list(const struct particles *p, const int32_t *particle_list, int64_t particle_count);
 
 /* Returns the largest speed of all particles, peridynamic and material points [m/s]. */
 real particles_largest_speed_of_all(const struct particles *p);
@@ -298,7 +298,7 @@ static inline bool lattice_contains_coordinate(real coordinate, real origin, rea
 
 /* Rebuilds the particle lists of p: the particles of each kind (n_of, list) from p->kind, and the material points on
  * the background grid (n_free, list_free) from p->kind and p->flag. */
-void particles_update_kind_lists(struct particles *p);
+void particles_rebuild_lists_by_kind(struct particles *p);
 
 /* Returns true if at least one particle is flagged for conversion: it has lost a bond, has a large stress, or is near
  * another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */

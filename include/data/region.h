@@ -21,16 +21,16 @@ real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
  * intersections and differences are ignored. Returns false if the box is infinite. */
-bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
+bool region_compute_bounding_box_if_finite(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX]);
 
 /* Returns the signed distance of the point X (dim components [m]) from the surface of the region, negative inside [m].
  * normal: receives the outward unit normal of the nearest surface. For a single solid, exact outside and beside flat
  * faces; for several solids, that of the nearest one. No side of a box may be infinite. */
-real region_distance(const struct region *r, const real *X, int dim, real *normal);
+real region_signed_distance(const struct region *r, const real *X, int dim, real *normal);
 
-/* Returns true if a box of the region, also within a group, has an infinite side, so that region_distance is not
+/* Returns true if a box of the region, also within a group, has an infinite side, so that region_signed_distance is not
  * defined. */
-bool region_has_infinite_box(const struct region *r, int dim);
+bool region_contains_infinite_box_solid(const struct region *r, int dim);
 
 /* Returns an upper bound of the scalar product X . direction over all points X of the region [m]. direction: unit
  * vector, dim components. */
@@ -38,7 +38,7 @@ real region_support_function_bound(const struct region *r, const real *direction
 
 /* Returns the volume of the part of the region within the box between the corners `lower` and `upper` [m^dim], by
  * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
-real region_volume(const struct region *r, int dim, const real *lower, const real *upper);
+real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper);
 
 /* Builds search trees over the solids of a long list, so that later queries of the region examine only solids near the
  * point; results stay bitwise equal. The list must not change afterwards. */
@@ -108,11 +108,11 @@ struct mirror_plane {
     real at;           /* position along the axis [m] */
 };
 
-/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror[mirrors] and a corner
- * of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
+/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror_planes[mirrors] and a
+ * corner of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
  * distance from a plane up to which a point is on it [m]. */
-bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror, int mirrors, const struct crack *c,
-                                       const real *end, real tolerance);
+bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
+                                       const struct crack *c, const real *end, real tolerance);
 
 /* Parts and mirror images of cracks. of[k]: index of the original crack of which crack[k] is a part or an image. */
 struct crack_list {
@@ -122,17 +122,17 @@ struct crack_list {
 };
 
 /* Computes the parts of the cracks on the body's side of all planes of symmetry mirror[mirrors], and their mirror
- * images within `reach` [m] of these planes, so that a bond across a plane and its image are cut alike. tolerance:
- * distance from a plane up to which a point is on it [m]. Release with crack_list_free. */
-void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int cracks,
-                               const struct mirror_plane *mirror, int mirrors, real reach, real tolerance);
+ * images within `image_reach` [m] of these planes, so that a bond across a plane and its image are cut alike.
+ * tolerance: distance from a plane up to which a point is on it [m]. Release with crack_list_free. */
+void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int crack_count,
+                               const struct mirror_plane *mirror, int mirror_count, real image_reach, real tolerance);
 
 /* Releases the cracks of the list l. */
 void crack_list_free(struct crack_list *l);
 
 /* Returns the distance of the point `point` from the segment between the points `segment_start` and `segment_end` (dim
  * components each [m]) [m]. */
-real segment_distance(const real *segment_start, const real *segment_end, const real *point, int dim);
+real segment_distance_from_point(const real *segment_start, const real *segment_end, const real *point, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 

@@ -30,7 +30,7 @@ struct strength_scatter {
 /* Returns the value at the position X (dim components [m]) of a Gaussian random field with mean 0, variance 1 and the
  * correlation length s->length [1]. Without a correlation length the value depends only on the seed and on particle_id,
  * the number of the particle. */
-real scatter_gaussian_field(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
+real scatter_gaussian_field_value(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id);
 
 /* Returns the random factor on the critical stretch of a particle at the position X (dim components [m]) [1], from the
  * distribution s; 1 if the scene gives no distribution. particle_id: number of the particle, used only without a

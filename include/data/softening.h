@@ -100,9 +100,9 @@ real softening_normalised_dissipated_energy(const struct softening_curve *c, rea
 
 /* Computes the largest stresses that bonds of all directions with the softening curve c reach under growing uniform
  * strain, over s_0 E', by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
- * uniaxial tension; squared_ratio: (critical stretch/s_0)^2 [1]. */
+ * uniaxial tension; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_ratio);
+                                                               real squared_stretch_ratio);
 
 /* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], by
  * fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical stretch/s_0)^2
@@ -117,9 +117,9 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
  * of a bond [1]. */
 #define RATE_LEAST_RATIO 1.2
 
-/* Returns the value at the strain rate `rate` [1/s] of a quantity that is value[k] at the rate r->rate[k]: linear in
- * the logarithm of the rate, constant beyond the table. */
-real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate);
+/* Returns the value at the strain rate `rate` [1/s] of a quantity that is table_values[k] at the rate r->rate[k]:
+ * linear in the logarithm of the rate, constant beyond the table. */
+real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate);
 
 /* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */
 static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)

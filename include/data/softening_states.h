@@ -15,9 +15,10 @@ struct softening_model {
 
 /* Computes the largest stresses over s_0 E' that a family of softening bonds of the given bond-based or state-based
  * model reaches under growing uniform strain, by quadrature over directions. c: softening curve; s_0: stretch at which
- * bonds begin to soften; E': modulus of uniaxial tension; squared_ratio: (critical stretch/s_0)^2 [1]. */
+ * bonds begin to soften; E': modulus of uniaxial tension; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_ratio, const struct softening_model *model);
+                                                               real squared_stretch_ratio,
+                                                               const struct softening_model *model);
 
 /* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], for a
  * family of the given bond-based or state-based model, by fixed-point iteration. m->critical_stretch must be set. The
@@ -27,6 +28,7 @@ real softening_model_onset_stretch(const struct material *m, enum space space, c
 /* Computes m->rate.onset: for each rate of the table, the factor on m->onset_stretch, the stretch at which bonds begin
  * to soften, that gives the strength at this rate. Returns the smallest ratio (critical stretch/onset)^2 over all rates
  * [1]. */
-real strength_rate_compute_onset_factors(struct material *m, enum space space, const struct softening_model *model);
+real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
+                                                  const struct softening_model *model);
 
 #endif

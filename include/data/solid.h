@@ -110,7 +110,7 @@ static inline bool solid_is_of_kind_and_not_moved(const struct solid *s, enum so
 
 /* Returns the signed distance of the point X (dim components [m]) from the surface of the solid, negative inside [m];
  * exact outside. normal: receives the outward unit normal of the nearest surface point. */
-real solid_distance(const struct solid *s, const real *X, int dim, real *normal);
+real solid_signed_distance(const struct solid *s, const real *X, int dim, real *normal);
 
 /* Returns a value that is negative inside the solid, 0 on its surface and positive outside [m]; beside a flat face it
  * is the signed distance. For boxes and cylinders it is the largest of the signed distances from the planes and the
@@ -143,7 +143,7 @@ real solid_least_thickness(const struct solid *s, int dim);
 /* Applies the motion to all present copies of the solid: moves, rotates or reflects them, or multiplies them on a grid
  * or a ring. Appends `motion` to s->motion. Returns false, without any change, if there would be more than IMAGES_MOST
  * copies. */
-bool solid_add_motion(struct solid *s, const struct solid_motion *motion, int dim);
+bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
  * solid_level_set_value is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside
@@ -152,7 +152,7 @@ static inline real solid_distance_bound_from_level(real level) { return level > 
 
 /* Estimates the cost of one query of the solid, in queries of a simple solid such as a ball [1]: adds up all copies,
  * the solids of a group, and the edges of a polygon. */
-real solid_query_cost(const struct solid *s);
+real solid_query_cost_relative_to_ball(const struct solid *s);
 
 /* Releases the arrays, polygon and regions that the solid owns. */
 void solid_free(struct solid *s);

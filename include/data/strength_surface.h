@@ -18,14 +18,14 @@ struct strength_surface {
 };
 
 /* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compression >= tension. */
-struct strength_surface strength_surface_from_compression(real tension, real compression);
+struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength);
 
 /* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic > tension/3. */
-struct strength_surface strength_surface_from_hydrostatic(real tension, real hydrostatic);
+struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength);
 
 /* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tension/2 < biaxial <=
  * tension. */
-struct strength_surface strength_surface_from_biaxial(real tension, real biaxial);
+struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
 /* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. xx, yy, zz: normal
  * stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx [Pa^2]. */

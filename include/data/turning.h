@@ -56,11 +56,11 @@ struct rotation_groups {
 
 /* Divides all particles into groups of about 6 by 6 (by 6) neighbours of the reference configuration, which later
  * rotate together; joined bodies share groups, others do not. spacing: of the particles [m]; origin: origin of the
- * division [m]; joined_to: for each body the first body that is joined to it; supported: for each body, true if
- * supports act on it, so that its points do not rotate in groups. Replaces previous groups; release with
+ * division [m]; first_joined_body: for each body the first body that is joined to it; body_is_supported: for each body,
+ * true if supports act on it, so that its points do not rotate in groups. Replaces previous groups; release with
  * rotation_groups_free. */
 void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
-                          const int *joined_to, const bool *supported);
+                          const int *first_joined_body, const bool *body_is_supported);
 
 /* Releases all arrays of t. */
 void rotation_groups_free(struct rotation_groups *t);

@@ -33,22 +33,24 @@ bool region_has_voxel_image(const struct region *r);
 bool region_may_have_voids(const struct region *r);
 
 /* Computes v->near, which marks the particles that a void separates from others, by testing all pairs of particles at
- * most `reach` apart [m]. The other members of v must be set before. cells: search over reference positions; image:
- * sources of the mirror images. Release with voids_free. */
+ * most `max_distance` apart [m]. The other members of v must be set before. cells: search over reference positions;
+ * images: sources of the mirror images. Release with voids_free. */
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                                    const struct image *image, real reach);
+                                    const struct image *images, real max_distance);
 
-/* Returns true if the segment between the points a and b [m] leaves the shape of body number `body`, so that a void is
- * between them. Symmetric in a and b. facing: NULL, or receives, if there is a void, whether its two surfaces face each
- * other. Gaps of up to 2e-5 spacings are ignored. */
-bool void_separates_points(const struct voids *v, int body, const real *point, const real *other_point, bool *facing);
+/* Returns true if the segment between the points a and b [m] leaves the shape of body number `body_number`, so that a
+ * void is between them. Symmetric in a and b. facing: NULL, or receives, if there is a void, whether its two surfaces
+ * face each other. Gaps of up to 2e-5 spacings are ignored. */
+bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
+                           bool *facing);
 
 /* Returns true if a void separates the particles i and j of one body. v: NULL if no body has voids; the result is then
  * false. Fast for particles without a void nearby. */
-bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
+bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
+                              int64_t other_particle);
 
 /* Returns a lower bound of the distance of particle i from the surface of the shape of its body, in which it is [m]. */
-real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i);
+real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void separates particle i from at least one particle of its body within the distance for which
  * voids_mark_separated_particles has marked particles. v: NULL if no body has voids; the result is then false. */

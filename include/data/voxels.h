@@ -41,7 +41,7 @@ struct voxel_part {
 /* Finds the voxels of p->of whose grey values are in the ranges p->range: sets p->voxels to their number and p->level
  * to the signed distance of each voxel centre from the surface of the solid that they form [m]. p->of and the ranges
  * must be set before. Release with voxel_part_free. */
-void voxel_part_make(struct voxel_part *p);
+void voxel_part_make_from_grey_value_ranges(struct voxel_part *p);
 
 /* Releases the distances p->level. */
 void voxel_part_free(struct voxel_part *p);
@@ -49,6 +49,6 @@ void voxel_part_free(struct voxel_part *p);
 /* Returns the signed distance of the point X [m] from the surface of the solid, negative inside [m]. Its sign is exact;
  * its value is that of the centre of the voxel that contains X. normal: NULL, or receives the unit vector that points
  * out of the solid. */
-real voxel_part_distance(const struct voxel_part *p, const real *X, real *normal);
+real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal);
 
 #endif

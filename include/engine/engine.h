@@ -8,13 +8,13 @@
 #include "run/run.h"
 
 /* Creates the state of a run of the scene s before its first step: particles, cells, loads, bonds, grid, time step.
- * out: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns REFUSED if
- * the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
- * engine_free whatever is returned. */
-status engine_make(struct run *e, const struct scene *s, struct output *out);
+ * output: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns REFUSED
+ * if the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
+ * engine_free_run whatever is returned. */
+status engine_set_up_run(struct run *e, const struct scene *s, struct output *output);
 
 /* Releases all memory of a run. Waits first for the thread that may still be writing a frame. */
-void engine_free(struct run *e);
+void engine_free_run(struct run *e);
 
 /* Writes a line on standard error if the bodies of a scene have so many lattice positions that its set-up takes longer
  * than some seconds: their number, which follows from volume and spacing, and the time. */
@@ -22,42 +22,43 @@ void engine_announce_long_set_up(const struct scene *s);
 
 /* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
  * source: materials and bond families. Bonds and grids need not exist yet. */
-real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
+real run_estimate_peak_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Estimates the peak memory of a run as run_estimate_memory does, but for the case that all particles of the bodies are
- * peridynamic [byte]. */
-real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source);
+/* Estimates the peak memory of a run as run_estimate_peak_memory does, but for the case that all particles of the
+ * bodies are peridynamic [byte]. */
+real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
+                                                 const struct bond_source *source);
 
 /* Runs a scene from the present step to its end, with all reports. Returns INTERRUPTED, after a checkpoint, if a
  * signal or the wall-clock limit stops the run; FAILED if the run becomes unstable, no equilibrium is found, or a file
  * cannot be written. */
-status engine_run(struct run *e);
+status engine_run_to_end(struct run *e);
 
 /* Adapts the refinement levels of the mesh cells and makes one time step (step). Returns FAILED if either fails. */
-status engine_step(struct run *e);
+status engine_adapt_refinement_and_step(struct run *e);
 
 /* Saves the complete state of a run between two steps to the archive if a->saving is set, else restores it from the
  * archive. run: a struct run. Returns FAILED if the file cannot be written, or if the stored state does not fit the
  * run or is inconsistent. */
-status engine_save_or_load(void *run, struct archive *a);
+status engine_save_or_load_run_state(void *run, struct archive *a);
 
-/* Restores the state of a run from a checkpoint. run: a struct run of the same scene that engine_make has created.
- * Reports on standard error if the checkpoint was written with another instruction set. Returns FAILED if the
+/* Restores the state of a run from a checkpoint. run: a struct run of the same scene that engine_set_up_run has
+ * created. Reports on standard error if the checkpoint was written with another instruction set. Returns FAILED if the
  * checkpoint belongs to another body or is inconsistent. */
 status engine_load_checkpoint(void *run, struct archive *a);
 
 /* Runs the scene once more with material points alone, if it has a PULSE probe, and stores the final velocities and
  * the energy change with which the probe compares the run. Call it after the run. Returns the status of the second
  * run. */
-status engine_run_mpm_baseline(struct run *e);
+status engine_run_mpm_baseline_for_pulse_probe(struct run *e);
 
 /* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
  * before the first step. */
 void engine_warn_of_suspicious_input(struct run *e);
 
 /* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
- * for a run without files. end_status: status with which the run ended; threads: number of threads. Returns FAILED if a
- * file cannot be written. */
-status summary_write(const struct run *e, status end_status, int threads);
+ * for a run without files. end_status: status with which the run ended; thread_count: number of threads. Returns FAILED
+ * if a file cannot be written. */
+status summary_write(const struct run *e, status end_status, int thread_count);
 
 #endif

@@ -16,6 +16,6 @@ struct fracture_state {
 
 /* Returns true if f has a growing crack whose bonds lose their weight gradually while the tip moves on. Other cracks
  * break the bonds at once when the tip crosses them. */
-bool cracks_have_fading_bonds(const struct fracture_state *f);
+bool cracks_have_gradually_weakening_bonds(const struct fracture_state *f);
 
 #endif

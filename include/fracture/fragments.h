@@ -22,7 +22,7 @@ struct fragments {
 /* Finds the fragments of a body: sets of peridynamic particles that unbroken bonds of b connect. Writes them to f,
  * which is initialised here, sorted by decreasing mass; particles without a bond are only counted. Release with
  * fragments_free. */
-void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p);
+void fragments_find_by_intact_bonds(struct fragments *f, const struct bonds *b, const struct particles *p);
 
 /* Frees the arrays of f. */
 void fragments_free(struct fragments *f);

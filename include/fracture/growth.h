@@ -85,8 +85,9 @@ void growing_crack_free(struct growing_crack *g);
  * grows on. source: bond law and neighbour search. control: present stress-intensity factors, which turn the tip to the
  * direction of the largest hoop stress and may set its speed; NULL if they are not known. Returns the number of
  * directed bonds (bond i-j counts twice) whose weight became 0. */
-int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
-                              const struct bond_source *source, const struct growth_control *control, real t, real dt);
+int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
+                                                  const struct bond_source *source,
+                                                  const struct growth_control *control, real t, real dt);
 
 /* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
  * 0 to 180 [degree], or NAN if the crack has not grown. */

@@ -13,13 +13,14 @@ struct place {
 };
 
 /* Divides positions into groups and computes a representative position of one group. Two positions are in one group if
- * they can be connected by a chain of positions with steps of at most `reach` [m]. position: array of `positions`
- * entries, of which at most the first 16384 are examined; those with `beside` set only serve to connect others. along:
- * unit vector, dim components; steps are measured perpendicular to it, or in all directions if it is 0. The group used
- * is that of the position with the largest x (of equal x the largest y, then z). centre: receives the mean of its
- * positions, dim components [m], or the position nearest to the mean if none is within `reach` of it. Returns the
- * number of groups, or 0, with `centre` unchanged, if all positions have `beside` set. */
-int64_t positions_cluster_centre(const struct place *position, int64_t positions, int dim, real reach,
-                                 const real *along, real *centre);
+ * they can be connected by a chain of positions with steps of at most `max_step` [m]. position: array of
+ * `position_count` entries, of which at most the first 16384 are examined; those with `beside` set only serve to
+ * connect others. ignored_direction: unit vector, dim components; steps are measured perpendicular to it, or in all
+ * directions if it is 0. The group used is that of the position with the largest x (of equal x the largest y, then z).
+ * cluster_centre: receives the mean of its positions, dim components [m], or the position nearest to the mean if none
+ * is within `max_step` of it. Returns the number of groups, or 0, with `cluster_centre` unchanged, if all positions
+ * have `beside` set. */
+int64_t positions_count_clusters_and_find_centre(const struct place *position, int64_t position_count, int dim,
+                                                 real max_step, const real *ignored_direction, real *cluster_centre);
 
 #endif

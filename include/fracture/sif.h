@@ -53,15 +53,15 @@ struct gradient_stencil {
  * *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method of the gradient, range and
  * visibility of neighbours; c: neighbour search over the reference positions. If too few neighbours of i are visible,
  * s->order is 0 and there are no weights. Release with gradient_stencil_free. */
-void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
-                              const struct cells *c, int64_t i);
+void gradient_stencil_compute_weights(struct gradient_stencil *s, const struct gradient_rule *rule,
+                                      const struct particles *p, const struct cells *c, int64_t particle);
 
 /* Frees the arrays of a stencil. */
 void gradient_stencil_free(struct gradient_stencil *s);
 
-/* Computes the gradient of a plane vector field at particle i: gradient[a][b] = d field_a/dX_b. s: stencil of particle
- * i (gradient_stencil_compute); field[a]: component a for every particle, mirror images included. */
-void gradient_stencil_apply(const struct gradient_stencil *s, int64_t i, const real *const field[2],
+/* Computes the gradient of a plane vector field at particle particle: gradient[a][b] = d field_a/dX_b. s: stencil of
+ * particle i (gradient_stencil_compute_weights); field[a]: component a for every particle, mirror images included. */
+void gradient_stencil_apply(const struct gradient_stencil *s, int64_t particle, const real *const field[2],
                             real gradient[2][2]);
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
@@ -111,17 +111,17 @@ real sif_interaction_integrand(const struct sif_tip *tip, const struct contour *
                                const struct crack_state *actual, const struct crack_state *auxiliary,
                                real inertia_factor);
 
-/* Computes the stress-intensity factors and J of the crack tip `tip` by the interaction integral. contour: `contours`
- * pairs of radii, integrated in one pass over the particles. motion: displacement, velocity, acceleration and loads of
- * all particles; rule: how gradients are computed; c: neighbour search over the reference positions. result: receives
- * for each contour K_I and K_II [Pa m^(1/2)] and J [J/m^2]. */
-void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contours,
+/* Computes the stress-intensity factors and J of the crack tip `tip` by the interaction integral. contour:
+ * `contour_count` pairs of radii, integrated in one pass over the particles. motion: displacement, velocity,
+ * acceleration and loads of all particles; rule: how gradients are computed; c: neighbour search over the reference
+ * positions. result: receives for each contour K_I and K_II [Pa m^(1/2)] and J [J/m^2]. */
+void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contour_count,
                                          const struct sif_motion *motion, const struct gradient_rule *rule,
                                          const struct particles *p, const struct cells *c, struct sif *result);
 
-/* Returns the largest relative difference between the results of `contours` contours [1]: the largest minus the
+/* Returns the largest relative difference between the results of `contour_count` contours [1]: the largest minus the
  * smallest K_I, or K_II, over sqrt(K_I^2 + K_II^2) of the mean factors, or the largest minus the smallest J over the
  * mean J, whichever is largest. Returns NAN if a denominator is 0. */
-real sif_contour_spread(const struct sif *result, int contours);
+real sif_relative_spread_over_contours(const struct sif *result, int contour_count);
 
 #endif

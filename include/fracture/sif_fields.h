@@ -19,7 +19,7 @@ struct crack_medium {
 
 /* Returns the elastic constants and wave speeds of material m, as crack-tip fields need them. space: plane stress,
  * plane strain or 3D. */
-struct crack_medium crack_medium_of(const struct material *m, enum space space);
+struct crack_medium crack_medium_of_material(const struct material *m, enum space space);
 
 /* Motion and stress at a point, in the frame of the crack tip: x_1 ahead of the tip, x_2 perpendicular to the crack. */
 struct crack_state {
@@ -37,7 +37,7 @@ struct crack_field {
 
 /* Computes the stress in the plane from the displacement gradient by Hooke's law. m: elastic constants, which include
  * the choice of plane stress or plane strain; gradient: du_i/dx_j [1]; stress: receives sigma_ij [Pa]. */
-void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
+void crack_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
 
 /* Computes the field at x round the tip of a crack at rest with K = 1 Pa m^(1/2) in one mode (Williams 1957). x:
  * position in the frame of the tip, x[0] ahead of the tip [m]; on the crack faces the sign of x[1], also of a zero,
@@ -71,23 +71,23 @@ enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 
 /* Returns k(v), the ratio of K_I of a semi-infinite crack growing at the constant speed v = `speed` [m/s] to K_I of the
  * crack at rest under the same load [1]. form: exact solution or one of two approximations. */
-real crack_sif_ratio_at_speed(const struct crack_medium *m, enum speed_factor form, real speed);
+real crack_moving_to_resting_sif_ratio(const struct crack_medium *m, enum speed_factor form, real speed);
 
-/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_sif_ratio_at_speed) equals `factor`
- * [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
-real crack_speed_from_sif_ratio(const struct crack_medium *m, real factor, real max_speed);
+/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_moving_to_resting_sif_ratio) equals
+ * `sif_ratio` [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
+real crack_speed_from_sif_ratio(const struct crack_medium *m, real sif_ratio, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
- * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; time_since_arrival: time since its arrival
- * [s]. */
-real crack_sif_after_plane_wave(const struct crack_medium *m, real stress, real time_since_arrival);
+ * 1990). wave_stress: normal stress of the wave on the plane of the crack [Pa]; time_since_arrival: time since its
+ * arrival [s]. */
+real crack_sif_after_plane_wave(const struct crack_medium *m, real wave_stress, real time_since_arrival);
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
  * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. K: K_I and K_II [Pa m^(1/2)]. */
-real crack_kink_angle_of_sif(const real K[MODES]);
+real crack_kink_angle_from_sif(const real K[MODES]);
 
 /* Returns the equivalent mode-I stress-intensity factor K_eq in the direction of the largest circumferential stress
- * (crack_kink_angle_of_sif) [Pa m^(1/2)]. K: K_I and K_II [Pa m^(1/2)]. */
+ * (crack_kink_angle_from_sif) [Pa m^(1/2)]. K: K_I and K_II [Pa m^(1/2)]. */
 real crack_equivalent_sif(const real K[MODES]);
 
 #endif

@@ -35,6 +35,6 @@ struct tip_view {
  * particles round the tip. view: position and direction of the tip, radii between which particles are fitted, and
  * cracks that hide particles. K: receives the two factors [Pa m^(1/2)], in the frame with the x axis view->along.
  * Returns false, with K = 0, if too few particles are visible from the tip. */
-bool crack_tip_fit_sif(const struct tip_view *view, const struct particles *p, real K[MODES]);
+bool crack_tip_fit_sif_to_displacements(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

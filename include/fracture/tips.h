@@ -54,18 +54,20 @@ struct crack_tips {
 /* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
  * through them. Needed for pre-cracks that are slits of the mesh. cut_fraction: for each particle, the share of its
  * bonds that pre-cracks cut once the particle has bonds [1]. */
-void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction);
+void tips_ignore_particles_damaged_by_precracks(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
- * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of
- * the particles [m]; window: time interval over which tip speeds are averaged [s]. Release with tips_free. */
-void tips_make(struct crack_tips *t, const struct particles *p, const struct cells *c, const struct crack *crack,
-               int cracks, real spacing, real window);
+ * include the pre-cracks; c: neighbour search over the reference positions; precrack: `precrack_count` pre-cracks;
+ * spacing: of the particles [m]; speed_averaging_time: time interval over which tip speeds are averaged [s]. Release
+ * with tips_free. */
+void tips_make_at_precrack_ends(struct crack_tips *t, const struct particles *p, const struct cells *c,
+                                const struct crack *precrack, int precrack_count, real spacing,
+                                real speed_averaging_time);
 
 /* Assigns particles whose damage has come to exceed TIP_DAMAGE to cracks, and updates position, growth and speed of all
  * tips. Damage away from all cracks makes new tips. p: particles with their present damage; c: neighbour search over
  * the reference positions; time: present time [s]. */
-void tips_update(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
+void tips_update_from_damage(struct crack_tips *t, const struct particles *p, const struct cells *c, real time);
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
@@ -76,16 +78,16 @@ real tip_deflection_angle(const struct crack_tip *tip, int dim);
 real tips_average_speed(const struct crack_tips *t, int tip);
 
 /* Returns the tip with the largest growth, a pointer into t, or NULL if no tip has grown. */
-const struct crack_tip *tips_longest(const struct crack_tips *t);
+const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tips *t);
 
 /* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
  * tip has grown. */
-int64_t tips_count_longest_ends(const struct crack_tips *t);
+int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t);
 
 /* Returns true if the crack of `tip` grows along a plane of symmetry, so that the modelled body has only one face of
- * the crack. t: all tips, with the spacing of the particles; mirror: `mirrors` planes of symmetry. */
+ * the crack. t: all tips, with the spacing of the particles; mirror: `mirror_count` planes of symmetry. */
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
-                               const struct mirror_plane *mirror, int mirrors);
+                               const struct mirror_plane *mirror, int mirror_count);
 
 /* Symmetry and cross-section of the body, on which the area of a crack depends. */
 struct tip_surroundings {
@@ -106,8 +108,8 @@ struct crack_area {
  * crack it is half the number of its particles times the area of a particle, since particles of both faces are counted;
  * in a plane of symmetry, where only one face is modelled, it is the whole number times this area. s: planes of
  * symmetry and thickness. */
-struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
-                                  const struct tip_surroundings *s);
+struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
+                                        const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */
 void tips_free(struct crack_tips *t);

@@ -61,10 +61,10 @@ status exodus_read_reals(const struct exodus_file *f, const char *name, int64_t 
 status exodus_read_integers(const struct exodus_file *f, const char *name, int64_t name_suffix, int64_t count,
                             int64_t **value);
 
-/* Reads the coordinates of all nodes [unit of the file] into new arrays axis[d], d = 0 .. f->dim - 1, of f->nodes
- * numbers each. The caller must have set axis[d] to NULL, and releases the arrays with memory_free, also after a
- * failure. Returns REFUSED, with a message, if coordinates are missing or not finite. */
-status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX]);
+/* Reads the coordinates of all nodes [unit of the file] into new arrays coordinates[d], d = 0 .. f->dim - 1, of
+ * f->nodes numbers each. The caller must have set coordinates[d] to NULL, and releases the arrays with memory_free,
+ * also after a failure. Returns REFUSED, with a message, if coordinates are missing or not finite. */
+status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DIM_MAX]);
 
 /* Reads one row of an array of text into text[NAME_MAX_LENGTH], without blanks at its end; "" if the file has no such
  * array. The array is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. row: number of the

@@ -32,7 +32,7 @@ struct geometry {
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real chord_tolerance);
 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
-const struct geometry_set *geometry_find_set(const struct geometry *g, const char *name);
+const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name);
 
 /* Releases all arrays of g and zeroes it. */
 void geometry_free(struct geometry *g);
@@ -41,6 +41,6 @@ void geometry_free(struct geometry *g);
  * pre-crack to the array *crack and increases *cracks, the number of its entries. In 3D adjacent coplanar faces become
  * one crack if they form a convex polygon. The caller releases the array and the `corner` of each crack with
  * memory_free. */
-void geometry_find_slits(const struct hull *h, struct crack **crack, int *cracks);
+void geometry_append_slits_as_precracks(const struct hull *h, struct crack **crack, int *cracks);
 
 #endif

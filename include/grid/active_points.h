@@ -27,11 +27,12 @@ enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches for the cells th
  * boundary conditions; shape, transfer: shape functions and transfer scheme (FLIP or APIC), which determine how far
  * motion spreads in a step. Returns the active points in the same order, which r owns, or `full_order` if all points
  * are active. */
-const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *full_order,
-                                                  const struct transfer_order *previous_order,
-                                                  const struct particles *p, const struct grid *grid,
-                                                  const struct bonds *b, const struct loads *loads, enum shape shape,
-                                                  enum transfer transfer);
+const struct transfer_order *active_points_update_transfer_order(struct active_points *r,
+                                                                 const struct transfer_order *full_order,
+                                                                 const struct transfer_order *previous_order,
+                                                                 const struct particles *p, const struct grid *grid,
+                                                                 const struct bonds *b, const struct loads *loads,
+                                                                 enum shape shape, enum transfer transfer);
 
 /* Frees the arrays of r and sets all members to 0. */
 void active_points_free(struct active_points *r);

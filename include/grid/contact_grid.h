@@ -42,15 +42,15 @@ struct grid_contact {
     real began, ended;            /* first and last time of contact, NAN: none so far [s] */
 };
 
-/* Allocates c->dissipated, the energy dissipated by contact for each pair of bodies, all 0. sides: number of bodies,
- * each with a grid of its own. The caller sets the constants friction, spacing, half_width and smallest_mass of c.
- * Release with grid_contact_free. */
-void grid_contact_make(struct grid_contact *c, int sides);
+/* Allocates c->dissipated, the energy dissipated by contact for each pair of bodies, all 0. body_count: number of
+ * bodies, each with a grid of its own. The caller sets the constants friction, spacing, half_width and smallest_mass of
+ * c. Release with grid_contact_free. */
+void grid_contact_make(struct grid_contact *c, int body_count);
 
 /* Initialises *side with the background grid g of one body, the cell order of its points, and the range of nodes that
  * the points reach. g and order are kept by reference. */
-void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
-                            const struct particles *p);
+void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
+                                     const struct particles *p);
 
 /* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
  * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
@@ -61,18 +61,18 @@ void grid_contact_find_shared_nodes(struct grid_contact *c, const struct grid_co
  * approach there: normal momentum without rebound, tangential momentum by friction. Changes the nodal velocities of the
  * grids of both bodies, and the velocity increments stored in their nodal forces. side: grids and points of the bodies,
  * c->sides elements. Returns the energy dissipated [J]. */
-real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side);
+real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side);
 
-/* Returns the part of the energy dissipated by contact in this step that grid_contact_exchange_momentum does not
- * include [J], and adds it to c->dissipated. With the FLIP transfer, the moved points are mapped to the nodes a second
- * time to compute their strain. The part is the sum over nodes of J . (w' - w)/2: contact impulse J, relative velocity
- * w of the two bodies just after the impulse and w' after the second mapping. side: grids of the bodies, c->sides
- * elements. */
-real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_contact_side *side);
+/* Returns the part of the energy dissipated by contact in this step that grid_contact_apply_impulses_and_return_loss
+ * does not include [J], and adds it to c->dissipated. With the FLIP transfer, the moved points are mapped to the nodes
+ * a second time to compute their strain. The part is the sum over nodes of J . (w' - w)/2: contact impulse J, relative
+ * velocity w of the two bodies just after the impulse and w' after the second mapping. side: grids of the bodies,
+ * c->sides elements. */
+real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const struct grid_contact_side *side);
 
 /* Records the times of first and last contact: if bodies touched at nodes in the last step, c->ended becomes t [s], and
  * c->began, too, if it is still NAN. */
-void grid_contact_record_first_and_last_time(struct grid_contact *c, real t);
+void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t);
 
 /* Saves energies and times of contact to the archive `a` if a->saving, else restores them from it. Returns FAILED if
  * the archive cannot be read or written or a stored size differs. */

@@ -20,12 +20,12 @@ struct grid_coupled {
  * FLAG_GRID_COUPLED and sorts them into cells. coupling: with PM and PG, particles in cells that share a node with a
  * cell that contains a material point; with PMG and PGG, all. g: background grid, which must cover all material points
  * (with PMG and PGG all particles). Must be called before the forces are computed. */
-void grid_coupled_select_particles(struct grid_coupled *c, enum coupling coupling, struct particles *p,
-                                   const struct grid *g);
+void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
+                                                 const struct grid *g);
 
 /* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. It
  * serves steps in which no material points are left on the grid. */
-void grid_coupled_release_particles(struct grid_coupled *c, struct particles *p);
+void grid_coupled_clear_particles_moved_by_grid(struct grid_coupled *c, struct particles *p);
 
 /* Frees the arrays of c. */
 void grid_coupled_free(struct grid_coupled *c);

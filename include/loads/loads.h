@@ -179,7 +179,7 @@ static inline bool boundary_is_clamped_mirror(const struct boundary *b, int dim)
  * stores them in l, ascending, with their shares of the load: areas, volumes or masses. Sets FLAG_DRIVEN on particles
  * with prescribed motion. spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region
  * without particles or a traction on particles without a free face. */
-status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+status load_find_particles_of_boundary(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Sets selected[i] = 1 for the particles i < p->n in the region and body of boundary b, 0 for all others. spacing:
  * lattice spacing, to which the tolerance of the region refers [m]. Returns false if none is selected. */
@@ -188,7 +188,7 @@ bool load_mark_particles_in_region(const struct boundary *b, const struct partic
 
 /* Sets the particle list of load l to the particles i with selected[i] > 0, ascending, and allocates their shares if
  * the load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. selected: [p->n]. */
-void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p);
+void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, struct particles *p);
 
 /* Areas of the particles on an exposed face, for tractions (loads_columns.c). In each column of particles along the
  * normal, the outermost one gets the area; extrapolated tangential areas are 3/2 of it there, -1/2 on the next one. */
@@ -209,8 +209,8 @@ void exposed_face_free(struct exposed_face *f);
 /* Sets in_layer[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and
  * leaves other entries unchanged. In a column of particles normal to the face the layer ends at the first gap.
  * selected, in_layer: [p->n]; spacing: lattice spacing [m]. */
-void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                     uint8_t *in_layer);
+void face_mark_particles_in_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected,
+                                  real spacing, uint8_t *in_layer);
 
 /* Function that face_visit_surface_particles calls for each free end of a column of particles normal to a face.
  * particle: index of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
@@ -239,22 +239,22 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
 /* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
  * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that depend
  * on time. Returns REFUSED, with a message, if a formula has no finite value at a particle. */
-status load_prepare_varying_shares(struct load *l, const struct particles *p);
+status load_prepare_varying_particle_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if one has not. */
-status loads_check_finite(const struct loads *l, const struct particles *p, real t);
+status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
  * over the velocity update of duration dt_velocity [s] that ends at time t [s], for loads_add_applied_forces. */
-void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
+void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
 /* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
  * over the two velocity updates before and after the position update of the step t - dt/2 to t + dt/2 [s].
  * loads_add_work_of_applied_forces then uses them. */
-void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
+void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays that load_prepare_varying_shares has allocated for load l. */
+/* Releases the arrays that load_prepare_varying_particle_shares has allocated for load l. */
 void load_varying_shares_free(struct load *l);
 
 /* Computes the force of load l on its particle number `entry` at time t [s], from the reference position of the
@@ -400,10 +400,10 @@ real load_largest_displacement_speed(const struct load *l, const struct particle
 /* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
  * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at a fixed number of times and at some
  * particles. For rotations the difference of speeds; 0 for prescribed displacements. */
-real load_largest_velocity_jump(const struct load *l, const struct particles *p, real t_end);
+real load_largest_jump_from_initial_velocity(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest speed that load l gives to its particles in p between the times 0 and `t_end` [s] [m/s]:
- * load_largest_displacement_speed for a prescribed displacement, else load_largest_velocity_jump. */
+ * load_largest_displacement_speed for a prescribed displacement, else load_largest_jump_from_initial_velocity. */
 real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end);
 
 /* Returns the largest change, within any time span of length `time_span` [s], of the velocity that load l (velocity or
@@ -437,7 +437,7 @@ void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct parti
 void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
 /* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
-void loads_clear_forces(struct loads *l, struct particles *p);
+void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p);
 
 /* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
  * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
@@ -490,8 +490,8 @@ bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g
 /* Converts boundary[boundaries] to boundary conditions of a static problem in pseudo-time and stores these in
  * static_boundary[boundaries]. Forces have their value at time `duration` [s], prescribed motion its displacement until
  * then. Both grow linearly from 0 at pseudo-time 0 to full size at `ramp_time` [s] and then remain constant. */
-void static_boundaries_make(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
-                            real duration, real ramp_time);
+void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const struct boundary *boundary,
+                                         int boundaries, real duration, real ramp_time);
 
 /* Computes the displacement of every driven component at full load (pseudo-time `ramp_time` [s]). displacement:
  * [dim][p->n] [m]; driven_components: [p->n], bit d: component d is driven. Of overlapping loads the later one in the

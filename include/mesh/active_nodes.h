@@ -8,16 +8,17 @@
 
 /* Updates the list of active blocks, in which the nodes of the mesh may move, after a step. A block is eight nodes
  * beside each other along x; computations skip all blocks that are not active. Normally adds the neighbours of blocks
- * whose nodes have moved. After active_nodes_activate_all, makes the list anew from the blocks that move, on which the
- * boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads attach). */
-void active_nodes_update(struct mesh *mesh, const struct loads *loads);
+ * whose nodes have moved. After active_nodes_activate_all_blocks, makes the list anew from the blocks that move, on
+ * which the boundary conditions `loads` act, or that have exposed points (material points to which bonds or loads
+ * attach). */
+void active_nodes_update_block_list(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
  * computations include, after new points have become exposed. */
-void active_nodes_add_exposed_points(struct mesh *mesh);
+void active_nodes_add_blocks_at_exposed_points(struct mesh *mesh);
 
-/* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update. To be called
- * after boundary conditions or cells of the mesh have changed. */
-void active_nodes_activate_all(struct mesh *mesh);
+/* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update_block_list. To be
+ * called after boundary conditions or cells of the mesh have changed. */
+void active_nodes_activate_all_blocks(struct mesh *mesh);
 
 #endif

@@ -76,7 +76,7 @@ enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
 /* Returns the number of cells of refinement level `level` that compute forces. On level 0, the finest, these are the
  * cells that contain material points and belong to no coarse cell. */
-int64_t levels_count_cells(const struct mesh_levels *l, int level);
+int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level);
 
 /* Returns the mesh of a refinement level: level 0 the mesh with material points, higher levels coarse cells. The mesh
  * belongs to l. */
@@ -96,12 +96,12 @@ static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *
  * coarse levels. */
 static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
-/* Makes `coarse_levels` coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh
- * with material points, kept by reference; source: material constants, slits and voids; density: mass density of each
- * material [kg/m^3]. `coarse_levels` = 0 makes no levels. Returns FAILED, with a message, if a level would have too
- * many nodes. Release with levels_free. */
-status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, const struct particles *p,
-                   const struct mesh_source *source, const real *density);
+/* Makes `coarse_level_count` coarse refinement levels over the mesh `finest_mesh`; at first they have no cells.
+ * finest_mesh: finest mesh with material points, kept by reference; source: material constants, slits and voids;
+ * density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no levels. Returns FAILED, with a
+ * message, if a level would have too many nodes. Release with levels_free. */
+status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
+                                    const struct particles *p, const struct mesh_source *source, const real *density);
 
 /* Frees the arrays of l; the finest mesh stays with the caller. */
 void levels_free(struct mesh_levels *l);
@@ -115,83 +115,86 @@ void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distanc
 /* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
  * in the cells have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would
  * have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
-void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt);
+void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
  * material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent cells differ by
  * at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required;
  * highest_level: highest level of each cell, NULL for all levels; admissible: receives the level of the cell to which
  * each cell of level 0 shall belong. */
-void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struct particles *p,
-                                        const uint8_t *finest_required, const uint8_t *highest_level,
-                                        uint8_t *admissible);
+void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
+                                               const uint8_t *finest_required, const uint8_t *highest_level,
+                                               uint8_t *admissible);
 
-/* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
- * present, the motion of the nodes inside is compared with the interpolation from its corners. If the energy of the
- * difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less than `level` in
- * this cell. level, highest_level: a byte for each cell of level 0, the finest. The motion of the nodes of level 0 must
- * be up to date (levels_prolong_motion_to_fine_nodes). Returns true if an entry of `highest_level` was lowered. */
-bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+/* Forbids coarsening where the present motion would be lost. For each cell that `intended_cell_level` would make
+ * coarser than at present, the motion of the nodes inside is compared with the interpolation from its corners. If the
+ * energy of the difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less
+ * than `intended_cell_level` in this cell. level, highest_level: a byte for each cell of level 0, the finest. The
+ * motion of the nodes of level 0 must be up to date (levels_prolong_motion_to_fine_nodes). Returns true if an entry of
+ * `highest_level` was lowered. */
+bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *intended_cell_level, real max_energy,
                                     uint8_t *highest_level);
 
 /* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
- * level 0 in it are marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each cell
- * of level 0. */
-void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
+ * level 0 in it are marked. cell_level: level of the cell to which each cell of level 0 belongs; cell_is_marked: a byte
+ * for each cell of level 0. */
+void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
+                                                  uint8_t *cell_is_marked);
 
-/* Marks all cells of level 0 (the finest) within `reach` cells of a marked one, in all directions including diagonals.
- * mark: a byte for each cell of level 0, not 0 if marked. */
-void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach);
+/* Marks all cells of level 0 (the finest) within `reach_in_cells` cells of a marked one, in all directions including
+ * diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
+void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
 
-/* Changes the refinement level of cells to level[fine->grid.n], for each cell of level 0 (the finest) the level of the
- * cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where cells are
- * merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is distributed
- * among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces become 0. source:
- * material constants. */
+/* Changes the refinement level of cells to new_cell_level[fine->grid.n], for each cell of level 0 (the finest) the
+ * level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where
+ * cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
+ * distributed among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces
+ * become 0. source: material constants. */
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                              const uint8_t *level);
+                              const uint8_t *new_cell_level);
 
 /* Changes the velocities of all nodes by the nodal forces of half a time step. Between steps, velocities of level L are
  * half of its step 2^L dt behind its displacements: dt > 0 brings both to the same time, dt < 0 reverts this. elastic:
- * array of the elastic constants of all materials; finite: true if strains are finite, false if small; |dt|: time step
- * of level 0 [s]. */
+ * array of the elastic constants of all materials; finite_strain: true if strains are finite, false if small; |dt|:
+ * time step of level 0 [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
-                                       bool finite, real dt);
+                                       bool finite_strain, real dt);
 
 /* Copies displacement and velocity to all ghosts. A ghost is a node of a coarser mesh at the position of a node of the
  * next finer mesh, which determines its motion. */
-void levels_copy_motion_to_ghosts(struct mesh_levels *l);
+void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
 void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to the nodes of level 0 (the finest) inside them that have
  * particles in an adjacent cell. */
-void levels_prolong_motion_near_points(struct mesh_levels *l);
+void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
 
 /* Returns the highest refinement level whose forces act in step number `step`: the largest L <= l->n for which `step`
  * is a multiple of 2^L. */
-int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step);
+int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
  * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
- * all materials; finite: true if strains are finite, false if small. */
-void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite,
-                           int highest_level);
+ * all materials; finite_strain: true if strains are finite, false if small. */
+void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                           const struct elastic *elastic, bool finite_strain, int highest_level);
 
 /* Integrates the motion of the nodes of levels 0 (the finest) to `highest_level`, level L over 2^L steps. dt: time step
  * of level 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]. The velocities of nodes with
  * prescribed velocity must be set before; the impulse [N s] and the work [J] at these nodes are added to `impulse` and
  * *work. Returns the largest component of a nodal velocity [m/s]. */
-real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
-                       real *work);
+real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
+                                               real impulse[DIM_MAX], real *work);
 
 /* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
-real levels_kinetic_energy(const struct mesh_levels *l);
+real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 
 /* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. elastic: array of the
- * elastic constants of all materials; finite: true if strains are finite, false if small. */
-real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite);
+ * elastic constants of all materials; finite_strain: true if strains are finite, false if small. */
+real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
+                                          const struct elastic *elastic, bool finite_strain);
 
 /* Returns the mean kinetic energy of the nodes of all coarse levels less the one that leap-frog conserves [J]: the sum
  * of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2 over the nodes, of mass m, with their velocities v_old and v_new
@@ -200,17 +203,17 @@ real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels [W]: the sum of 2^L v . f, with the level L of the
  * node, its velocity v and its force f. Forces of level L act for 2^L steps at once. */
-real levels_power_of_forces(const struct mesh_levels *l);
+real levels_power_of_coarse_nodal_forces(const struct mesh_levels *l);
 
 /* Lists the coarse cells of level `level` (> 0) in which particles were never made, since coarse cells do not need
- * them. cell: receives the indices of these coarse cells in ascending order, NULL to count only. Returns their
+ * them. cell_index: receives the indices of these coarse cells in ascending order, NULL to count only. Returns their
  * number. */
-int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell);
+int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index);
 
 /* Returns true if the deformation has turned a coarse cell inside out: the determinant of the deformation gradient is 0
  * or negative at a point a quarter of the edge from its faces. X then receives the reference position of the first such
  * point of the cell, dim components [m]. */
-bool levels_find_inverted_cell(const struct mesh_levels *l, real *X);
+bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
 
 /* Connects the coarse levels to the finest mesh (l->fine) after it has been rebuilt with other particles p. Coarse
  * cells, their motion and their levels are kept. source: material constants. */

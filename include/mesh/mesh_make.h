@@ -41,24 +41,25 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node
 void mesh_free(struct mesh *mesh);
 
 /* Returns the number of parts of a mesh of all particles that share no node with each other. node_grid: grid whose
- * anchor and cell size define the nodes; hollow: cells of the body whose particles were left out; they count as filled.
- * Returns 0 if the particles are not two per cell and direction, so that no mesh is possible. */
+ * anchor and cell size define the nodes; empty_cells: cells of the body whose particles were left out; they count as
+ * filled. Returns 0 if the particles are not two per cell and direction, so that no mesh is possible. */
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
-                                   const struct cells_without_particles *hollow);
+                                   const struct cells_without_particles *empty_cells);
 
 /* Updates the mesh after n particles have become peridynamic or have changed their partial stress: removes the
- * peridynamic ones from their cells and recomputes these cells. changed: indices of the n particles, NULL if they are
- * unknown. Each particle that leaves takes its share of mass and momentum from the nodes of its cell, so that nodal
- * velocities are kept. Returns the kinetic energy that is lost by this [J]. */
+ * peridynamic ones from their cells and recomputes these cells. changed_points: indices of the n particles, NULL if
+ * they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of its cell, so that
+ * nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. */
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
-                                               const int32_t *changed, int64_t n);
+                                               const int32_t *changed_points, int64_t changed_count);
 
 /* Recomputes the stiffness of the cells of n points after only their partial stresses have changed; all points remain
- * in the mesh. changed: indices of the n points. Possible only for partial cells. These store a stiffness matrix
+ * in the mesh. changed_points: indices of the n points. Possible only for partial cells. These store a stiffness matrix
  * because points are missing, or leave a part of their stress to bonds. Returns false, without any change, if one of
  * the cells was not partial before or would not be afterwards; call mesh_remove_points_and_return_lost_energy then. */
-bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                   const int32_t *changed, int64_t n);
+bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
+                                            const struct mesh_source *source, const int32_t *changed_points,
+                                            int64_t changed_count);
 
 /* Adds n listed particles, which have become material points again, to the mesh. Momentum is conserved: the velocity
  * of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N), with shape functions N; the
@@ -66,15 +67,16 @@ bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p,
  * mesh_remove_points_and_return_lost_energy with these particles among the changed ones afterwards, to make their
  * cells. Returns the kinetic energy that is lost [J].
  */
-real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
+                                               int64_t inserted_count);
 
 /* Returns true if the cell of the mesh contains a part of the body. */
-bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
+bool mesh_cell_contains_material(const struct mesh *mesh, int64_t cell);
 
 /* Lists the exposed points of the mesh: material points with bonds, boundary conditions `loads` or mirror images. Their
  * positions and velocities are updated in every step, since bonds and loads read them. */
-void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
-                              const struct loads *loads);
+void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
+                                       const struct loads *loads);
 
 /* Returns a lower bound of the critical time step of the mesh [s]: the smallest 2/omega over all cells, with the
  * largest angular frequency omega of a cell that moves on its own. after_any_conversion: true to include the cells that
@@ -92,23 +94,23 @@ bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *
 
 /* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
  * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
-int64_t mesh_find_inverted_point(const struct mesh *mesh, const struct particles *p);
+int64_t mesh_first_particle_in_inverted_cell(const struct mesh *mesh, const struct particles *p);
 
 /* Minimum number of cells of a level across any part of the body. */
 enum { CELLS_ACROSS = 6 };
 
 /* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
- * highest[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
- * these levels. */
-int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors,
-                                     uint8_t *highest);
+ * highest_level[mesh->grid.n]. mirror: `mirror_count` planes of symmetry, beyond which the body continues. Returns the
+ * largest of these levels. */
+int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirror_count,
+                                     uint8_t *highest_level);
 
-/* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
- * bytes, not 0 if marked. */
-void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach);
+/* Marks all cells of grid g within `reach_in_cells` cells of a marked one, in all directions including diagonals.
+ * cell_is_marked: g->n bytes, not 0 if marked. */
+void grid_mark_cells_near_marked_cells(const struct grid *g, uint8_t *cell_is_marked, int reach_in_cells);
 
 /* Saves displacement and velocity of the nodes of a mesh to the archive `a` if a->saving, else restores them from it.
  * Returns FAILED, with a message, if the archive cannot be read or written or a stored size differs. */
-status mesh_save_or_load(struct mesh *mesh, struct archive *a);
+status mesh_save_or_load_node_motion(struct mesh *mesh, struct archive *a);
 
 #endif

@@ -54,17 +54,17 @@ struct reference_frame {
 
 /* Warns of planes of symmetry that do not fit the nodes of a grid or mesh, and of those that bodies in the reference
  * frame do not reach. */
-void frame_warn_of_mirrors(const struct run *e, struct warnings *to);
+void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list);
 
 /* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
  * the background grid (current frame), and stores the choice with its reason in r->choice. Sets FLAG_MESHED of the
  * particles in the reference frame, and makes the background grids `mpm` for this choice. Returns REFUSED, with a
  * message, if the scene requires the reference frame for a body that cannot use it. */
-status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
-                          const struct scene *s);
+status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
+                                       const struct scene *s);
 
 /* Returns true if at least one body is in the reference frame. */
-bool reference_frame_in_use(const struct reference_frame *r);
+bool reference_frame_is_in_use(const struct reference_frame *r);
 
 /* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
  * cells of the background grid. */
@@ -72,9 +72,9 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
                                  const struct grid_method *mpm);
 
 /* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. source: partial
- * stresses and slits of this mesh, its other members are ignored; motion_set_later: true if the caller sets
+ * stresses and slits of this mesh, its other members are ignored; caller_sets_motion: true if the caller sets
  * displacement and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
-status reference_frame_make(struct run *e, const struct mesh_source *source, bool motion_set_later);
+status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
 /* Returns the critical time step of the cells of the mesh in the reference frame [s], INFINITY if there is none. If
  * points may convert (adaptive method) and `coupling` is not partial stress, cells that have lost any of their points
@@ -83,12 +83,12 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
  * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
-void reference_frame_find_exposed_points(struct reference_frame *r, const struct particles *p,
-                                         const struct bonds *bonds, struct loads *loads);
+void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
+                                                  const struct bonds *bonds, struct loads *loads);
 
 /* Updates the exposed points of the mesh, i.e. the material points with bonds, loads or mirror images: their positions
  * and velocities from the nodes and, if they have state-based bonds to peridynamic particles, their strains. */
-void reference_frame_update_exposed_points(struct reference_frame *r, struct particles *p);
+void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p);
 
 /* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
  * distributed to the nodes, plus the forces of all cells whose refinement level acts in this step. Level L, 0 for the
@@ -104,28 +104,29 @@ void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, 
 
 /* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
  * mirror images of particles, which `loads` lists. */
-void reference_frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads);
+void reference_frame_update_motion_and_stress(struct reference_frame *r, struct particles *p,
+                                              const struct loads *loads);
 
 /* Updates positions and velocities of all material points of the mesh from the nodes, then those of the mirror images
  * of particles, which `loads` lists. */
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of n material points of the mesh from the nodes, except points in coarse cells,
- * then those of the mirror images of particles, which `loads` lists. list: n particle indices. */
+ * then those of the mirror images of particles, which `loads` lists. point_list: n particle indices. */
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
-                                          const int32_t *list, int64_t n);
+                                          const int32_t *point_list, int64_t point_count);
 
-/* Updates the mesh after `converted` particles (0: none) have become peridynamic and the partial stresses of the points
- * listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to *energy_lost [J].
- * Returns true if points may have left the mesh; the caller must then call reference_frame_find_exposed_points. Returns
- * false if only the stiffness of cells has changed. */
-bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+/* Updates the mesh after `converted_count` particles (0: none) have become peridynamic and the partial stresses of the
+ * points listed in partial->touched have changed. The kinetic energy that the nodes lose by this is added to
+ * *energy_lost [J]. Returns true if points may have left the mesh; the caller must then call
+ * reference_frame_list_bonded_or_loaded_points. Returns false if only the stiffness of cells has changed. */
+bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost);
 
-/* Adds n listed particles, which have become material points again, to the mesh. list: n particle indices. Momentum is
- * conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
-void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
-                                   real *energy_lost);
+/* Adds n listed particles, which have become material points again, to the mesh. inserted_points: n particle indices.
+ * Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
+void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
+                                   int64_t inserted_count, real *energy_lost);
 
 /* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
@@ -168,47 +169,50 @@ struct levels_choice {
 };
 
 /* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
- * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
+ * have coarse cells; otherwise r->room stays NULL. particle_count: number of particles of the body, including those not
  * made. */
-void mesh_levels_find_highest_allowed(struct reference_frame *r, const struct scene *s, int64_t particles);
+void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
+                                                   int64_t particle_count);
 
 /* Returns the number of coarse refinement levels for scene s, and the reason. The number is given by the scene or
  * chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
-struct levels_choice mesh_levels_choose_count(const struct reference_frame *r, const struct particles *p,
-                                              const struct scene *s, real dt_critical);
+struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
+                                                    const struct scene *s, real dt_critical);
 
 /* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
- * from mesh_levels_choose_count. */
-void mesh_levels_describe_choice(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity);
+ * from mesh_levels_choose_level_count. */
+void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
+                                      size_t capacity);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
  * why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
- * mesh_levels_choose_count. */
-bool mesh_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame, const struct scene *s,
-                              char *reason, size_t capacity);
+ * mesh_levels_choose_level_count. */
+bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
+                                       const struct scene *s, char *reason, size_t capacity);
 
-/* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
- * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
-status mesh_levels_make_coarse_cells(struct run *e, bool restored);
+/* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels;
+ * levels_from_checkpoint: true if the levels follow from a checkpoint instead. Returns FAILED, with a message, if a
+ * level would have too many nodes. */
+status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint);
 
 /* Returns true if refinement levels may change before step number `step`: if there are coarse levels, step > 0, and all
  * levels have reached the same time. */
-bool mesh_levels_may_change(const struct mesh_levels *l, int64_t step);
+bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
  * conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees, with the
  * level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
-uint8_t *mesh_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                                 int64_t step, real mass);
+uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
+                                           const struct loads *loads, int64_t step, real mass);
 
-/* Changes the refinement levels of run e. level: for each cell of level 0 (the finest) the level of the cell to which
- * it shall belong, as mesh_levels_choose_next returns it. Cells that become level 0 must have particles
- * (levels_need_more_particles). The energy that the change removes is added to e->damped. */
-void mesh_levels_apply(struct run *e, const uint8_t *level);
+/* Changes the refinement levels of run e. new_cell_level: for each cell of level 0 (the finest) the level of the cell
+ * to which it shall belong, as mesh_levels_choose_for_next_steps returns it. Cells that become level 0 must have
+ * particles (levels_need_more_particles). The energy that the change removes is added to e->damped. */
+void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
 
 /* Postpones the conversion of material points that are too close to coarse cells: clears the flags by which they would
  * convert, and requests finer cells there. To be called before points convert. */
-void mesh_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
+void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
 /* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
  * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
@@ -223,31 +227,31 @@ const char *scene_why_all_particles_needed(const struct scene *s);
  * pre-cracks, loads and probes. h: receives these cells in h->absent; it stays NULL if all particles must be made or
  * too few can be left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many
  * cells. */
-status cells_without_particles_choose(struct cells_without_particles *h, const struct scene *s,
-                                      const struct bond_source *source);
+status cells_without_particles_choose_for_scene(struct cells_without_particles *h, const struct scene *s,
+                                                const struct bond_source *source);
 
-/* Returns true if all cells that have level 0 (the finest) at the start have particles. level: level of the cell to
- * which each cell of level 0 belongs, NULL if there are no coarse cells. Returns false if particles are missing or if
- * the levels come from a checkpoint. The run must then be set up again, with the cells without particles that r->hollow
- * now has. */
-bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level);
+/* Returns true if all cells that have level 0 (the finest) at the start have particles. cell_level: level of the cell
+ * to which each cell of level 0 belongs, NULL if there are no coarse cells. Returns false if particles are missing or
+ * if the levels come from a checkpoint. The run must then be set up again, with the cells without particles that
+ * r->hollow now has. */
+bool initial_levels_have_all_needed_particles(struct reference_frame *r, const uint8_t *cell_level);
 
 /* Returns true if a cell that shall have level 0 (the finest) has no particles, so that the run must be set up again
- * with more particles. level: for each cell of level 0 the level of the cell to which it shall belong. */
-bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level);
+ * with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall belong. */
+bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level);
 
 /* Chooses the cells without particles for the given refinement levels and stores them in r->hollow. Particles change
- * only when the run is set up again. level: for each cell of level 0 (the finest) the level of the cell to which it
- * shall belong. */
-void cells_without_particles_update(struct reference_frame *r, const uint8_t *level);
+ * only when the run is set up again. cell_level: for each cell of level 0 (the finest) the level of the cell to which
+ * it shall belong. */
+void cells_without_particles_update_from_levels(struct reference_frame *r, const uint8_t *cell_level);
 
 /* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
- * interpolated from the nodes. body: particles of the run; m: array of the materials; gradients: true to compute
+ * interpolated from the nodes. body: particles of the run; m: array of the materials; with_gradients: true to compute
  * displacement gradients, too. Returns false if there are no such cells. */
-bool coarse_cell_points_make(struct reference_frame *r, const struct particles *body, const struct material *m,
-                             bool gradients);
+bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,
+                                        const struct material *m, bool with_gradients);
 
-/* Frees the points that coarse_cell_points_make has made. */
+/* Frees the points that coarse_cell_points_make_for_output has made. */
 void coarse_cell_points_free(struct coarse_cell_points *h);
 
 #endif

@@ -28,9 +28,9 @@ const char *file_describe_damage(const char *path);
  * is thus reported. */
 const char *file_describe_damage_if_readable(const char *path);
 
-/* Returns a hash of `length` bytes from `bytes` on. start: a number on which the hash depends, too, for example the
- * hash of the bytes before these. */
-uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length);
+/* Returns a hash of `length` bytes from `bytes` on. previous_hash: a number on which the hash depends, too, for example
+ * the hash of the bytes before these. */
+uint64_t bytes_hash(uint64_t previous_hash, const void *bytes, size_t length);
 
 /* Computes a hash of the contents of the regular file `path` and stores it in *hash. Returns REFUSED if the file
  * cannot be read. */

@@ -12,10 +12,11 @@ struct lammps_frame {
     double *damage;                  /* broken share of the bonds that LAMMPS created [1]; 0 if the dump has none */
 };
 
-/* Lists the numbers of the time steps in the LAMMPS dump `path` in ascending order. Stores how many there are in *n and
- * an allocated array of them in *step_numbers, which the caller releases with memory_free. An incomplete last time step
- * is skipped. Returns FAILED if the file is no dump with the expected columns, or contains no complete time step. */
-status lammps_list_steps(const char *path, int *n, int64_t **step_numbers);
+/* Lists the numbers of the time steps in the LAMMPS dump `path` in ascending order. Stores how many there are in
+ * *step_count and an allocated array of them in *step_numbers, which the caller releases with memory_free. An
+ * incomplete last time step is skipped. Returns FAILED if the file is no dump with the expected columns, or contains no
+ * complete time step. */
+status lammps_list_step_numbers(const char *path, int *step_count, int64_t **step_numbers);
 
 /* Reads the particles of time step number `step` of the LAMMPS dump `path` into *f, sorted by id. Returns FAILED, with
  * no memory to release, if the dump lacks that time step, or if its ids are not 1 .. n, each exactly once. Release

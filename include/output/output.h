@@ -20,7 +20,7 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment
 
 enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
 
-/* Mark of a frame that is lost (output_index_drop_lost_frames), beside the fields of struct frame_entry. */
+/* Mark of a frame that is lost (output_remove_lost_frames_from_index), beside the fields of struct frame_entry. */
 #define FRAME_LOST (1u << 31)
 
 /* A frame that has been written. */
@@ -92,12 +92,12 @@ void output_close(struct output *o);
 /* Checks that frames of a region can be written to the subfolder frames_NAME of the folder of a run, with NAME = name,
  * the name of the region. Returns REFUSED if a link or a file has that name. Must be called before output_open, which
  * removes the files of an older run. */
-status output_check_series_folder(const char *folder, const char *name);
+status output_check_series_folder_is_free(const char *folder, const char *series_name);
 
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
  * NAME.hdf.series and NAME.xdmf, with NAME = name. region: kept by reference until output_close. output_open must have
  * been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
-status output_add_frame_series(struct output *o, const char *name, const struct region *region);
+status output_add_frame_series(struct output *o, const char *series_name, const struct region *region);
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
  * checksums, not by their paths. */
@@ -110,15 +110,15 @@ bool scene_file_has_text(const char *path, const char *scene_text);
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_from_cleave(const char *text);
 
-/* Writes `length` bytes of `text` to the file `name` in the folder of the run, first under a temporary name, which is
- * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
-status output_write_text(const struct output *o, const char *name, const char *text, size_t length);
+/* Writes `length` bytes of `text` to the file `file_name` in the folder of the run, first under a temporary name, which
+ * is then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
+status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length);
 
 /* Writes the index files of all series of frames again, without frames that are missing or incomplete. A frame that was
  * lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number of lost
- * frames in *lost_frames and a message about the first of them in message[capacity]. Returns FAILED if an index file
- * cannot be written. */
-status output_index_drop_lost_frames(struct output *o, int *lost_frames, char *message, size_t capacity);
+ * frames in *lost_frame_count and a message about the first of them in message[capacity]. Returns FAILED if an index
+ * file cannot be written. */
+status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
 /* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
 #define RIGID_FILE_BEGIN                                                                                               \
@@ -200,7 +200,7 @@ status output_wait_for_frame(struct output *o);
 /* Opens history.csv and writes its header `name [unit],...` from column[columns], of which the first two are time and
  * step. If `resume` is true, opens the existing file instead and cuts it to the length that output_save_or_load has
  * restored. Returns FAILED if the file cannot be opened or written. */
-status output_history_open(struct output *o, const struct column *column, int columns, bool resume);
+status output_history_open(struct output *o, const struct column *column, int column_count, bool resume);
 
 /* Appends one line with value[columns] in SI units to history.csv, with 9 significant digits each, and flushes it.
  * Returns FAILED if the line cannot be written. */
@@ -235,9 +235,10 @@ void frame_free(struct output_frame *f);
 
 /* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored
  * in the file, one computed from fields of f (data/derived_fields.h), or contact forces that the frame leaves out
- * because they are 0. Stores the number of its components in *columns and an allocated array [n][columns] in *value,
- * which the caller releases with memory_free. Returns FAILED if the frame has no such field. */
-status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *columns, float **value);
+ * because they are 0. Stores the number of its components in *component_count and an allocated array [n][columns] in
+ * *value, which the caller releases with memory_free. Returns FAILED if the frame has no such field. */
+status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *component_count,
+                        float **value);
 
 /* Entry of frames.hdf.series. Numbers have gaps where files were lost. */
 struct listed_frame {
@@ -246,9 +247,9 @@ struct listed_frame {
 };
 
 /* Reads the list of frames, in ascending order, from the index frames.hdf.series of the folder of a run. Stores their
- * number in *n and an allocated array in *list, which the caller releases with memory_free. Returns FAILED if the
- * index cannot be read. */
-status run_list_frames(const char *folder, int *n, struct listed_frame **list);
+ * number in *frame_count and an allocated array in *frames, which the caller releases with memory_free. Returns FAILED
+ * if the index cannot be read. */
+status run_list_frames(const char *folder, int *frame_count, struct listed_frame **frames);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
@@ -258,14 +259,14 @@ status run_list_frames(const char *folder, int *n, struct listed_frame **list);
 typedef status archive_all_fn(void *context, struct archive *a);
 
 /* Writes the file checkpoint.h5 after renaming the previous one to checkpoint.previous.h5. The file contains the format
- * version, scene_text, the state that archive_all(context, archive) saves, and a footer with a hash by which damage is
- * detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
-status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
+ * version, scene_text, the state that save_or_load_all(context, archive) saves, and a footer with a hash by which
+ * damage is detected. Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
+status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
-/* Restores the state of a run by archive_all(context, archive) from checkpoint.h5. If that file is damaged, uses
+/* Restores the state of a run by save_or_load_all(context, archive) from checkpoint.h5. If that file is damaged, uses
  * checkpoint.previous.h5 and prints a line on standard error. scene_text: text of the scene of the run. Returns FAILED
  * if both files are damaged or missing, or if the checkpoint belongs to another scene or format version. */
-status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
+status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
 /* Returns true if the folder of a run holds checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);

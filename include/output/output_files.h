@@ -29,21 +29,21 @@ status folder_make(const char *path);
 
 /* Creates the folder of the file `path` as folder_make does, because the folders in the argument of -o may be missing.
  */
-status folder_make_above(const char *path);
+status folder_make_for_file(const char *path);
 
 /* Ending of the names of temporary files. It contains the name of the program, so that files of other programs do not
  * have it. */
 #define ASIDE_ENDING ".cleave.tmp"
 /* Returns PATH.cleave.tmp, the temporary name under which a file is written before it is renamed to `path`. */
-struct path path_temporary(const char *path);
+struct path path_of_temporary_file(const char *path);
 
 /* Returns the temporary name PATH.cleave.tmp of `path` and adds `path` to the list of unfinished files, whose temporary
  * files are removed if the program fails. file_replace_by_temporary or file_discard_temporary with the same path
  * removes it from the list. */
-struct path file_begin_temporary(const char *path);
+struct path file_begin_writing_temporary(const char *path);
 
-/* Removes the temporary files of all files whose writing has begun with file_begin_temporary and is not finished. To be
- * called before the program ends because of an internal fault. */
+/* Removes the temporary files of all files whose writing has begun with file_begin_writing_temporary and is not
+ * finished. To be called before the program ends because of an internal fault. */
 void files_unfinished_remove(void);
 
 /* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is

@@ -34,8 +34,8 @@ void hdf_open(struct hdf *f, const char *path);
 void hdf_close(struct hdf *f);
 
 /* Closes the HDF5 file f, which was created under PATH.cleave.tmp, the temporary name of `path`. If a call of HDF5 on
- * the file has failed, removes the incomplete file, sets *broken to true and returns FAILED, with a message. */
-status hdf_close_written(struct hdf *f, const char *path, bool *broken);
+ * the file has failed, removes the incomplete file, sets *write_failed to true and returns FAILED, with a message. */
+status hdf_close_written_file(struct hdf *f, const char *path, bool *write_failed);
 
 /* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
 void hdf_create_group(struct hdf *f, const char *name);
@@ -52,13 +52,14 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
 void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns,
                                 int stored_columns, const void *data);
 
-/* Creates the external link `name` to the dataset of the same path in another file. file: its path relative to the
- * folder of f. A failure is stored in f->failed. */
-void hdf_create_link(struct hdf *f, const char *name, const char *file);
+/* Creates the external link `name` to the dataset of the same path in another file. target_file: its path relative to
+ * the folder of f. A failure is stored in f->failed. */
+void hdf_create_external_link(struct hdf *f, const char *name, const char *target_file);
 
-/* Returns true if `name` is an external link, and stores the path of the file to which it leads in file[capacity]; an
- * empty text if the path is too long. A failure is stored in f->failed, also if nothing has this name. */
-bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capacity);
+/* Returns true if `name` is an external link, and stores the path of the file to which it leads in
+ * target_file[capacity]; an empty text if the path is too long. A failure is stored in f->failed, also if nothing has
+ * this name. */
+bool hdf_read_external_link_target(struct hdf *f, const char *name, char *target_file, size_t capacity);
 
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
  * virtual file; NULL: there is no such dataset, and the rows are 0. */
@@ -68,11 +69,11 @@ struct hdf_source {
 };
 
 /* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
- * dataset of the same name in the files source[sources], one after another. type, columns: type of the numbers and
- * numbers per row, equal in all files. From each file source[k].rows + extra_rows rows are taken. A failure is stored
- * in f->failed. */
-void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
-                       const struct hdf_source *source, int sources, int extra_rows);
+ * dataset of the same name in the files source_files[sources], one after another. type, columns: type of the numbers
+ * and numbers per row, equal in all files. From each file source_files[k].rows + extra_rows rows are taken. A failure
+ * is stored in f->failed. */
+void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type type, int columns,
+                               const struct hdf_source *source_files, int source_count, int extra_rows);
 
 /* Writes the string `text` as the dataset `name`, with fixed length. A failure is stored in f->failed. */
 void hdf_write_text(struct hdf *f, const char *name, const char *text);
@@ -121,8 +122,8 @@ bool hdf_is_link(hid_t file, const char *name);
  * dataset. */
 bool hdf_dataset_is_in_its_file(hid_t dataset);
 
-/* Reads the attribute `name` of the dataset or group at the path `object` of the file into text[capacity]; "" if there
- * is no such attribute or it is no text. */
-void hdf_read_text_attribute(hid_t file, const char *object, const char *name, char *text, size_t capacity);
+/* Reads the attribute `name` of the dataset or group at the path `object_path` of the file into text[capacity]; "" if
+ * there is no such attribute or it is no text. */
+void hdf_read_text_attribute(hid_t file, const char *object_path, const char *name, char *text, size_t capacity);
 
 #endif

@@ -22,17 +22,17 @@ enum picture {
     DRAWN_KINDS
 };
 
-/* Returns the path DIR/pictures of the folder for pictures of the run in the folder `dir`; an empty path if it would
- * be too long. */
-struct path pictures_folder(const char *dir);
+/* Returns the path DIR/pictures of the folder for pictures of the run in the folder `run_folder`; an empty path if it
+ * would be too long. */
+struct path pictures_folder(const char *run_folder);
 
 /* Returns the path NAME.ENDING of a picture in `folder`, a folder of pictures; an empty path if it would be too long.
- * which: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
-struct path picture_path(const char *folder, enum picture which, const char *ending);
+ * kind: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
+struct path picture_path(const char *folder, enum picture kind, const char *ending);
 
 /* Returns the path NAME_000012.png of the picture of frame 12 = number in `folder`, a folder of pictures; an empty path
- * if it would be too long. which: kind of picture, which determines NAME. */
-struct path picture_path_of_frame(const char *folder, enum picture which, int frame_number);
+ * if it would be too long. kind: kind of picture, which determines NAME. */
+struct path picture_path_of_frame(const char *folder, enum picture kind, int frame_number);
 
 /* Returns the path field_NAME.ENDING of a picture of the field called NAME = field in `folder`, a folder of pictures;
  * an empty path if it would be too long. ending: "png", "svg" and so on. */

@@ -53,9 +53,9 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
  * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Returns the number of pixels that an image in a picture of the given format has along an edge that is `pixels` long
- * in its layout: more in pictures of a finer resolution, and in vector formats, which are enlarged. */
-int gnuplot_image_pixels(enum picture_format format, int pixels);
+/* Returns the number of pixels that an image in a picture of the given format has along an edge that is `layout_pixels`
+ * long in its layout: more in pictures of a finer resolution, and in vector formats, which are enlarged. */
+int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixels);
 
 /* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
 bool picture_is_too_narrow_for_key(void);
@@ -71,9 +71,9 @@ status gnuplot_close(struct gnuplot *g);
 
 /* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`
  * if there is none. file: file with the messages, read from its beginning. */
-void error_message_last_line(FILE *file, char *text, size_t size);
+void error_message_read_last_line(FILE *file, char *text, size_t size);
 
-/* Writes `text` to the file `to` as a quoted gnuplot string in which no character has a special meaning. */
-void gnuplot_quote(FILE *to, const char *text);
+/* Writes `text` to the file `file` as a quoted gnuplot string in which no character has a special meaning. */
+void gnuplot_write_quoted_string(FILE *file, const char *text);
 
 #endif

@@ -51,7 +51,7 @@ struct projection {
 /* Options of `cleave plot`. */
 struct plot_request {
     const char *folder;      /* folder of the run */
-    const char *pictures;    /* folder of the standard pictures; set by run_draw_pictures */
+    const char *pictures;    /* folder of the standard pictures; set by run_draw_standard_pictures */
     int panels;              /* number of frames to show, evenly spread; 0: a default, or all frames of a film */
     bool every;              /* show all frames; standard pictures: one file per frame */
     int times;               /* number of entries of `time` */
@@ -72,12 +72,12 @@ struct plot_request {
 
 /* Draws all standard pictures of the run in r->folder and prints their names. Returns FAILED if a picture cannot be
  * drawn; REFUSED if one would replace a file that Cleave did not draw, or if no frame is near a requested time. */
-status run_draw_pictures(const struct plot_request *r);
+status run_draw_standard_pictures(const struct plot_request *r);
 
 /* Draws a picture or film of the field r->field of a run, and prints its file name and the range of the colours.
  * Returns REFUSED if the run has no such field or frames, or if a file that Cleave did not draw would be replaced;
  * FAILED if drawing fails. */
-status field_draw_picture(const struct plot_request *r);
+status field_draw_picture_or_film(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
@@ -102,17 +102,17 @@ struct run_frames {
 /* Lists all frames of the run in r->folder, and selects those that the request r demands by number or time. Stores both
  * lists in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
  * list of frames. Release f with run_frames_free. */
-status run_frames_select(struct run_frames *f, const struct plot_request *r);
+status run_frames_list_and_select(struct run_frames *f, const struct plot_request *r);
 
 /* Releases the lists of frames in *f. */
 void run_frames_free(struct run_frames *f);
 
 /* Reads all selected frames of a run. folder: folder of the run. Stores an allocated array of frames->shown frames in
  * *f, which is released with frames_free. Returns FAILED, with no memory to release, if a frame cannot be read. */
-status frames_read(struct output_frame **f, const char *folder, const struct run_frames *frames);
+status frames_read_selected(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
-/* Releases the n frames f[n] and their array. */
-void frames_free(struct output_frame *f, int n);
+/* Releases the n frames frames[n] and their array. */
+void frames_free(struct output_frame *frames, int frame_count);
 
 /* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a symbolic link has this name. Also
  * returns REFUSED if the folder contains a file with the name of a picture that Cleave did not draw, unless `overwrite`
@@ -125,9 +125,9 @@ status pictures_folder_make(const char *path, bool overwrite);
  * and `overwrite` is false. */
 status picture_choose_path(struct path *path, const char *option_argument, const char *name, bool overwrite);
 
-/* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of that name if
+/* Prints that the picture `path` is not drawn, with the reason `reason`, and removes an older picture of that name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
-status report_nothing_to_draw(const char *path, const char *why);
+status report_picture_not_drawn(const char *path, const char *reason);
 
 enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
@@ -144,18 +144,18 @@ struct unit {
     char name[32];
 };
 
-/* Returns the unit with the SI prefix in which the value `largest` (in SI units) has one to three digits before the
- * decimal point. name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. */
-struct unit unit_for_largest_value(double largest, const char *name);
+/* Returns the unit with the SI prefix in which the value `largest_value` (in SI units) has one to three digits before
+ * the decimal point. unit_name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. */
+struct unit unit_for_largest_value(double largest_value, const char *unit_name);
 
-/* Returns a unit of length suitable for values up to `largest` [m]: millimetres between 0.5 mm and 10 m, else metres
- * with an SI prefix. */
-struct unit unit_for_length(double largest);
+/* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 10 m, else
+ * metres with an SI prefix. */
+struct unit unit_for_length(double largest_length);
 
-/* Returns a unit for values up to `largest` (in SI units). If `name` is a unit that takes prefixes (s, m, m/s, N, J,
- * Pa, W), it has the prefix with which `largest` has one to three digits before the decimal point; else it is the unit
- * itself. name: unit without prefix. */
-struct unit unit_with_allowed_prefix(const char *name, double largest);
+/* Returns a unit for values up to `largest_value` (in SI units). If `unit_name` is a unit that takes prefixes (s, m,
+ * m/s, N, J, Pa, W), it has the prefix with which `largest_value` has one to three digits before the decimal point;
+ * else it is the unit itself. unit_name: unit without prefix. */
+struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
@@ -174,10 +174,10 @@ struct plot_field {
 /* Finds the field called `name` in the table of fields that can be drawn, and stores a pointer to its entry in *field.
  * dim: dimension of the run. Returns REFUSED, with the most similar name in the message, if there is no field of this
  * name, or if it has no meaning in this dimension. */
-status plot_field_find(const struct plot_field **field, const char *name, int dim);
+status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim);
 
 /* Writes the name of a field as in pictures, for example `stress xx`, to text[capacity]. */
-void plot_field_label(char *text, size_t capacity, const struct plot_field *field);
+void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field);
 
 /* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
  * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
@@ -235,8 +235,8 @@ struct plotted_particles {
 
 /* Copies those particles of the frame f that a picture shows into *c. projection: slice of a body in three dimensions,
  * or view of it from outside; NULL for the slice with the largest damage. Release c with plotted_particles_free. */
-void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
-                            const struct projection *projection);
+void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
+                                         const struct projection *projection);
 
 /* Reads a frame of the run in `folder` and copies those particles that a picture shows into *c, with the values of
  * projection->field if it is set. projection: slice of a body in three dimensions, or view of it from outside. Returns
@@ -249,12 +249,12 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
  * no crack separates. spacing: of the particles [m]; displacement_factor: factor on displacements; scene: for its
  * pre-cracks, NULL if they are not known. Returns an allocated array [f->n][9] with F by rows along x, y, z [1], which
  * the caller releases with memory_free, or NULL if no deformation is visible. */
-float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
-                                  const struct scene *scene);
+float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
+                                                  double displacement_factor, const struct scene *scene);
 
 /* Computes the inverse of the 3 x 3 matrix `matrix`. Returns false, and leaves *inverse undefined, if its determinant
  * is 0 or not a number. */
-bool matrix_invert(const double matrix[3][3], double inverse[3][3]);
+bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
 /* Releases the arrays of *c. */
 void plotted_particles_free(struct plotted_particles *c);
@@ -263,11 +263,11 @@ void plotted_particles_free(struct plotted_particles *c);
  * normal if it is not set. Sets its position if it is not set, else moves it to the nearest layer of particles. Does
  * nothing for views from outside and in lower dimensions. Returns REFUSED if no particle is within one spacing of the
  * given position. */
-status projection_complete_slice(struct projection *projection, const struct output_frame *f);
+status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f);
 
 /* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
  * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
-double frame_spacing(const struct output_frame *f);
+double frame_particle_spacing(const struct output_frame *f);
 
 /* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
@@ -278,13 +278,13 @@ enum map map_of_field(const struct plot_field *field);
 /* Adds the rigid bodies of the scene s, in their positions at frame number `frame_number` of the run in `folder`, to
  * the particles c of this frame. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s:
  * kept by reference. */
-void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                                  const char *folder, int frame_number);
+void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
+                                        const struct scene *s, const char *folder, int frame_number);
 
-/* Adds the rigid bodies of the scene s, whose placements are at[s->rigids], to the particles c. low, high: box around
- * the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
-void plotted_particles_place_rigids(struct plotted_particles *c, const struct scene *s,
-                                    const struct rigid_placement *at, const real *low, const real *high);
+/* Adds the rigid bodies of the scene s, whose placements are placement[s->rigids], to the particles c. low, high: box
+ * around the particles in the reference state, to which unbounded bodies are cut [s->dim, m]. s: kept by reference. */
+void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
+                                           const struct rigid_placement *placement, const real *low, const real *high);
 
 /* Number of named values that colour_of_material_or_body can distinguish. */
 enum { CATEGORIES_MOST = 9 };
@@ -304,11 +304,11 @@ struct categories {
 /* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[clouds], and stores them in
  * *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
 void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
-                                  const struct plotted_particles *cloud, int clouds);
+                                  const struct plotted_particles *cloud, int frame_count);
 
-/* Returns the colour in which a value of a field is drawn whose values have names, such as bodies or materials. value:
- * index of the body, material and so on. */
-struct colour category_colour(const struct plot_field *field, float value);
+/* Returns the colour in which a value of a field is drawn whose values have names, such as bodies or materials.
+ * category_value: index of the body, material and so on. */
+struct colour category_colour(const struct plot_field *field, float category_value);
 
 /* Rectangle of a map and the options of its display. */
 struct view {
@@ -331,23 +331,25 @@ struct view {
 
 /* Returns a view whose rectangle shows all of cloud[clouds], the particles of several frames: the bounding box of the
  * body with a margin. A few particles that are far from all others may be outside. */
-struct view view_make_around_particles(const struct plotted_particles *cloud, int clouds);
+struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count);
 
 /* Sets the field that the view v shows, and the values at the ends of its colour scale. These follow from the kind of
  * scale of the field (field->scale) and its values in cloud[clouds]. Extreme values of a few particles are ignored. */
-void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds);
+void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
+                                     const struct plotted_particles *cloud, int frame_count);
 
 /* Makes the view *v of cloud[clouds] that the request r demands: its rectangle, the ends and the table of the colours
  * of its field, and the pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with a unit
  * of the field, or if they are in the wrong order; FAILED if there are no positions. */
-status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds);
+status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
+                             int frame_count);
 
 /* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
 struct colour particle_colour(const struct view *v, const struct plotted_particles *c, int64_t i, enum map map);
 
 /* Returns the colour at `position` in 0 .. 1 on the colour scale of a map of the kind `map`. v: view, whose field and
  * table determine the scale if `map` is MAP_FIELD. */
-struct colour map_colour(const struct view *v, enum map map, double position);
+struct colour map_colour_at_scale_position(const struct view *v, enum map map, double position);
 
 /* Paints the particles of c, seen in the rectangle of `view`, into the image pixel[height * width], rows from bottom to
  * top. map: quantity that the colours show. Each particle covers a square, or a disc if the lattice is rotated, which
@@ -365,14 +367,14 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
 
 /* Paints the faces of the pre-cracks of the view v over pixel[height][width] of a flat map of damage or of a field, as
  * lines that move with the particles c beside them. Paints nothing in other maps. */
-void notches_paint(struct colour *pixel, int width, int height, const struct view *v, const struct plotted_particles *c,
-                   enum map map);
+void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
+                               const struct plotted_particles *c, enum map map);
 
 /* Returns the colour of rigid bodies. */
-struct colour rigid_colour(void);
+struct colour rigid_body_colour(void);
 
 /* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
-void view_extend_to_rigids(struct view *v, const struct plotted_particles *c);
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
 
 /* Returns true if a rigid body of c is visible in the rectangle of v. In views from outside this is assumed for any
  * rigid body. Otherwise the body must reach into the plane of the picture, which is tested at 300 x 300 points. */
@@ -399,7 +401,7 @@ struct sheet {
 /* Draws one picture, the file `sheet`, with a panel for each of the frames cloud[clouds], a common colour scale or key,
  * and `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns
  * FAILED if gnuplot fails. */
-status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct plotted_particles *cloud, int clouds);
+status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
+                                  const struct plotted_particles *cloud, int frame_count);
 
 #endif

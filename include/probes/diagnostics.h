@@ -44,14 +44,14 @@ void diagnostics_make(struct diagnostics *w);
  * w->now.momentum_error, the largest error so far. nodes[grids]: grids whose nodes carry the mass of their points.
  * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
-                                 int grids, const real *impulse);
+                                 int grid_count, const real *impulse);
 
 /* Computes the angular momentum of the free bodies about their common centre of mass, stores it in w->now.spin, and
  * updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none of its nodes
- * carries mass. bodies: number of bodies of the scene. Call this function only if no load, support or mirror acts on
- * the bodies, since angular momentum is conserved only then. */
+ * carries mass. body_count: number of bodies of the scene. Call this function only if no load, support or mirror acts
+ * on the bodies, since angular momentum is conserved only then. */
 void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
-                                         int bodies);
+                                         int body_count);
 
 /* Stores the energies *energy of the run at time t [s] and the work of loads and supports since the start, `work` [J],
  * in w->now, and computes the error of the energy balance, w->now.balance_error. Call this function after
@@ -61,29 +61,29 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample [1]. E is the sum of all energies except
  * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if
  * E_0 is not positive. */
-real diagnostics_energy_change(const struct diagnostics *w);
+real diagnostics_relative_energy_change(const struct diagnostics *w);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
- * are at most `horizon` apart. list[n]: numbers of the particles that are searched; NULL for particles 0 .. n - 1.
- * horizon: length of the longest bond [m]. centre: receives the reference position of the middle of one cluster, dim
- * components [m]. Returns the number of clusters; if it is 0, `centre` is unchanged. */
-int64_t diagnostics_locate_new_breaks(const struct particles *p, const int32_t *list, int64_t n, real horizon,
-                                      real *centre);
+ * are at most `horizon` apart. searched_particles[n]: numbers of the particles that are searched; NULL for particles 0
+ * .. n - 1. horizon: length of the longest bond [m]. cluster_centre: receives the reference position of the middle of
+ * one cluster, dim components [m]. Returns the number of clusters; if it is 0, `cluster_centre` is unchanged. */
+int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
+                                                 int64_t particle_count, real horizon, real *cluster_centre);
 
 /* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
- * the first break of the run. broken_bonds: number of directed bonds that broke in the step. horizon: length of the
- * longest bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the
- * first time in the run. */
-bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken_bonds,
-                               real t);
+ * the first break of the run. broken_bond_count: number of directed bonds that broke in the step. horizon: length of
+ * the longest bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for
+ * the first time in the run. */
+bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
+                                     int64_t broken_bond_count, real t);
 
 /* Searches for particles whose position or velocity is not finite or whose speed exceeds `max_speed`, the fastest wave
- * speed of the scene [m/s]. peridynamic: search the peridynamic particles too; meshed: search the material points of a
- * mesh too. Both are false in most steps, since the functions that move these particles detect divergence. step, t:
- * number and time [s] of the step, for the message. Returns FAILED if there is such a particle, with its position and
- * the cause in the message. */
-status diagnostics_check_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed,
-                                    int64_t step, real t);
+ * speed of the scene [m/s]. check_peridynamic: search the peridynamic particles too; check_mesh_points: search the
+ * material points of a mesh too. Both are false in most steps, since the functions that move these particles detect
+ * divergence. step, t: number and time [s] of the step, for the message. Returns FAILED if there is such a particle,
+ * with its position and the cause in the message. */
+status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
+                                    real max_speed, int64_t step, real t);
 
 /* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
  * missing or has another size. */

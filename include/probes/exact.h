@@ -64,7 +64,7 @@ enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
  * is constant at time t [s]. part: EXACT_PLATEAU the part behind the last front, EXACT_PRECURSOR that between the
  * elastic precursor and the plastic front, both at some distance from fronts and ends. Returns false if there is no
  * such part at time t. */
-bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
-                                 real *upper_end);
+bool exact_find_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
+                                      real *upper_end);
 
 #endif

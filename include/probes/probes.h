@@ -22,19 +22,19 @@
  * strain, with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
- *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_stress_range)
- *                           [Pa]
- *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
- *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
- *   L1_velocity, L2_velocity, L2_displacement    as L1 and L2, at the time of the velocities */
+ *   plateau                 mean stress behind the last front, away from fronts and ends
+ * (exact_find_constant_stress_range) [Pa] strain_elastic, strain_plastic     mean strain ahead of and behind the
+ * plastic front [1] end_displacement        of the outermost particle at the loaded end, half a spacing from the end
+ * [m] L1_velocity, L2_velocity, L2_displacement    as L1 and L2, at the time of the velocities */
 
-/* Final state of the run on material points alone with which PULSE probes are compared (engine_run_mpm_baseline). */
+/* Final state of the run on material points alone with which PULSE probes are compared
+ * (engine_run_mpm_baseline_for_pulse_probe). */
 struct baseline {
     real *v[DIM_MAX];   /* [n] velocities [m/s] */
     real energy_change; /* relative energy change since the start [1] */
 };
 
-/* Read-only view of a run that probes measure (observed_run_of); all pointers are borrowed. */
+/* Read-only view of a run that probes measure (observed_run_view_of); all pointers are borrowed. */
 struct observed_run {
     const struct particles *part;
     const struct cells *cells; /* search over reference positions */
@@ -80,31 +80,32 @@ struct velocity_time {
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
 };
 
-/* Initialises the probes *s for the requests request[n] of the scene: finds the particles that each probe observes,
+/* Initialises the probes *s for the requests requests[n] of the scene: finds the particles that each probe observes,
  * and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED, with nothing
  * left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not exist or has
  * no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip or
  * unsuitable contours. */
-status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed_run *o);
+status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
+                   const struct observed_run *o);
 
 /* Frees the arrays of all probes and clears *s. Does nothing to a cleared *s. */
 void probes_free(struct probes *s);
 
 /* Computes the values of a sample (a line of history.csv) at the current positions, time o->t, and stores them in
  * s->value. Values that depend on velocities at the time of the sample or on the forces of the time step are replaced
- * later by probes_sample_end. */
-void probes_sample_begin(struct probes *s, const struct observed_run *o);
+ * later by probes_complete_sample_after_step. */
+void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
- * *s. Must be called before the time step; probes_sample_end interpolates between these velocities and those after the
- * step. */
-void probes_store_motion(struct probes *s, const struct observed_run *o);
+ * *s. Must be called before the time step; probes_complete_sample_after_step interpolates between these velocities and
+ * those after the step. */
+void probes_store_motion_before_step(struct probes *s, const struct observed_run *o);
 
 /* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
- * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion: velocities
- * are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
- * velocities. If probes_store_motion was not called before, the body is assumed to be in equilibrium. */
-void probes_sample_end(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
+ * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion_before_step:
+ * velocities are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
+ * velocities. If probes_store_motion_before_step was not called before, the body is assumed to be in equilibrium. */
+void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now);
 
 /* Updates the probes that observe every time step. BREAK and SPALL probes search for bonds that broke in the step
  * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared forces.
@@ -126,10 +127,10 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
 /* Prints the profile of each LINE and EXACT probe as CSV text, and calls write(context, `<probe>_<frame>.csv`, text,
- * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
- * `write` if it is not OK. */
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write, void *context,
-                             int frame);
+ * length) for each. frame_number: number of the frame in these names. Returns FAILED if memory is exhausted, or the
+ * status of `write_file` if it is not OK. */
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
+                             void *context, int frame_number);
 
 /* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */
 int64_t probes_count_profiles(const struct probes *s);
@@ -137,18 +138,18 @@ int64_t probes_count_profiles(const struct probes *s);
 /* Longest name of a profile, with its terminator. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
-/* Writes the file name of profile number `profile` >= 0 of frame number `frame` to name[PROFILE_NAME]. Returns false,
- * without a name, if there are at most `profile` profiles. */
-bool probes_write_profile_name(const struct probes *s, int profile, int frame, char *name);
+/* Writes the file name of profile number `profile` >= 0 of frame number `frame_number` to file_name[PROFILE_NAME].
+ * Returns false, without a name, if there are at most `profile` profiles. */
+bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
 
-/* Copies the stress-intensity factors that the SIF probe called `name` had at its last sample, and the direction of its
- * crack tip, to *control. Returns false if the probe has no values yet. */
-bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *control);
+/* Copies the stress-intensity factors that the SIF probe called `probe_name` had at its last sample, and the direction
+ * of its crack tip, to *control. Returns false if the probe has no values yet. */
+bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control);
 
 /* Computes the current position of the crack tip of probe number `probe`, two components [m], and the outer radius of
- * its contours, *radius [m]. Returns false if the probe is not a SIF probe. */
-bool probes_get_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real position[2],
-                            real *radius);
+ * its contours, *outer_radius [m]. Returns false if the probe is not a SIF probe. */
+bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
+                               real *outer_radius);
 
 /* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
  * if an entry is missing or its size does not fit the probes. */

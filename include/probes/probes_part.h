@@ -18,35 +18,36 @@ struct probing {
 };
 
 /* Returns the largest absolute value of a stress component among all particles [Pa]. */
-real particles_largest_stress(const struct particles *p);
+real particles_largest_stress_component(const struct particles *p);
 
 /* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array, and their number in
  * probing->pulses. */
-void scene_list_pulses(const struct scene *s, struct probing *probing);
+void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
 
 /* Extends the cracks with prescribed or controlled growth by the growth of one time step, and cuts the bonds that they
  * cross. The speed and direction of a crack controlled by a SIF probe follow from its stress-intensity factors. Returns
  * the number of directed bonds cut. */
-int64_t cracks_grow_one_step(struct run *e);
+int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 
 /* Stores in q->residual_step0 the largest force component on nodes of the grids and on peridynamic particles in the
  * regions of PATCH probes [N]. Must be called in the first step, after the forces have been computed and before
  * particles are moved. */
-void patch_residual_store(struct probing *q, const struct scene *s, const struct particles *p,
-                          const struct grid_method *grid);
+void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
+                                             const struct grid_method *grid);
 
 /* Raises q->residual_step0 [N] to the largest force component on nodes of a mesh of the reference frame in the regions
  * of PATCH probes. Must be called in the first step, after the forces have been computed and before nodes are moved. */
-void patch_residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh);
+void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
 /* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, with the number of the last frame
  * written to it in their names. o: view of the current state of the run. Returns FAILED if a file cannot be written. */
-status profiles_write(const struct probes *s, const struct output *out, const struct observed_run *o);
+status profiles_write_csv_files(const struct probes *s, const struct output *out, const struct observed_run *o);
 
-/* Adds a warning to *to if profiles that belong to the frames of a resumed run are missing in the folder of `out`. */
-void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *to);
+/* Adds a warning to *warning_list if profiles that belong to the frames of a resumed run are missing in the folder of
+ * `out`. */
+void profiles_warn_of_missing_files(const struct probes *s, const struct output *out, struct warnings *warning_list);
 
 /* Removes the profiles that an earlier run left in the folder of `out`. Call it before a new run. */
-void profiles_remove(const struct probes *s, const struct output *out);
+void profiles_remove_files_of_earlier_run(const struct probes *s, const struct output *out);
 
 #endif

@@ -10,36 +10,36 @@ struct statics;
 /* Finds the static equilibrium of a scene without load steps, of bonds by conjugate gradients (`solver: cg`) or of a
  * grid by damped time steps (`solver: relaxation`), and completes the run. Returns FAILED if no equilibrium is found
  * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
-status engine_solve_static(struct run *e);
+status engine_solve_single_equilibrium(struct run *e);
 
 /* Makes the load steps of a scene (`solver: static` with `steps`), from the present one to the last. Returns FAILED if
  * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_run_load_steps(struct run *e);
 
-/* Initialises e->solver, with which engine_solve_static finds one static equilibrium under the loads at the end of the
- * scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried by
- * supports. */
+/* Initialises e->solver, with which engine_solve_single_equilibrium finds one static equilibrium under the loads at the
+ * end of the scene's duration. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried
+ * by supports. */
 status engine_static_solver_make(struct run *e);
 
 /* Checks that the solver of load steps can treat the bodies, loads and supports of the scene of run e. Returns REFUSED,
  * with the reason, if it cannot. */
-status statics_check_scene(const struct run *e);
+status statics_check_scene_is_solvable(const struct run *e);
 
 /* Finds the equilibrium under the loads at time t [s], from which `cleave check` estimates the cost of a run. The run
  * cannot be continued with load steps afterwards. Returns FAILED, with a message, if no equilibrium is found. */
-status engine_find_trial_equilibrium(struct run *e, real t);
+status engine_find_equilibrium_for_cost_estimate(struct run *e, real t);
 
 /* Computes the largest ratio of bond stretch to critical stretch that the whole run would reach if no bond broke.
  * *ratio receives the ratio [1], *load_time the time of the loads at which it is reached [s]. The run must be in the
- * equilibrium that engine_find_trial_equilibrium found for the time first_load_time [s]. If all loads grow in
- * proportion, its stretches are scaled; if loads reverse or others begin later, further equilibria are computed.
+ * equilibrium that engine_find_equilibrium_for_cost_estimate found for the time first_load_time [s]. If all loads grow
+ * in proportion, its stretches are scaled; if loads reverse or others begin later, further equilibria are computed.
  * Returns FAILED, with a message, if one of them is not found. */
 status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
 /* Returns a measure of the size of the loads at pseudo-time t [s], to which it is proportional: the root of the sum of
  * squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied
  * forces [N]. */
-real statics_load_size(const struct run *e, real t);
+real statics_norm_of_prescribed_loads(const struct run *e, real t);
 
 /* Returns why the growth direction of cracks cannot be determined from their stress-intensity factors, a static text,
  * or NULL if it can; key `steps.path` of the scene may exclude it. plane: receives the plane in which the crack tips
@@ -48,7 +48,7 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
 
 /* Checks a three-dimensional scene that demands crack growth by stress-intensity factors (`steps.path: hoop`). Returns
  * REFUSED, with the reason, if the growth direction cannot be determined from them. Returns OK for other scenes. */
-status sif_growth_check(const struct run *e);
+status sif_growth_check_scene_allows_it(const struct run *e);
 
 /* Saves the state between two load steps to the archive `a` if a->saving is set, else restores it from `a`. If a->scope
  * is ARCHIVE_TRIAL, only the state that a trial equilibrium changes is saved or restored. Returns FAILED if an entry is

@@ -36,10 +36,11 @@ struct break_list {
 
 /* Energies of a crack increment, a set of bonds that break together. The energy that the body releases grows with the
  * square of the load size L, a measure proportional to the loads: prescribed displacements [m] or else forces [N]
- * (statics_load_size). */
+ * (statics_norm_of_prescribed_loads). */
 struct crack_increment {
     real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
-    real release; /* energy that the body releases, over the square of the load size (statics_load_size) [J/m^2, J/N^2]
+    real release; /* energy that the body releases, over the square of the load size (statics_norm_of_prescribed_loads)
+                   * [J/m^2, J/N^2]
                    */
 };
 

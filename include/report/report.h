@@ -17,6 +17,6 @@ struct report_request {
  * The run may be finished, interrupted or still running. Prints the name of the page and its size. Returns REFUSED if
  * the folder contains neither a run nor a study, or if the page would replace a file that is no page of Cleave; FAILED
  * if a file cannot be read or written. */
-status report_write(const struct report_request *r);
+status report_write_html_page(const struct report_request *r);
 
 #endif

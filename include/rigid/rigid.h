@@ -36,8 +36,8 @@ struct rigid_body {
     real moment[DIM_MAX];         /* and its moment about the centre [N m] */
     real force_most;              /* largest |force| so far [N] */
     real increment[DIM_MAX];      /* displacement in the last step [m] */
-    real force_previous[DIM_MAX]; /* force at the last call of rigid_add_drive_work [N] */
-    real work;                    /* work of the drive up to the last call of rigid_add_drive_work [J] */
+    real force_previous[DIM_MAX]; /* force at the last call of rigid_add_work_of_prescribed_motion [N] */
+    real work;                    /* work of the drive up to the last call of rigid_add_work_of_prescribed_motion [J] */
     /* kinetic energy of the last step as leap-frog conserves it, 1/2 m v_old . v_new with the rotation likewise [J] */
     real kinetic;
 };
@@ -60,48 +60,48 @@ static inline bool rigid_may_be_within_reach(const struct rigid_body *r, const r
 
 /* Returns the distance of the point x (present position, DIM_MAX components [m]) from the surface of the rigid body,
  * negative inside [m]. normal: receives the outward unit normal of the nearest surface point. */
-real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
+real rigid_signed_distance(const struct rigid_body *r, const real *x, real *normal);
 
 /* Computes the current position x of the point of the body that was at X at t = 0 (DIM_MAX components each [m]). */
 void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
 /* Computes the velocity v of the point of the rigid body at the present position x [m/s], from the velocity of the
  * centre and the angular velocity. */
-void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v);
+void rigid_compute_velocity_at_point(const struct rigid_body *r, const real *x, real *velocity);
 
 /* Computes the velocity v that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
-void rigid_prescribed_velocity(const struct rigid_body *r, real t, real *v);
+void rigid_compute_prescribed_velocity(const struct rigid_body *r, real t, real *velocity);
 
 /* Computes the displacement u that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
  * [m]); 0 for other bodies. Returns its length [m]. */
-real rigid_prescribed_displacement(const struct rigid_body *r, real t, real *u);
+real rigid_compute_prescribed_displacement(const struct rigid_body *r, real t, real *displacement);
 
 /* Moves a driven body to its prescribed position at time t [s], and adds the displacement to r->increment, from which
- * rigid_add_drive_work computes the work of the drive. Does nothing for other bodies. */
+ * rigid_add_work_of_prescribed_motion computes the work of the drive. Does nothing for other bodies. */
 void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
 
 /* Advances a rigid body by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one with
  * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. t_middle: time in the middle of the
  * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
-void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
+void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
 /* Adds the work that a driven body's drive has done since the last call to r->work: minus its displacement since that
  * call times the mean of the contact forces at that call and now. Does nothing for other bodies. */
-void rigid_add_drive_work(struct rigid_body *r);
+void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
 /* Raises r->force_most, the largest magnitude of the contact force on the body so far [N], to that of r->force. */
 void rigid_update_largest_force(struct rigid_body *r);
 
 /* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
  * [J]. */
-real rigid_total_work(const struct rigid_body *r);
+real rigid_work_of_drive_and_weight(const struct rigid_body *r);
 
 /* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);
 
 /* Returns by how much the kinetic energy of a free body changes in half a time step under its current force, weight and
  * moment, to first order [J]; 0 for other bodies. dt: whole time step [s]. */
-real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt);
+real rigid_half_step_kinetic_energy_change(const struct rigid_body *r, real dt);
 
 /* Saves the motion of a rigid body to the archive `a` if a->saving, else restores it from it. body_number: number of
  * the body in the scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a

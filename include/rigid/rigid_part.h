@@ -29,20 +29,20 @@ status rigids_check_start_positions(const struct rigid_set *rigid, const struct 
 /* Evaluates the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
  * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
  * the particles (dim components [N s]). */
-void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
+void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
 
-/* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_move). t_middle:
- * time in the middle of the step; dt: time by which positions advance; dt_velocity: time by which velocities advance
- * [s]. */
-void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity);
+/* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_advance_one_step).
+ * t_middle: time in the middle of the step; dt: time by which positions advance; dt_velocity: time by which velocities
+ * advance [s]. */
+void rigids_advance_one_step(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity);
 
 /* Returns FAILED if a body moves more than half a spacing in a step, so that particles would be inside it before
  * contact acts. */
 status rigids_check_speed(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
 
-/* Adds a warning to `to`, once in a run, if a freely moving rigid body is more than half a spacing inside another rigid
- * body at time t [s]: rigid bodies exert no forces on each other. spacing: of the particles [m]. */
-void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *to);
+/* Adds a warning to `warning_list`, once in a run, if a freely moving rigid body is more than half a spacing inside
+ * another rigid body at time t [s]: rigid bodies exert no forces on each other. spacing: of the particles [m]. */
+void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *warning_list);
 
 /* Energies of all rigid bodies [J]: kinetic energy before a step (`before`), of the last step as leap-frog conserves it
  * (`step`) and after the last step of a run (`last`); work of drives and weights (`work`). */
@@ -70,11 +70,11 @@ void rigids_store_motion_for_sample(struct rigid_set *rigid, real t);
 /* Replaces the velocities of free bodies that rigids_store_motion_for_sample stored before the step by the mean of
  * these and the current velocities. Must be called after the step; the result is the velocities at the time of the
  * sample. */
-void rigids_average_velocities(struct rigid_set *rigid);
+void rigids_average_velocities_for_sample(struct rigid_set *rigid);
 
 /* Replaces the velocities stored by rigids_store_motion_for_sample by those at time t [s], extrapolated from the
  * current ones, for the sample after the last time step. dt: time step [s]. */
-void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
+void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body number `body` at time t [m/s], dim components: for a free body from its
  * velocity, half a step behind t, and the current forces; for a driven body the prescribed velocity. dt: time step

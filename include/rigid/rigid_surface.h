@@ -19,8 +19,8 @@ struct rigid_surface {
 /* Approximates the surface of a region by polygons between points on it, on a grid of at most about 24 (in the plane
  * 200) cells along the longest edge of the region. low, high: corners of a box to which an unbounded region is cut [m];
  * dim: 2 or 3. Release with rigid_surface_free. */
-void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low,
-                        const real *high);
+void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct region *shape, int dim,
+                                           const real *low, const real *high);
 
 /* Computes the box in which a rigid body of shape `shape` is shown. low, high: on entry the lower and upper corner of
  * the box of the particles, on return those of the box to show, dim components each [m]. A bounded body is shown in its
@@ -34,15 +34,16 @@ void rigid_surface_free(struct rigid_surface *s);
 /* Writes the surfaces of all rigid bodies at their present positions, and their motion, for the last frame of the whole
  * body that was begun, and the index of all these files. part: particles, whose box limits what is written of unbounded
  * bodies. Does nothing without rigid bodies and in one dimension. Returns FAILED if a file cannot be written. */
-status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
+status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
 
 /* Position and rotation of a rigid body: a point that was at X at t = 0 is at x + turn (X - centre) [m]. */
 struct rigid_placement {
     real centre[DIM_MAX], x[DIM_MAX], turn[DIM_MAX][DIM_MAX];
 };
 
-/* Reads the placements of `rigids` rigid bodies at frame `frame_number` from the folder of a run into
+/* Reads the placements of `rigid_body_count` rigid bodies at frame `frame_number` from the folder of a run into
  * placement[rigids]. Returns false if there is no such file, or if it contains another number of bodies. */
-bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int frame_number);
+bool rigids_read_placements_of_frame(struct rigid_placement *placement, int rigid_body_count, const char *folder,
+                                     int frame_number);
 
 #endif

@@ -28,9 +28,9 @@ void bond_operator_free(struct bond_operator *body);
 
 /* Computes y = M^-1/2 K M^-1/2 u [1/s^2] with the mass matrix M and the tangent stiffness K of a body of bonds. K d is
  * the difference of the bond forces at the reference positions X + s d, divided by s; s is chosen such that strains
- * are about 1e-7. bond_body: a struct bond_operator; u, y: dim x n values, component by component. Overwrites the
+ * are about 1e-7. bond_body: a struct bond_operator; u, result: dim x n values, component by component. Overwrites the
  * positions p->x and the forces p->f of the particles. */
-void bond_operator_apply(void *bond_body, const real *u, real *y);
+void bond_operator_apply(void *bond_body, const real *displacement, real *result);
 
 /* Returns the critical time step 2/omega_max of the particles p with the bonds b [s], INFINITY if they have no
  * stiffness. b must hold the bonds of all particles of the body. omega_max^2 is the largest eigenvalue of M^-1 K,

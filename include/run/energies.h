@@ -7,7 +7,7 @@
 /* Returns the share of its strain energy density that material point i keeps while bonds across its cell carry the
  * rest [1]: 1 - tr M/n, with M the matrix of its partial stress and n the number of components of a symmetric tensor;
  * exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
-real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, int64_t i);
+real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
  * frame, whose kinetic energy is that of the mesh nodes (reference_frame_kinetic_energy). */
@@ -18,11 +18,11 @@ real particles_kinetic_energy(const struct particles *p);
  * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
-/* Returns the elastic strain energy of those material points that are among the particles list[n] [J], 1/2 sum sigma :
- * C^-1 : sigma V without the part of the stress that bonds carry. m: array of the materials; partial: partial stresses
- * of the points, NULL for none. */
+/* Returns the elastic strain energy of those material points that are among the particles point_list[n] [J], 1/2 sum
+ * sigma : C^-1 : sigma V without the part of the stress that bonds carry. m: array of the materials; partial: partial
+ * stresses of the points, NULL for none. */
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
-                                  const struct partial_stress *partial, const int32_t *list, int64_t n);
+                                  const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
 
 /* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
  * hardening modulus H and the accumulated plastic strain a. For materials with a flow law it is the plastic work stored
@@ -36,11 +36,11 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
  * dt f/m from the forces p->f. dt: time step [s]. */
 real particles_leapfrog_energy_gap(const struct particles *p, real *const *old_velocity, real dt);
 
-/* Computes the linear momentum of all particles and mesh nodes. nodes: `grids` pointers to the grids of the meshes;
- * momentum: receives dim components [kg m/s]; momentum_scale: receives the sum of the magnitudes |m v| of all
+/* Computes the linear momentum of all particles and mesh nodes. nodes: `grid_count` pointers to the grids of the
+ * meshes; momentum: receives dim components [kg m/s]; momentum_scale: receives the sum of the magnitudes |m v| of all
  * contributions [kg m/s], to which round-off errors of the momentum can be compared; NULL: not computed. */
-void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
-                               real *momentum_scale);
+void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grid_count,
+                               real *momentum, real *momentum_scale);
 
 /* Prepares the families of the bonds b at the current positions, before forces or energies are computed. Computes the
  * weighted volume and the dilatation of each family in state-based peridynamics; in the bond-based model updates the

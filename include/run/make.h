@@ -7,12 +7,12 @@
 /* Reduces elastic[m].trigger, the stress at which points of material m are converted to peridynamic particles, to that
  * of its weakest particle, if the strength of particles is random (p->strength). Does nothing if strength is uniform.
  * elastic: array of the constants of all materials, changed in place. */
-void conversion_stress_reduce_to_weakest(struct elastic *elastic, const struct particles *p);
+void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials]: for each material and for
  * each method that moves its particles (bonds, grid or mesh). Release it with memory_free. Returns NULL if the scene
  * has no absorbing boundary or is static. source: bond law. */
-struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source);
+struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 
 /* Lists in tables->voids the shapes of bodies that may contain voids, and in tables->void_mirror the planes of the
  * mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary conditions. Returns true
@@ -24,26 +24,29 @@ bool run_list_shapes_with_voids(struct material_tables *tables, const struct sce
 real voids_interaction_distance(const struct scene *s, real cutoff);
 
 /* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
- * particle list or an image. body: number of the first of the joined bodies. */
-bool joined_bodies_have_exact_surface(const struct scene *s, int body);
+ * particle list or an image. first_body: number of the first of the joined bodies. */
+bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body);
 
 /* Computes factors on the weights of bonds near free surfaces into w, by moments of the bond weights (key `pd.surface:
  * moments`), and sets source->surface = w, so that w must outlive `source`. Returns REFUSED, with a message, if
  * particles that can have bonds, mirror images included, are not on one lattice. loads: boundary conditions, so that
  * the message can name the boundary whose mirror plane does not fit the lattice. */
-status run_surface_weights_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
-                                const struct loads *loads, const struct scene *s);
+status run_compute_surface_bond_weight_factors(struct surface_weights *w, struct bond_source *source,
+                                               const struct particles *p, const struct loads *loads,
+                                               const struct scene *s);
 
 /* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: search cells of the
  * particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
  * within `cutoff` of a particle of the other. */
-status joined_bodies_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
+status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
+                                        real cutoff);
 
 /* Checks prescribed velocities and displacements of the boundaries. Returns REFUSED, with a message, if a value
  * depends on the reference position of particles on the grid of the current frame, which does not store it; if, with
- * the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with `start` (the
+ * the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with `run_begins` (the
  * beginning of a run, not a restart), if particles with a prescribed displacement are not at their reference positions.
  */
-status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start);
+status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
+                               bool run_begins);
 
 #endif

@@ -5,8 +5,8 @@
 #include "base/warnings.h"
 #include "scene/scene.h"
 
-/* Adds warnings to `to` for the materials of scene s whose bonds yield: how their plasticity differs from von Mises
- * plasticity. */
-void warn_of_bond_plasticity(const struct scene *s, struct warnings *to);
+/* Adds warnings to `warning_list` for the materials of scene s whose bonds yield: how their plasticity differs from von
+ * Mises plasticity. */
+void warn_of_bond_plasticity(const struct scene *s, struct warnings *warning_list);
 
 #endif

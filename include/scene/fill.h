@@ -15,31 +15,31 @@
  * particles are left out. optional_arrays: optional arrays of p, a sum of WITH_*. Returns REFUSED, with a message and
  * with p empty, for an empty body, an unreadable list, a list in another length unit than the spacing, or two particles
  * at one position. Release p with particles_free. */
-status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
-                      int optional_arrays);
+status fill_bodies_with_particles(struct particles *p, const struct scene *s,
+                                  const struct cells_without_particles *hollow, int optional_arrays);
 
 /* Computes the position of one site of the lattice that fills the body with the index `body`, and stores its
  * coordinates in X[dim] [m]. The body must not come from a particle list. Returns REFUSED, with a message, if the body
  * has no lattice, for example because the scene gives no spacing. */
 status fill_compute_lattice_site_position(const struct scene *s, int body, real *X);
 
-/* Finds the cells of the grid hollow->box in which all particle positions are inside the body with the index `body`.
- * Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is allocated here and released by the
- * caller. hollow->box must be set before. */
-void fill_mark_whole_cells(struct cells_without_particles *hollow, const struct scene *s, int body);
+/* Finds the cells of the grid hollow->box in which all particle positions are inside the body with the index
+ * `body_index`. Sets hollow->whole[cell] to 1 for these cells, else to 0, in an array that is allocated here and
+ * released by the caller. hollow->box must be set before. */
+void fill_mark_cells_inside_body(struct cells_without_particles *hollow, const struct scene *s, int body_index);
 
 /* Checks the particle lists of all bodies against the particle spacing of the scene, by the distances between
  * neighbours in each list. Returns REFUSED, with a message, if they differ so much that the list seems to be in another
  * length unit, or if there would be more bonds than memory can hold. */
-status fill_check_particle_lists(const struct particles *p, const struct scene *s);
+status fill_check_particle_lists_fit_spacing(const struct particles *p, const struct scene *s);
 
 /* Sets the factor on the strength of each particle, p->strength [1]: a random number if the strength of its material
  * scatters, else 1. Does nothing if p->strength is NULL. */
-void fill_strength_factors(struct particles *p, const struct scene *s);
+void fill_set_particle_strength_factors(struct particles *p, const struct scene *s);
 
 /* Sets the temperature of each particle, p->temperature [K]: the room temperature that the flow law of its material
  * gives, or ROOM_TEMPERATURE if it gives none. Does nothing if p->temperature is NULL. */
-void fill_initial_temperature(struct particles *p, const struct scene *s);
+void fill_set_initial_temperatures(struct particles *p, const struct scene *s);
 #define ROOM_TEMPERATURE 293.15
 
 #endif

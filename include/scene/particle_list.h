@@ -68,8 +68,8 @@ status particle_list_read(struct particle_list *l, const char *path, const struc
 /* Reads only the names of the columns from the particle list file `path`, and stores in *head what the list contains.
  * form: unit and column names that the scene gives, or NULL; dim: coordinates per position. Returns REFUSED, with a
  * message, for a missing or invalid file. */
-status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
-                               int dim);
+status particle_list_read_column_names(struct particle_list_head *head, const char *path,
+                                       const struct particle_list_form *form, int dim);
 
 /* Returns true if the extension of the file name `path` is one of particle lists: .csv, .tsv, .txt, .dat, .h5, .hdf5,
  * .hdf, or one of Exodus II. */

@@ -315,11 +315,11 @@ static inline real scene_section_or_thickness(const struct scene *s)
 
 /* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body
  * that contains X, or `default_material` if no part does. */
-int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
+int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material);
 
 /* Returns true if particles of body b can consist of the material with the index `material`: it is the material of the
  * body or of one of its parts, or the particle list of the body has a column of materials. */
-bool scene_body_has_material(const struct scene_body *b, int material);
+bool scene_body_can_have_material(const struct scene_body *b, int material);
 
 /* Releases the members of the scene *s, which was read by a function of scene_read.h. */
 void scene_free(struct scene *s);
@@ -340,32 +340,32 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s);
 
 /* Returns the reason why `mpm.frame: auto` does not choose the frame `reference` for the body with the index `body`,
  * that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is static. */
-const char *scene_why_reference_frame_not_auto(const struct scene *s, int body);
+const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body);
 
 /* Returns the reason why a message about bodies whose shape functions follow the present positions must not recommend
  * `mpm.frame: reference`: that which prevents `mpm.frame: auto` from choosing it, for the first body for which there is
  * one. Returns NULL if there is none for any body. The text is static. */
-const char *scene_why_reference_frame_no_remedy(const struct scene *s);
+const char *scene_why_reference_frame_is_no_remedy(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`. key: NULL for all keys, a prefix for the keys below it, or one key.
  * Returns REFUSED for an unknown key, with the most similar key in the message. */
-status scene_print_help(FILE *out, const char *key);
+status scene_print_help_on_keys(FILE *out, const char *key);
 
 /* Returns true if `cleave help` can explain the word `key`: it is the name or the last part of the name of a key of
  * scenes, a prefix of keys, a value of a key, a former name of a key, or a word of another program. */
-bool scene_help_knows_word(const char *key);
+bool scene_help_can_explain_word(const char *key);
 
 /* Prints the units that numbers in scenes may have to `out`. */
 void scene_print_units(FILE *out);
 
 /* Prints a JSON schema of scene files to `out`, for editors. Returns FAILED if that is not possible. */
-status scene_print_schema(FILE *out);
+status scene_print_json_schema(FILE *out);
 
 /* Prints the functions, operators and variables that expressions in scenes may contain to `out`. */
 void scene_print_expressions(FILE *out);
 
 /* Writes the keys of scenes to `out` in troff, for the manual page. */
-void scene_print_manual_keys(FILE *out);
+void scene_print_keys_for_manual_page(FILE *out);
 
 /* Writes to `out` the names of all keys that the option `-s` can set, one per line, for completion by a shell. Items of
  * lists have the index 0 in these names. */
@@ -373,6 +373,6 @@ void scene_print_override_keys(FILE *out);
 
 /* Writes the reference of all keys to `out` as Markdown: first a table of the keys at the top of a scene without keys
  * below them, then a table for each key with keys below it. */
-void scene_print_reference(FILE *out);
+void scene_print_key_reference_as_markdown(FILE *out);
 
 #endif

@@ -34,7 +34,7 @@ struct pilot_wish {
 /* Reads the scene file `path` with the overrides override[overrides]. If it has `method: auto`, sets w->wanted to true,
  * stores in *w what it requires of the pilot runs, and leaves *s empty. Otherwise sets w->wanted to false and stores
  * the scene in *s, which the caller releases with scene_free. Returns REFUSED, with a message, for an invalid scene. */
-status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
-                                const struct scene_override *override, int overrides);
+status scene_read_or_list_pilot_requirements(struct scene *s, struct pilot_wish *w, const char *path,
+                                             const struct scene_override *override, int overrides);
 
 #endif

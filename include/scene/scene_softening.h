@@ -7,17 +7,18 @@
 
 /* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
  * over the modulus E' of uniaxial tension. */
-struct softening_model scene_softening_model(const struct scene *s, const struct material *m);
+struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
 
 #define FREE_OF_TRAPPING 2 /* kappa above which the lattice hardly impedes cracks; measured */
 
 /* Returns the horizon [m] at which bonds of material m have the ratio kappa = (critical stretch/stretch at which
  * softening begins)^2 [1]. The material must have an energy release rate. */
-real scene_softening_horizon(const struct scene *s, const struct material *m, real kappa);
+real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
+                                               real squared_stretch_ratio);
 
 /* Returns the horizon [m] below which bonds of material m begin to soften, in tension and in shear, because the stress
  * reaches the strength surface. Above it they begin to soften by their own stretch before. The material must have an
  * energy release rate. */
-real scene_strength_surface_horizon(const struct scene *s, const struct material *m);
+real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m);
 
 #endif

@@ -55,7 +55,7 @@ struct newton_solver {
 
 /* Allocates all vectors of q for n nodes in dim space dimensions and sets them to 0. Functions and tolerances are set
  * by the caller. Release with newton_solver_free. */
-void newton_solver_make(struct newton_solver *q, int dim, int64_t n);
+void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count);
 
 /* Frees the vectors of q. */
 void newton_solver_free(struct newton_solver *q);

@@ -19,19 +19,19 @@ struct block_matrix {
 struct multigrid;
 
 /* Builds a preconditioner M of a stiffness matrix and stores it in *m. matrix: symmetric matrix, kept by reference
- * until multigrid_free; position: positions of its n nodes, dim arrays of n [m], copied; held: n bytes, copied, with
- * bit d set if component d of a node is constrained. Constrained components and nodes without stiffness are left out.
- * Parts of the body without constraints are allowed: M adds no resistance to their rigid motions. While bonds break,
- * the caller may set their matrix entries to 0 and correct the diagonal: M stays positive definite, but solvers need a
- * few more iterations (3 for a crack that grew by 8 spacings). Returns FAILED, with *m = NULL and a message, if an
- * entry is not finite or a diagonal stiffness is negative. */
+ * until multigrid_free; position: positions of its n nodes, dim arrays of n [m], copied; constrained: n bytes, copied,
+ * with bit d set if component d of a node is constrained. Constrained components and nodes without stiffness are left
+ * out. Parts of the body without constraints are allowed: M adds no resistance to their rigid motions. While bonds
+ * break, the caller may set their matrix entries to 0 and correct the diagonal: M stays positive definite, but solvers
+ * need a few more iterations (3 for a crack that grew by 8 spacings). Returns FAILED, with *m = NULL and a message, if
+ * an entry is not finite or a diagonal stiffness is negative. */
 status multigrid_make(struct multigrid **m, const struct block_matrix *matrix, real *const *position,
-                      const uint8_t *held);
+                      const uint8_t *constrained);
 
 /* Computes z = M^-1 r by one V-cycle of the preconditioner m. residual: dim arrays of n forces [N], unchanged; result:
  * dim arrays of n displacements [m], 0 on constrained components. M is symmetric and positive definite on all others.
  * The result is bit-identical for any number of threads. */
-void multigrid_apply(struct multigrid *m, real *const *residual, real *const *result);
+void multigrid_apply_v_cycle(struct multigrid *m, real *const *residual, real *const *result);
 
 /* Frees a preconditioner of multigrid_make; does nothing if m is NULL. The matrix stays with the caller. */
 void multigrid_free(struct multigrid *m);

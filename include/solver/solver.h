@@ -51,14 +51,15 @@ struct static_body {
 
 /* Initialises a static solution: sets the displacements of driven particles and the applied forces to the values of the
  * loads after `ramp_time` [s], and the velocities of all particles to 0. Relaxation on the background grid needs no
- * more; other iterations also need static_solver_iteration_make. Returns REFUSED, with a message, if applied forces or
- * moments are neither balanced nor carried by supports. Release with static_solver_free. */
+ * more; other iterations also need static_solver_make_iteration_vectors. Returns REFUSED, with a message, if applied
+ * forces or moments are neither balanced nor carried by supports. Release with static_solver_free. */
 status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time);
 
 /* Allocates and computes the vectors that the steps of an iteration need, after static_solver_make: weights of
  * particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true if the steps are
  * those of cg_step, false if those of relaxation_step. */
-void static_solver_iteration_make(struct static_solver *s, const struct static_body *body, bool conjugate_gradients);
+void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
+                                          bool conjugate_gradients);
 
 /* Frees the vectors of s and sets all members to 0. */
 void static_solver_free(struct static_solver *s);
@@ -71,14 +72,14 @@ typedef status static_solver_step_fn(struct static_solver *s, const struct stati
 static_solver_step_fn relaxation_step, cg_step;
 
 /* Returns the largest magnitude of a component of the vectors v, in their unit. dim: number of components of a vector;
- * n: number of vectors. */
-real field_largest_component(const struct field *v, int dim, int64_t n);
+ * vector_count: number of vectors. */
+real field_largest_component(const struct field *vectors, int dim, int64_t vector_count);
 
 /* Sets the scale of forces s->scale = max(s->applied, reaction) [N] and the residual s->residual = unbalanced/s->scale
- * [1]. reaction: norm of the forces on constrained components [N]; unbalanced: norm of the forces on free components,
- * which vanish in equilibrium [N]. Without loads, the scale is the largest `unbalanced` so far. The residual is 0 if
- * the unbalanced forces are 0 or, without loads, round-off. */
-void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced);
+ * [1]. reaction_norm: norm of the forces on constrained components [N]; unbalanced_norm: norm of the forces on free
+ * components, which vanish in equilibrium [N]. Without loads, the scale is the largest `unbalanced_norm` so far. The
+ * residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
+void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
 
 /* Saves the state of a static iteration to the archive `a` if a->saving, else restores it from it. Returns FAILED if
  * the archive cannot be read or written or a stored size differs. */

@@ -12,22 +12,22 @@ void stability_store_start_speed(struct stability *s, const struct particles *p)
 /* Checks the state of the run after a time step. Returns FAILED if a particle is faster than the fastest wave or its
  * position is not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a
  * formula of a load has no finite value; the message states position, step, cause and remedy. */
-status stability_check(struct run *e);
+status stability_check_after_step(struct run *e);
 
 /* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
- * peridynamic: check the peridynamic particles too; meshed: check the material points of a mesh too. Both may be false
- * in a step in which the functions that move these particles detected no divergence. Returns FAILED if there is such a
- * particle; the message names its position, the step, the cause and a remedy. */
-status divergence_check(const struct run *e, bool peridynamic, bool meshed);
+ * check_peridynamic: check the peridynamic particles too; check_mesh_points: check the material points of a mesh too.
+ * Both may be false in a step in which the functions that move these particles detected no divergence. Returns FAILED
+ * if there is such a particle; the message names its position, the step, the cause and a remedy. */
+status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points);
 
 /* Checks the energies of the last sample, if a sample was due in this step. Returns FAILED, with a remedy in the
  * message, if the body has gained energy that neither loads nor supports have supplied, if the velocities change sign
  * in every step, or if an energy is not finite. */
-status energy_check(struct run *e);
+status energy_check_last_sample(struct run *e);
 
 /* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
  * no excess. Bonds of state-based models can have such an excess. */
-real diagnostics_excess_released_energy(const struct diagnostics *w);
+real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
 
 /* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
  * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
@@ -36,10 +36,10 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
 enum { REMEDY_LENGTH = 640 };
 
 /* Writes to text[capacity] what the user should change in the scene: the loads, if they explain the motion of the body;
- * the time step, if `value` has grown as fast as in a run whose time step exceeds the stability limit (base/rise.h);
- * else the method or model. value: current value of the quantity that grows (square of a speed, or an energy); earlier:
- * its previous values. */
-void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real value, char *text,
-                               size_t capacity);
+ * the time step, if `growing_value` has grown as fast as in a run whose time step exceeds the stability limit
+ * (base/rise.h); else the method or model. growing_value: current value of the quantity that grows (square of a speed,
+ * or an energy); earlier: its previous values. */
+void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real growing_value,
+                               char *text, size_t capacity);
 
 #endif

@@ -12,30 +12,32 @@ struct damping_state {
 };
 
 /* Returns the factor exp(-c dt/2) by which bulk damping reduces the velocity increment of a time step [1], c being the
- * damping rate and dt the time step; 1 without damping. decay: c dt [1]. */
-real damping_increment_factor(real decay);
+ * damping rate and dt the time step; 1 without damping. rate_times_dt: c dt [1]. */
+real damping_velocity_increment_factor(real rate_times_dt);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
- * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1], with the
- * damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
-real damping_apply_first_half_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
+ * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c dt [1], with
+ * the damping rate c and the time step dt. Returns the kinetic energy that is lost [J]. */
+real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *loads,
+                                                 real rate_times_dt);
 
 /* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
 /* Returns the energy that bulk damping has taken since the previous time step [J], computed from the velocities that
- * damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes. decay: c dt [1],
- * c being the damping rate and dt the time step. Valid from the second step on. */
-real damping_energy_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
+ * damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes. rate_times_dt: c
+ * dt [1], c being the damping rate and dt the time step. Valid from the second step on. */
+real damping_energy_loss_since_previous_step(const struct damping_state *s, const struct particles *p,
+                                             const struct mesh *mesh, real rate_times_dt);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
- * momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1], with the damping rate c and the
- * time step dt. */
-void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
+ * momentum that is lost from the impulse of the loads, loads->impulse. rate_times_dt: c dt [1], with the damping rate c
+ * and the time step dt. */
+void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real rate_times_dt);
 
-/* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. decay: c dt
- * [1], with the damping rate c and the time step dt. kinetic_before: kinetic energy before that update [J]; kinetic:
- * 1/2 m v- . v+, with v- and v+ the velocities before and after it [J]. */
-real damping_final_energy_loss(real decay, real kinetic_before, real kinetic);
+/* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. rate_times_dt:
+ * c dt [1], with the damping rate c and the time step dt. kinetic_energy_before: kinetic energy before that update [J];
+ * leapfrog_kinetic_energy: 1/2 m v- . v+, with v- and v+ the velocities before and after it [J]. */
+real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy);
 
 #endif

@@ -22,7 +22,7 @@ struct weak_shape {
 
 /* Returns the row of the table of shape functions that transmit too little force in metal under tension; NULL if
  * `shape` is not among them. */
-const struct weak_shape *shape_find_weak_in_tension(enum shape shape);
+const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape);
 
 /* Two neighbouring material points, by particle index. */
 struct point_pair {
@@ -44,7 +44,7 @@ struct point_pairs {
  * accepts large strains, and before the plastic strain of a point exceeds 0.02. cells: search cells of the particles p;
  * t: current time [s]; pairs: found at the first call. Returns true if the warning that points have come apart has been
  * printed. */
-bool parted_points_warn(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                        const struct scene *s, real t, struct warnings *to);
+bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
+                                     const struct scene *s, real t, struct warnings *warning_list);
 
 #endif

@@ -66,11 +66,11 @@ struct run_report {
 
 /* Returns the number of frames of the whole body that the run writes in addition to the frame at t = 0. clock: time
  * step and number of steps of the run. */
-int64_t report_count_frames(const struct scene *s, const struct run_clock *clock);
+int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock *clock);
 
 /* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written
  * at t = 0. clock: time step and number of steps of the run. */
-int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
+int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
 /* Returns the wall-clock times of the run so far, in this process and those before a restart. timers: sections of the
  * loop in this process. */
@@ -79,28 +79,28 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
 /* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
  * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that
  * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
-unsigned report_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
-                                 int64_t step);
+unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
+                                         int64_t step);
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
  * run. For a scene without time steps, returns true before the first step only; its equilibria are sampled by
  * sample_take_in_equilibrium. */
-bool report_sample_due(const struct scene *s, const struct run_clock *clock);
+bool report_sample_is_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is
  * resumed, writes frame 0 and the first checkpoint. Warns of missing frames of a resumed run. Returns FAILED if a file
  * cannot be written or an index of frames cannot be read. */
-status report_start(struct run *e);
+status report_start_before_first_step(struct run *e);
 
 /* Reports a finished time step or load step: takes the last sample after the last step, checks the energies
- * (energy_check), and writes the frames, the checkpoint and the progress line that are due. Returns FAILED if a file
- * cannot be written, a particle has values that are not finite, or energy_check fails; INTERRUPTED, after a
- * checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
-status report_step(struct run *e);
+ * (energy_check_last_sample), and writes the frames, the checkpoint and the progress line that are due. Returns FAILED
+ * if a file cannot be written, a particle has values that are not finite, or energy_check_last_sample fails;
+ * INTERRUPTED, after a checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
+status report_finished_step(struct run *e);
 
 /* Ends the reports after the last step: prints the last progress line, waits for the thread that writes frames, and
  * writes the last checkpoint. Returns FAILED if a file cannot be written. */
-status report_end(struct run *e);
+status report_finish_after_last_step(struct run *e);
 
 /* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
  * peridynamic particles by the bonds b, material points by the mesh. */
@@ -114,21 +114,23 @@ struct crack_tips;
 
 /* Warns of the fastest crack tip of t whose largest speed is above the Rayleigh speed of every material of the scene:
  * the energy release rate of an opening crack is 0 there (Freund 1990, section 5.3). Call it at the end of the run. The
- * warning is added to *to and printed. */
-void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct warnings *to);
+ * warning is added to *warning_list and printed. */
+void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct scene *s,
+                                       struct warnings *warning_list);
 
 /* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
- * warning is added to *to and printed; *r stores that it has been given, so that later calls do nothing. */
-void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
+ * warning is added to *warning_list and printed; *r stores that it has been given, so that later calls do nothing. */
+void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
+                           struct warnings *warning_list);
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores
- * pointers to them in *extra, from which the frame is written. requested: set of these fields, as bits ASK_...
- * (output/output.h). Before the call, the positions and stresses of all particles must be up to date
- * (run_update_particles), and extra->more, the material points of coarse cells, must be set. Call frame_fields_free
- * once the frame has been copied by output_frame_begin. */
-void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra *extra);
+ * pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits
+ * ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to date
+ * (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call
+ * frame_fields_free once the frame has been copied by output_frame_begin. */
+void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra);
 
-/* Frees the fields that frame_fields_compute has allocated for a frame. */
+/* Frees the fields that frame_fields_compute_requested has allocated for a frame. */
 void frame_fields_free(struct frame_extra *extra);
 
 #endif

@@ -13,7 +13,7 @@ status sample_open_history(struct run *e, bool resume);
 /* Begins a sample of the state at time t_n, the start of this time step, if one is due. Must be called before the step
  * moves particles. Computes momentum, crack tips and the values of probes that depend on positions, and stores the
  * velocities, which are those at t_n - dt/2 (at t = 0 in the first step). */
-void sample_begin(struct run *e);
+void sample_begin_before_step(struct run *e);
 
 /* Computes the energies of a sample, if one is due, at the positions of time t_n, the start of this time step, except
  * the kinetic energy. Must be called after the forces have been computed and before particles move. */
@@ -21,7 +21,7 @@ void sample_compute_energies(struct run *e);
 
 /* Completes a sample, if one is due, after particles have moved: interpolates velocities to time t_n, the start of this
  * time step, computes the kinetic energy and the work up to t_n, and writes the line of history.csv. */
-void sample_end(struct run *e);
+void sample_complete_after_step(struct run *e);
 
 /* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Must be called at the start of a
  * static run and after each load step. */
@@ -29,17 +29,17 @@ void sample_take_in_equilibrium(struct run *e);
 
 /* Takes the sample after the last time step and writes its line of history.csv. Brings positions, velocities and
  * stresses of all particles up to date, except the stress of peridynamic particles (bonds_compute_particle_stress). */
-void sample_take_final(struct run *e);
+void sample_take_after_last_step(struct run *e);
 
 /* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */
-real sample_strain_energy(struct run *e);
+real sample_current_elastic_energy(struct run *e);
 
 /* Updates the probes that observe every step: BREAK, SPALL and REACTION probes. In a static run, must be called in
  * equilibrium states only. */
-void sample_update_probes(struct run *e);
+void sample_update_probes_of_every_step(struct run *e);
 
 /* Records the bonds that broke in this step: updates the first break of the run and the BREAK and SPALL probes, and
- * warns if driven particles lose bonds. broken_bonds: number of directed bonds that broke. */
-void sample_record_breaks(struct run *e, int64_t broken_bonds);
+ * warns if driven particles lose bonds. broken_bond_count: number of directed bonds that broke. */
+void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count);
 
 #endif

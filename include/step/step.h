@@ -11,24 +11,25 @@
 status step(struct run *e);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
- * broken_bonds: number of directed bonds broken since the last call. Returns true if points have been converted. */
-bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bonds);
+ * broken_bond_count: number of directed bonds broken since the last call. Returns true if points have been converted.
+ */
+bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count);
 
 /* Computes the internal forces at the current positions without moving anything: forces of bonds in e->part.f, and
  * forces of mesh cells, and of bonds to material points of the mesh, in the nodal forces of the mesh. Material points
  * of the mesh that have bonds, and mirror images of particles, are first brought to their current positions. Bonds
  * stretched beyond their limit break. */
-void run_compute_forces(struct run *e);
+void run_compute_internal_forces(struct run *e);
 
 /* Brings positions, velocities and stresses of all particles up to date, as frames need them: points of a mesh from
  * its nodes, stresses of peridynamic particles from their bonds. */
-void run_update_particles(struct run *e);
+void run_update_particle_motion_and_stress(struct run *e);
 
 /* Computes the critical time step, and sets the time step dt and the number of steps in e->clock. Returns REFUSED if
  * time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
-status time_step_choose(struct run *e);
+status time_step_choose_and_count_steps(struct run *e);
 
 /* Returns a read-only view of a run, from which probes read. All its pointers refer to data of the run. */
-struct observed_run observed_run_of(const struct run *e);
+struct observed_run observed_run_view_of(const struct run *e);
 
 #endif

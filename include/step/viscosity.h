@@ -29,7 +29,7 @@ struct viscosity {
 /* Adds the viscous forces of bonds to the forces of particles, computes the viscous pressure q of points on the grid,
  * and adds the energy dissipated since the previous step to viscosity.taken of the run. Must be called after the bond
  * forces and before the loads are added. Does nothing if no material is viscous. */
-void viscosity_add_forces(struct run *e);
+void viscosity_add_bond_forces_and_pressure(struct run *e);
 
 /* Changes the normal stresses of points on the grid by the viscous pressure q: subtracts it if `subtract` is true,
  * before stresses are mapped to nodes; restores the stresses without q if `subtract` is false. Does nothing if no
@@ -41,9 +41,9 @@ void viscosity_subtract_or_restore_pressure(struct viscosity *v, const struct pa
 void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
- * of viscous pressure to rho c^2 to be expected from the speeds of bodies, supports and loads. speed: the largest speed
- * of particles at t = 0 [m/s]. */
+ * of viscous pressure to rho c^2 to be expected from the speeds of bodies, supports and loads. initial_speed: the
+ * largest speed of particles at t = 0 [m/s]. */
 real viscosity_time_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                real speed);
+                                real initial_speed);
 
 #endif

@@ -49,22 +49,22 @@ struct convergence {
                                          * difference of squares */
 };
 
-/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `runs` runs, and
+/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `run_count` runs, and
  * stores them in *c. value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k]
  * = 0 .. levels - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is
  * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no
  * value. */
-bool convergence_evaluate(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
-                          int levels, const double *resolution);
+bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
+                                        const int *level, int run_count, int level_count, const double *resolution);
 
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
  * `centre` and the result have the unit of the figure. */
-double convergence_half_width(const struct convergence *c, double centre, double probability);
+double convergence_interval_half_width(const struct convergence *c, double centre, double probability);
 
 /* Computes the members order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and
  * errors of its spacing levels. */
-void convergence_intervals(struct convergence *c);
+void convergence_compute_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */
 double student_t_quantile_975(int degrees_of_freedom);

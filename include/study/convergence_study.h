@@ -17,9 +17,10 @@ struct spacings {
 };
 
 /* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings. The spacings of the
- * `levels` levels have about the ratio sqrt(2); the finest is near `finest` [m]. They are chosen such that the lattice
- * fits the bodies and cracks. */
-void spacings_choose(struct spacings *spacings, const struct scene *s, int levels, double finest);
+ * `level_count` levels have about the ratio sqrt(2); the finest is near `finest` [m]. They are chosen such that the
+ * lattice fits the bodies and cracks. */
+void spacings_choose_for_convergence_study(struct spacings *spacings, const struct scene *s, int level_count,
+                                           double finest);
 
 /* Parameters in which a run of the study differs from the scene. */
 struct study_point {
@@ -41,7 +42,7 @@ struct convergence_study {
     int runs[LEVELS_MOST];  /* number of runs of each level */
     bool fixed_horizon;     /* the horizon keeps its length [m] at all spacings, instead of its number of spacings */
     int own;                /* level with the spacing of the scene; -1: that spacing exceeds the budget */
-    double budget, begun;   /* allowed duration [s]; start time on wall_clock [s] */
+    double budget, begun;   /* allowed duration [s]; start time on wall_clock_seconds [s] */
     double spent, expected; /* duration of the first run [s]; predicted duration of all, run in parallel [s] */
     struct study_table table;
 };
@@ -58,7 +59,7 @@ struct scalar_result_study {
 
 /* Request for a convergence study. */
 struct convergence_request {
-    const char *words;          /* text of study_options_make; NULL: unknown */
+    const char *words;          /* text of study_options_compose_from_arguments; NULL: unknown */
     const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */
     const struct scene_override *override;
     /* number of overrides; of levels; largest number of runs per level */
@@ -83,10 +84,10 @@ void convergence_study_free(struct convergence_study *s);
 
 /* Determines the convergence of the figures (scalar results) of a study that describe the body and have values at all
  * spacing levels. wanted_names[wanteds]: names of the figures to be treated; if wanteds is 0, all are. Stores an
- * allocated array in *figure, which the caller releases with memory_free, and its length in *figures. Returns REFUSED
- * if a named figure does not exist, FAILED if no figure has values at all levels. */
-status scalar_results_find(const struct convergence_study *s, const char *const *wanted_names, int wanted_count,
-                           struct scalar_result_study **figure, int *figures);
+ * allocated array in *figure, which the caller releases with memory_free, and its length in *figure_count. Returns
+ * REFUSED if a named figure does not exist, FAILED if no figure has values at all levels. */
+status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,
+                                            int wanted_count, struct scalar_result_study **figure, int *figure_count);
 
 /* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if `folder`
  * is that of a study and contains one of these files although Cleave did not write it. Returns OK for any other folder,

@@ -20,9 +20,9 @@ struct pilot {
 struct pilot_wish;
 
 /* Prints to `out` which figure (scalar result) the pilot runs of a scene evaluate, which methods and spacings they vary
- * and how much time they take. w: what the scene requires of its pilot runs; scene: path of the scene file. Returns
+ * and how much time they take. wish: what the scene requires of its pilot runs; scene: path of the scene file. Returns
  * REFUSED if no pilot runs of the scene are possible. */
-status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out);
+status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out);
 
 /* Reads the scene file `scene` with the overrides override[overrides] into *s. If it has `method: auto`, makes pilot
  * runs in the folder FOLDER_pilot, FOLDER being that of the run, and stores the chosen method and spacing there. Later
@@ -30,8 +30,9 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
  * options: only its members quiet and stop are used. Stores all overrides, those of the user and the chosen ones, in
  * *p. Returns REFUSED if the scene is invalid, or if no method reaches the requested accuracy (the message states the
  * accuracy of each), INTERRUPTED if options.stop is set. Release *p with pilot_free. */
-status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,
-                        int overrides, const char *folder, struct study_options options);
+status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *p, const char *scene,
+                                         const struct scene_override *override, int overrides, const char *folder,
+                                         struct study_options options);
 
 /* Frees the overrides in *p. */
 void pilot_free(struct pilot *p);

@@ -38,7 +38,7 @@ struct study {
     const char *scene; /* path of the scene; borrowed */
     char folder[4096]; /* folder of the study; runs are subfolders */
     char *text;        /* text of the scene without the varied keys, by which the folder is recognised; NULL: unknown */
-    const char *options; /* text of study_options_make; NULL: unknown; borrowed */
+    const char *options; /* text of study_options_compose_from_arguments; NULL: unknown; borrowed */
     struct folder_lock lock;
     struct study_case *at; /* [n] runs */
     int n;
@@ -50,59 +50,59 @@ struct study {
 /* Reads a key and its values from a text `KEY=VALUE,...` and stores them in *k. Values are separated by commas outside
  * brackets and quotes. A value of the form FROM:TO:STEP, with at most one unit, stands for equidistant numbers that
  * include both ends. Returns REFUSED, with the reason, if the text is malformed. Release k with varied_key_free. */
-status varied_key_read(struct varied_key *k, const char *text);
+status varied_key_parse_values(struct varied_key *k, const char *text);
 
 /* Frees the key and the values of *k. */
 void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the beginning of the text `value`, NAN if there is none. Stores in *unit a pointer to the text
  * after the number and the spaces that follow it, or to the whole text if there is no number. */
-double value_read_number(const char *value, const char **unit);
+double value_read_number_and_unit(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
 /* Initialises a study without runs and creates no folder. scene: path of the scene file, kept by reference; folder:
  * folder of the study, NULL for results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED if the
  * name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release s with study_free. */
-status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
+status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind);
 
 /* Initialises a study without runs, whose keys key[keys] vary between runs, and creates no folder. A key with a single
  * value overrides the scene in all runs. Stores the text of the scene without the varied keys in s->text. scene: path
  * of the scene file, kept by reference; folder: folder of the study, NULL for results/NAME_KIND with the name of the
  * scene and KIND = kind. Returns REFUSED if the name of the folder is empty or too long, FAILED or REFUSED if the scene
  * cannot be read. Release s with study_free. */
-status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *kind,
+status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
                             const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
  * kind, to folder[capacity]. */
-void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *kind);
+void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind);
 
 /* Checks that `folder` may be used for a study of the scene with the text `text`. Returns REFUSED if it contains a
  * study of another scene, or files that Cleave did not write. */
-status study_folder_check_scene(const char *folder, const char *text);
+status study_folder_check_is_usable_for_scene(const char *folder, const char *text);
 
 /* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it exists. Returns
  * REFUSED if the folder contains files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
  * symbolic link; FAILED if the file cannot be written. */
-status study_folder_mark(const char *folder);
+status study_folder_mark_as_study(const char *folder);
 
 /* Checks that `folder` may be used for a study, without writing anything. Returns REFUSED if it contains files that
  * Cleave did not write, or if its subfolder `logs` or `pictures` is a symbolic link. */
-status study_folder_check(const char *folder);
+status study_folder_check_is_usable(const char *folder);
 
 /* Returns true if `folder` contains the file STUDY_SCENE of a study of the scene with the text `text`. */
 bool study_folder_is_of_scene(const char *folder, const char *text);
 
 /* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, a line with the options of
- * the study, then `text`, the text of the scene. options: options in the form of study_options_make; if NULL, their
- * line is left out. Returns FAILED if the file cannot be written. */
-status study_write_scene(const char *folder, const char *text, const char *options);
+ * the study, then `text`, the text of the scene. options: options in the form of study_options_compose_from_arguments;
+ * if NULL, their line is left out. Returns FAILED if the file cannot be written. */
+status study_write_scene_and_options(const char *folder, const char *text, const char *options);
 
 /* Composes the options of the command of a study as words for a shell, from argv[argc], the words after the name of the
  * command. Leaves out the scene, and options that change no result: -o, -q, --overwrite, --list, --collect. scene: the
  * word of argv that names the scene. Returns an allocated text, which the caller releases with memory_free. */
-char *study_options_make(int argc, char *const *argv, const char *scene);
+char *study_options_compose_from_arguments(int argc, char *const *argv, const char *scene);
 
 /* Returns the options with which the study in `folder` was made, as words for a shell, or NULL if they are unknown. The
  * caller releases the text with memory_free. */
@@ -136,12 +136,13 @@ void study_print_equal_scene_count(const struct study *s, FILE *out);
 
 /* Returns the value of the key called `key` among the overrides of a run, "" if the run does not override that key.
  * The text belongs to the run. */
-const char *study_case_value(const struct study_case *c, const char *key);
+const char *study_case_value_of_key(const struct study_case *c, const char *key);
 
-/* Writes the file `name` in the folder of the study from a memory stream. to: the stream, which is closed, or NULL if
- * there was no memory for it; text, length: its contents *text of *length bytes, which are released. Returns FAILED if
- * `to` is NULL or the file cannot be written. */
-status study_write_stream_to_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
+/* Writes the file `name` in the folder of the study from a memory stream. stream: the stream, which is closed, or NULL
+ * if there was no memory for it; text, length: its contents *text of *length bytes, which are released. Returns FAILED
+ * if `stream` is NULL or the file cannot be written. */
+status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
+                                  const size_t *length);
 
 /* Returns the run whose results are used for run c: a run with an equal scene if the state of c is CASE_SAME, else c
  * itself. */
@@ -155,10 +156,10 @@ struct path study_case_folder(const struct study *s, const struct study_case *c)
 
 /* Options of the execution of studies. */
 struct study_options {
-    int jobs, threads;                 /* parallel runs; threads of each run; 0: determined from the number of cores */
-    bool overwrite, quiet;             /* replace older runs; print nothing */
-    double until;                      /* time on wall_clock at which no run is started and running ones are stopped;
-                                        * 0: never [s] */
+    int jobs, threads;     /* parallel runs; threads of each run; 0: determined from the number of cores */
+    bool overwrite, quiet; /* replace older runs; print nothing */
+    double until;          /* time on wall_clock_seconds at which no run is started and running ones are stopped;
+                            * 0: never [s] */
     const volatile sig_atomic_t *stop; /* set by a signal handler: running runs stop with a checkpoint and no run is
                                         * started */
 };
@@ -169,14 +170,14 @@ struct study_options {
 status study_lock_folder(struct study *s, bool overwrite);
 
 /* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
- * process. how: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
+ * process. options: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
  * appears on standard error, and the study continues. Returns REFUSED if the folder cannot be used (see
  * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if how.stop is set. */
-status study_run(struct study *s, struct study_options how);
+status study_execute_waiting_runs(struct study *s, struct study_options options);
 
 /* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the
- * shell requires them. how: options of the study. */
-void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out);
+ * shell requires them. options: options of the study. */
+void study_print_command(const struct study *s, const struct study_case *c, struct study_options options, FILE *out);
 
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
 
@@ -196,24 +197,24 @@ status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
-int study_find_result(const struct study_table *t, const char *name);
+int study_index_of_result(const struct study_table *t, const char *name);
 
 /* Checks that runs of the scene s can have a figure (a number in summary.json) called `name`. Returns REFUSED if they
  * cannot, with the most similar name in the message. */
-status result_name_check(const struct scene *s, const char *name);
+status result_name_check_is_known(const struct scene *s, const char *name);
 
 /* Returns true if the figure called `name` describes the computation or the discretisation (time, number of particles)
  * instead of the body. */
 bool study_result_is_technical(const char *name);
 
 /* Reads the header line of history.csv of the first run of the study that has such a file into header[capacity]; "" if
- * there is none. study_result_unit takes units from it. */
+ * there is none. study_write_unit_of_result takes units from it. */
 void study_read_history_header(char *header, size_t capacity, const struct study *s);
 
-/* Determines the SI unit of the figure (a number in summary.json) called `figure` and writes it to unit[capacity]; ""
- * if the figure has no unit or it is unknown. header: header line of history.csv, as study_read_history_header returns
- * it. */
-void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure);
+/* Determines the SI unit of the figure (a number in summary.json) called `result_name` and writes it to unit[capacity];
+ * "" if the figure has no unit or it is unknown. header: header line of history.csv, as study_read_history_header
+ * returns it. */
+void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name);
 
 /* Prints each kind of warning of the runs of a study to `out`: the number of runs that have it, and the text of the
  * first one. Warnings that differ only in numbers are of one kind. */
@@ -226,13 +227,13 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 /* Checks that the table sweep.csv and the pictures of the study may be written, one picture for each of the keys
  * key[keys]. Returns REFUSED if the folder is that of a study and contains one of these files although Cleave did not
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
-status study_check_output_files(const struct study *s, const struct varied_key *key, int keys);
+status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
 /* Draws figures of a study (numbers in summary.json) over the values of each of its varied keys, as pictures/KEY.png in
  * the folder of the study, and over two keys as pictures/map.png. key[keys]: keys of the study and their values;
  * result[results]: names of the figures, up to six; if results is 0, the first ones that differ between runs are drawn.
  * Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
-status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
-                  const char *const *result, int results);
+status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,
+                                    int keys, const char *const *result, int results);
 
 #endif

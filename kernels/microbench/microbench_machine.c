@@ -118,9 +118,9 @@ struct microbench_lattice *microbench_lattice_make(int dim)
 
 double microbench_lattice_run(struct microbench_lattice *s)
 {
-    double start = wall_clock();
+    double start = wall_clock_seconds();
     stencil_sweep[s->dim](s);
-    return (wall_clock() - start) / (double)(s->n * s->neighbours);
+    return (wall_clock_seconds() - start) / (double)(s->n * s->neighbours);
 }
 
 void microbench_lattice_free(struct microbench_lattice *s)
@@ -157,10 +157,10 @@ double microbench_triad_run(struct microbench_triad *t)
     real *restrict a = t->a;
     const real *restrict b = t->b, *restrict c = t->c;
     const real q = 3;
-    double start = wall_clock();
+    double start = wall_clock_seconds();
 #pragma omp parallel for simd schedule(static)
     for (int64_t i = 0; i < t->n; i++) a[i] = b[i] + q * c[i];
-    return 3.0 * sizeof(real) * (double)t->n / (wall_clock() - start);
+    return 3.0 * sizeof(real) * (double)t->n / (wall_clock_seconds() - start);
 }
 
 void microbench_triad_free(struct microbench_triad *t)

@@ -161,14 +161,14 @@ static void nodes_remapped(struct microbench_points *p)
 
 double microbench_points_run(struct microbench_points *p)
 {
-    double start = wall_clock();
+    double start = wall_clock_seconds();
     nodes_clear(p);
     map_scatter(p);
     nodes_move(p);
     map_remap(p);
     nodes_remapped(p);
     map_gather(p);
-    return (wall_clock() - start) / (double)p->n;
+    return (wall_clock_seconds() - start) / (double)p->n;
 }
 
 /* Sets positions, velocities, volumes and masses of the points: steel, spacing 0.5 mm, with a wave so weak that points

@@ -248,7 +248,7 @@ static void row_block_examine(struct bonds *b, struct particles *p, const struct
                 continue;
             }
             if (!is_beyond_at_rate(b, p, limit, &c)) continue;
-            if (!b->soft.begun[g]) row_block_initialise_softening(b, p, limit, g);
+            if (!b->soft.begun[g]) bond_row_block_initialise_softening(b, p, limit, g);
             bond_begin(b, p, row, bond.entry, &c, limit->dt);
             softening_mark_point_for_conversion(b, p, c.i);
         }

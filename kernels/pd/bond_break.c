@@ -53,7 +53,7 @@ void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q)
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && !b->soft.whole && b->whole[row])
-        b->state.weighted[row] = state_row_intact_weighted_volume(b, row);
+        b->state.weighted[row] = state_based_weighted_volume_of_intact_bonds(b, row);
 }
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
@@ -82,7 +82,8 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
 {
     int64_t ended = 0;
     for (int64_t row = 0; row < b->rows; row++)
-        for (int64_t k = 0; row_block_has_softening(b, row / LANES) && k < b->column_count[row / LANES]; k++) {
+        for (int64_t k = 0; bond_row_block_has_begun_softening(b, row / LANES) && k < b->column_count[row / LANES];
+             k++) {
             const int64_t q = (b->column[row / LANES] + k) * LANES + row % LANES;
             if (b->w[q] == 0 || !bond_is_softening(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
             bond_finish(b, p, row, q);
@@ -138,7 +139,7 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE))
-        row_block_write_columns_from_stencil(b, row / LANES);
+        bond_row_block_write_columns_from_stencil(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
@@ -155,7 +156,7 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
 
 /* Returns true if bond q of row `row`, from particle i to j, is stretched beyond the limit at which it breaks. If it is
  * beyond its onset of softening and has not begun to soften, marks its row block (bonds of eight particles) for
- * examination before the next computation of forces (row_block_request_softening_check). */
+ * examination before the next computation of forces (bond_row_block_request_softening_check). */
 static bool is_past(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q,
                     int32_t i, int32_t j)
 {
@@ -163,7 +164,7 @@ static bool is_past(struct bonds *b, const struct particles *p, const struct bon
     if (!b->soft.curve) return stretch > bond_breaking_stretch(p, limit, i, j);
     if (bond_is_softening(b, row / LANES, q)) return stretch > b->soft.end[q];
     const struct softening_range range = bond_softening_range(p, limit, i, j);
-    if (stretch > range.onset && range.onset < range.end) row_block_request_softening_check(b, row / LANES);
+    if (stretch > range.onset && range.onset < range.end) bond_row_block_request_softening_check(b, row / LANES);
     return stretch > range.end;
 }
 
@@ -255,7 +256,7 @@ static lanes_mask rows_due(const struct bonds *b, const struct particles *p, con
 
 int64_t bond_break_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block)
 {
-    if (limit->softening && !b->soft.begun[row_block]) row_block_request_softening_check(b, row_block);
+    if (limit->softening && !b->soft.begun[row_block]) bond_row_block_request_softening_check(b, row_block);
     if (b->soft.whole) return 0; /* bonds of state-based models end where they soften (state_soften.c) */
     const lanes_mask past = rows_due(b, p, limit, row_block);
     int64_t broken = 0;

@@ -84,7 +84,7 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
  * PD_BOND_SOFT and no bond of the row block has begun to soften. */
 #define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
-        if ((MODEL) != PD_BOND_SOFT || row_block_has_softening(B, ROW_BLOCK))                                          \
+        if ((MODEL) != PD_BOND_SOFT || bond_row_block_has_begun_softening(B, ROW_BLOCK))                               \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT);                                                                          \
         else                                                                                                           \
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
@@ -170,7 +170,7 @@ static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column
 /* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these
  * particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the numbers are
  * consecutive. */
-static ALWAYS_INLINE void row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
+static ALWAYS_INLINE void bond_row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {
     if (aligned)
         lanes_store(to + row[0], value);

@@ -47,7 +47,7 @@ static inline struct core bond_repulsive_core_of(const struct bonds *b, const st
 }
 
 /* Adds the repulsive core forces of the bonds of `row_block` to the forces p->f on its eight particles [N]. */
-RARE void row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
+RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++) {
         const int32_t i = b->particle[row];
@@ -61,7 +61,7 @@ RARE void row_block_add_repulsive_core_forces(const struct bonds *b, struct part
 
 /* Returns half the energy of the repulsive cores of the bonds of `row_block` [J]; the other half belongs to the bonds'
  * other rows. */
-RARE real row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
+RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     real sum = 0;
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)

@@ -76,9 +76,9 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
 #define VISIT(COLUMN) sum = bond_force_column(sum, p, COLUMN, dim, model)
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
-    row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
-    if (dim > 1) row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
-    if (dim > 2) row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
+    bond_row_block_store_values(p->f[0], row, rows, aligned, sum.f0 * b->stiffness);
+    if (dim > 1) bond_row_block_store_values(p->f[1], row, rows, aligned, sum.f1 * b->stiffness);
+    if (dim > 2) bond_row_block_store_values(p->f[2], row, rows, aligned, sum.f2 * b->stiffness);
     *pressed = lanes_mask_any(sum.press < CORE_FROM - 1);
     if (b->soft.near && model != PD_BOND_SOFT && lanes_mask_any(sum.stretch > b->soft.gate)) b->soft.near[g] = 1;
     return lanes_mask_any(sum.stretch > (model == PD_BOND_SOFT ? zero : sum.trigger));
@@ -90,10 +90,10 @@ static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct partic
                                                   int64_t g, const int dim, const enum pd_model model)
 {
     bool pressed;
-    const bool past = model == PD_BOND_SOFT && !row_block_has_softening(b, g)
+    const bool past = model == PD_BOND_SOFT && !bond_row_block_has_begun_softening(b, g)
                           ? bond_force_row_block(b, p, g, dim, PD_BOND, &pressed)
                           : bond_force_row_block(b, p, g, dim, model, &pressed);
-    if (__builtin_expect(pressed, 0)) row_block_add_repulsive_core_forces(b, p, g);
+    if (__builtin_expect(pressed, 0)) bond_row_block_add_repulsive_core_forces(b, p, g);
     if (model == PD_BOND_SOFT && b->soft.settled) return 0; /* bonds end between equilibria (bond_secant.c) */
     return past ? bond_break_row_block(b, p, limit, g) : 0;
 }

@@ -55,8 +55,9 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     FOR_COLUMNS_BY_LAW(b, g, model, VISIT, VISIT_BRITTLE);
 #undef VISIT_BRITTLE
 #undef VISIT
-    real total =
-        lanes_mask_any(press < CORE_FROM - 1) ? row_block_repulsive_core_energy(b, p, g) / (0.5 * b->stiffness) : 0;
+    real total = lanes_mask_any(press < CORE_FROM - 1)
+                     ? bond_row_block_repulsive_core_energy(b, p, g) / (0.5 * b->stiffness)
+                     : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
     return total;
 }
@@ -121,7 +122,7 @@ void bonds_update_softening(struct bonds *b, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (!row_block_has_softening(b, g)) continue;
+        if (!bond_row_block_has_begun_softening(b, g)) continue;
         if (p->dim == 1) bond_soften_row_block(b, p, g, 1);
         if (p->dim == 2) bond_soften_row_block(b, p, g, 2);
         if (p->dim == 3) bond_soften_row_block(b, p, g, 3);

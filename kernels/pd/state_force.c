@@ -95,10 +95,10 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
     const int32_t *row = b->particle + g * LANES;
     const int rows = count_of_eight_indices_below(g * LANES, b->rows);
     struct state *t = &b->state;
-    row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
-    row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
+    bond_row_block_store_values(t->pressure, row, rows, b->aligned[g], k->pressure);
+    bond_row_block_store_values(t->spring, row, rows, b->aligned[g], k->spring);
     for (int c = 0; state_model_has_rotations(model) && c < ROTATION; c++)
-        row_block_store_values(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
+        bond_row_block_store_values(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
 }
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
@@ -150,8 +150,8 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     const lanes_mask any = end & ((sum->moved != 0) | (turned != 0.0)); /* exactly zero where nothing has moved */
     for (int k = dim == 2 ? 2 : 0, c = 0; k < 3; k++, c++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        row_block_store_values(p->end_moment[c], row, rows, own >= 0,
-                               lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
+        bond_row_block_store_values(p->end_moment[c], row, rows, own >= 0,
+                                    lanes_choose(any, N[j][i] - N[i][j], lanes_broadcast(0)));
     }
 }
 
@@ -169,7 +169,7 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
     k->pressure +=
         f->A * f->share * lanes_choose(end, lanes_load_or_gather(p->end_strain, own, row), lanes_broadcast(0));
     const lanes pull = lanes_choose(end, k->pressure * lanes_load(b->state.weighted + g * LANES), lanes_broadcast(0));
-    row_block_store_values(p->end_pull, row, rows, own >= 0, pull);
+    bond_row_block_store_values(p->end_pull, row, rows, own >= 0, pull);
     if (!state_model_has_rotations(model)) return;
     lanes rotation[ROTATION];
     ends_rotate(p, row, own, k->spring, false, rotation, dim);
@@ -189,7 +189,7 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     struct family_state k;
     k.pressure = f.A * sum->extension * f.inverse * f.share, k.spring = f.B * f.share;
     if (state_model_has_rotations(model)) family_rotation(k.rotation, sum->moment, sum->moved, k.spring, dim);
-    if (__builtin_expect(p->end_strain && !row_block_has_eight_pd_particles(b, g), 0)) {
+    if (__builtin_expect(p->end_strain && !bond_row_block_has_eight_pd_particles(b, g), 0)) {
         const struct family_sums seen =
             *sum; /* copies for a function that is not inlined: the originals stay in registers */
         const struct own_family own = f;
@@ -311,7 +311,7 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
         for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_load_or_gather(t->rotation[c], own, row);
         rotation_subtract_product(sum.f, rotation, sum.arm, dim);
     }
-    for (int d = 0; d < dim; d++) row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
+    for (int d = 0; d < dim; d++) bond_row_block_store_values(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
 /* Computes the forces of the bonds on the eight particles of row block g, repulsive cores included, and breaks their
@@ -320,7 +320,7 @@ static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *
                                              int64_t g, const int dim, const enum pd_model model)
 {
     force_row_block(b, p, g, dim, model);
-    if (__builtin_expect(b->state.pressed[g], 0)) row_block_add_repulsive_core_forces(b, p, g);
+    if (__builtin_expect(b->state.pressed[g], 0)) bond_row_block_add_repulsive_core_forces(b, p, g);
     if (!b->state.past[g]) return 0;
     return bond_break_row_block(b, p, limit, g);
 }

@@ -73,7 +73,7 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     if (b->active.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
     lanes sum = lanes_broadcast(0), T[DIM_MAX], y[DIM_MAX];
-    real total = b->state.pressed[g] ? row_block_repulsive_core_energy(b, p, g) : 0;
+    real total = b->state.pressed[g] ? bond_row_block_repulsive_core_energy(b, p, g) : 0;
 #define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_model_has_rotations(model))
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT

@@ -78,7 +78,7 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
         if (bond.w == 0) continue;
         const real stretch = bond_stretch_at_earlier_time(p, bond.inverse_length, i, bond.nbr, 0);
         if (!bond_is_softening(b, row / LANES, bond.entry)) {
-            if (stretch > b->soft.end[bond.entry]) row_block_request_softening_check(b, row / LANES);
+            if (stretch > b->soft.end[bond.entry]) bond_row_block_request_softening_check(b, row / LANES);
             continue;
         }
         if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;

@@ -29,11 +29,11 @@ static bool count_read(int *count, const char *text, int least, int most)
     return true;
 }
 
-status option_read_count(int *count, const char *option, const char *text, int least, int most)
+status option_read_count(int *count, const char *option, const char *text, int smallest, int largest)
 {
-    return count_read(count, text, least, most)
+    return count_read(count, text, smallest, largest)
                ? OK
-               : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
+               : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, smallest, largest);
 }
 
 /* Reads one length of a size of pictures from *text into *pixels, and moves *text behind it. *factor: pixels per unit
@@ -84,11 +84,12 @@ status option_check_has_value(const char *option, bool has_value, const char *us
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
-status option_picture(struct picture_size *size, const char *option, const char *value, const char *usage)
+status option_read_picture_size_or_dpi(struct picture_size *size, const char *option, const char *option_value,
+                                       const char *usage)
 {
-    TRY(option_check_has_value(option, value != NULL, usage));
-    return strcmp(option, "--dpi") ? option_read_picture_size(size, option, value)
-                                   : option_read_dpi(size, option, value);
+    TRY(option_check_has_value(option, option_value != NULL, usage));
+    return strcmp(option, "--dpi") ? option_read_picture_size(size, option, option_value)
+                                   : option_read_dpi(size, option, option_value);
 }
 
 status arguments_refuse_second_scene(const char *scene, const char *word)

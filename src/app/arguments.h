@@ -16,8 +16,8 @@ struct run_arguments {
 };
 
 /* Reads the whole number `text`, the word that follows the option `option`, into *count. Returns REFUSED, with a
- * message, unless it is a number from `least` to `most`. */
-status option_read_count(int *count, const char *option, const char *text, int least, int most);
+ * message, unless it is a number from `smallest` to `largest`. */
+status option_read_count(int *count, const char *option, const char *text, int smallest, int largest);
 
 /* Reads the size of pictures from the text that follows the option `option`: width and height as 1200x800 [pixel] or as
  * 90mmx60mm, or the width alone, 90mm, with a height that fits (0 in *size). Returns REFUSED, with a message, unless
@@ -29,9 +29,10 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
  * message, unless it is a number above 0, up to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
-/* Reads the value of the option --size or --dpi of a study. value: NULL if the option has none; usage: usage line.
- * Returns REFUSED, with a message, if it is missing or no size or resolution. */
-status option_picture(struct picture_size *size, const char *option, const char *value, const char *usage);
+/* Reads the value of the option --size or --dpi of a study. option_value: NULL if the option has none; usage: usage
+ * line. Returns REFUSED, with a message, if it is missing or no size or resolution. */
+status option_read_picture_size_or_dpi(struct picture_size *size, const char *option, const char *option_value,
+                                       const char *usage);
 
 /* Checks that the option `option` is followed by a value. Returns OK if has_value is true, else REFUSED, with a message
  * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */

@@ -121,7 +121,7 @@ static void say_notches(const struct run *e)
     const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        notch_describe_representation(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
+        notch_describe_as_slit_or_cut_bonds(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
@@ -130,7 +130,7 @@ static void say_notches(const struct run *e)
 static void say_time_step(const struct run *e)
 {
     if (scene_has_load_steps(e->scene))
-        print_load_steps(e);
+        print_load_step_solver(e);
     else if (scene_is_single_equilibrium(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld steps\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
@@ -228,7 +228,7 @@ static void say_materials(const struct run *e)
             printf(" or at %.3g of the strength surface", e->scene->conversion.alpha);
         if (e->part.strength && a->scatter.given) say_scatter(&e->part, m);
         printf("\n");
-        print_softening(e->scene, a);
+        print_softening_and_horizon_limits(e->scene, a);
     }
 }
 
@@ -250,7 +250,7 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
     for (int k = 0; k < trial->n; k++) {
         bool there = false;
         for (int m = 0; m < found->n; m++) there |= texts_alike(found->text[m], trial->text[k]);
-        if (!there) warnings_add(found, "%s", trial->text[k]);
+        if (!there) warnings_add_if_new(found, "%s", trial->text[k]);
     }
 }
 
@@ -259,7 +259,8 @@ static void warnings_of_trial(struct warnings *found, const struct warnings *tri
 static void say_busy(double load, int threads)
 {
     char text[256];
-    if (machine_describe_load(text, sizeof text, load, machine_cores(), threads)) printf("load           %s\n", text);
+    if (machine_describe_overload_if_any(text, sizeof text, load, machine_physical_core_count(), threads))
+        printf("load           %s\n", text);
 }
 
 /* Estimates run time and memory of the run e by trial steps and prints both. a: arguments from which e was made, so
@@ -326,11 +327,11 @@ static void say_verdict(const char *scene, int warnings, int remarks)
 static void say_settings(const struct run *e)
 {
     say_particles(e);
-    print_filled_volume(e);
+    print_volume_filled_by_particles(e);
     print_shape_file_volumes(e);
-    print_separate_pieces(e);
+    print_bodies_of_separate_pieces(e);
     say_materials(e);
-    print_precracks(e);
+    print_smallest_precrack_length(e);
     say_frames(e);
     print_coarse_cells(e);
     say_notches(e);
@@ -341,8 +342,8 @@ static void say_settings(const struct run *e)
 
 /* Sets up a run of the scene s and prints its resolved settings, remarks on its accuracy, the cost (only if `trial` is
  * true), hints, the warnings (on standard error), and the verdict. a: arguments from which s was read; threads: number
- * of threads; start: time on thread_cpu_clock at which the reading of the scene began [s]. Changes settings of s.
- * Returns REFUSED or FAILED if the set-up or a trial step does. */
+ * of threads; start: time on thread_cpu_clock_seconds at which the reading of the scene began [s]. Changes settings of
+ * s. Returns REFUSED or FAILED if the set-up or a trial step does. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
@@ -351,14 +352,14 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     s->active_set = false;           /* cost with the whole body active */
     s->accept |= 1u << ACCEPT_SHOCK; /* trial steps stay silent about collisions that advise_shocks announces */
     engine_announce_long_set_up(s);
-    status result = engine_make(&e, s, NULL);
-    const double made = thread_cpu_clock() - start;
+    status result = engine_set_up_run(&e, s, NULL);
+    const double made = thread_cpu_clock_seconds() - start;
     if (result == OK) {
         say_settings(&e);
         engine_warn_of_suspicious_input(&e);
         warn_of_bond_plasticity(e.scene, &e.warnings);
-        warnings_append_from(&found, &e.warnings, 0);
-        cost_hints_list(&e, &hints);
+        warnings_append_new_from_list(&found, &e.warnings, 0);
+        cost_hints_add_to_warnings(&e, &hints);
         result = say_accuracy(&e, &remarks);
         if (result == OK && trial) result = check_cost(&e, a, threads, made, &found);
         say_list(&hints, "hints");
@@ -368,20 +369,20 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
     }
     warnings_free(&hints);
     warnings_free(&found);
-    engine_free(&e);
+    engine_free_run(&e);
     return result;
 }
 
-status command_check(int argc, char **argv)
+status command_check_main(int argc, char **argv)
 {
     struct run_arguments a;
     struct pilot_wish pilot;
     const bool trial = !arguments_remove_option(&argc, argv, "--no-trial");
     TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
-    const int threads = team_set_threads(a.threads);
-    const double start = thread_cpu_clock();
+    const int threads = team_set_thread_count(a.threads);
+    const double start = thread_cpu_clock_seconds();
     struct scene s = {0};
-    status result = scene_read_or_pilot_wish(&s, &pilot, a.scene, a.override, a.overrides);
+    status result = scene_read_or_list_pilot_requirements(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {
         result = pilot_plan_print(&pilot, a.scene, stdout);
         scene_free(&pilot.provisional);

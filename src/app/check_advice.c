@@ -93,9 +93,9 @@ static const int *stiffness_errors(const struct scene *s, enum surface_rule surf
                                     : stiffness_off[row].mospd;
 }
 
-void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out)
+void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out)
 {
-    const int *off = stiffness_errors(s, surface, layers);
+    const int *off = stiffness_errors(s, surface, layer_count);
     if (s->dim < 3)
         fprintf(out, "about %d %% in bending and tension", off[OFF_PLANE]);
     else
@@ -134,14 +134,15 @@ static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = count_thin_layers(e, b, ENOUGH * FEATURE * s->horizon), size = layers * s->spacing;
+        const double layers = count_layers_across_thin_parts(e, b, ENOUGH * FEATURE * s->horizon),
+                     size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(
             out,
             "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons most "
             "particles lack neighbours beyond a face: use a spacing of %s",
             s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-            length_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
+            length_text_with_unit(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -164,7 +165,7 @@ static void advise_narrow_holes(const struct run *e, FILE *out)
                 "spacing of %.3g m: it acts as a slit of no width, which parts the particles on both sides; a spacing "
                 "of %s resolves it\n",
                 s->body[b].name, k + 1, size, s->spacing,
-                length_with_unit(two_digits_down(size / 4), 2, s->spacing).text);
+                length_text_with_unit(two_digits_down(size / 4), 2, s->spacing).text);
         }
     }
 }
@@ -176,11 +177,11 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
 {
     real normal[DIM_MAX] = {0};
     bool stepped = false;
-    if (fabs(region_distance(shape, X, s->dim, normal)) > BESIDE_FACE * s->spacing) return false;
+    if (fabs(region_signed_distance(shape, X, s->dim, normal)) > BESIDE_FACE * s->spacing) return false;
     for (int k = 0; k < 2 * s->dim; k++) {
         real beside[DIM_MAX] = {0}, most = 0;
         for (int d = 0; d < s->dim; d++) beside[d] = X[d] + (d == k / 2 ? (k % 2 ? 1 : -1) * AROUND * s->spacing : 0);
-        const real far = fabs(region_distance(shape, beside, s->dim, normal));
+        const real far = fabs(region_signed_distance(shape, beside, s->dim, normal));
         for (int d = 0; d < s->dim; d++) most = real_max(most, fabs(normal[d]));
         stepped |= far < AROUND * s->spacing && most < ALONG_AXIS;
     }
@@ -194,7 +195,7 @@ static void advise_faces(const struct scene *s, FILE *out)
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
         for (int b = 0; b < s->bodies && s->probe[k].kind == PROBE_POINT; b++) {
             const struct region *shape = &s->body[b].shape;
-            if (s->body[b].file || shape->n == 0 || region_has_infinite_box(shape, s->dim)) continue;
+            if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
                 fprintf(
                     out,
@@ -232,7 +233,7 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
     fprintf(out,
             " change%s within the time in which a wave travels %.3g spacings; waves shorter than %d spacings disperse: "
             "use a spacing of %s or a slower load\n",
-            more ? "" : "s", length, WAVE, length_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
+            more ? "" : "s", length, WAVE, length_text_with_unit(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 
 /* Writes a remark to `out` for each load during whose rise time waves travel less than WAVE spacings, and for each
@@ -247,7 +248,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 "accuracy       an initial pulse is %.3g spacings wide; below %d spacings it disperses: use a spacing "
                 "of %s\n",
                 s->initial[k].pulse.width / s->spacing, WAVE,
-                length_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
+                length_text_with_unit(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
 /* Writes a remark to `out` if bodies collide so fast that oscillations behind the wave front can break or yield
@@ -268,16 +269,17 @@ static void advise_shocks(const struct scene *s, FILE *out)
  * level are too large for the loads or for the thin parts of the body. */
 static void advise_levels(const struct run *e, FILE *out)
 {
-    const struct levels_choice c = mesh_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (mesh_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
+    if (mesh_levels_of_scene_exceed_limit(&c, e->frame, e->scene, text, sizeof text))
+        fprintf(out, "accuracy       %s\n", text);
 }
 
 /* Writes a remark to `out` if a formula of a load or support has no finite value at some time of the run. */
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
-        if (loads_check_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
+        if (loads_check_formulas_are_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
         fprintf(out, "accuracy       %s: the run will stop at that time\n", status_message());
         return;
     }
@@ -321,7 +323,7 @@ static real pulled_stretch(const struct loads *l, const struct particles *p, rea
  * so that the body separates there. */
 static void advise_pulled_metal(const struct scene *s, real stretch, FILE *out)
 {
-    const struct weak_shape *weak = shape_find_weak_in_tension(s->shape);
+    const struct weak_shape *weak = shape_properties_if_weak_in_tension(s->shape);
     if (weak && stretch > weak->stretch)
         fprintf(
             out,
@@ -367,10 +369,10 @@ static void hint_model(const struct scene *s, struct warnings *to)
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
-    warnings_add(to,
-                 "model: bond has the Poisson's ratio of this scene, %.4g, too, and takes %.0f %% of the time of %s",
-                 wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
-                 s->model == MODEL_OSPD ? "ospd" : "mospd");
+    warnings_add_if_new(
+        to, "model: bond has the Poisson's ratio of this scene, %.4g, too, and takes %.0f %% of the time of %s", wanted,
+        100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
+        s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
 /* Returns an upper estimate of the stress in a run [Pa]: REACHED (rho c v + traction) plus the stress of initial
@@ -412,12 +414,12 @@ static void hint_frame(const struct run *e, struct warnings *to)
         char text[80] = "";
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
-            if (scene_body_has_material(&e->scene->body[b], m))
+            if (scene_body_can_have_material(&e->scene->body[b], m))
                 strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || scene_why_reference_frame_not_auto(e->scene, b)) continue;
+        if (e->frame->choice[b].reference || scene_why_reference_frame_not_chosen_by_auto(e->scene, b)) continue;
         if (!reference_frame_is_possible(e->frame, &e->part, e->scene, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
-        warnings_add(
+        warnings_add_if_new(
             to,
             "body %s meets no other body%s%s: mpm.frame: %s in place of current would take a tenth to a thirtieth "
             "of the time for its material points",
@@ -447,12 +449,13 @@ static void hint_method(const struct run *e, struct warnings *to)
         weakest = real_min(weakest, s->material[m].young * s->material[m].onset_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
-        warnings_add(to,
-                     "no bond can break, as neither energy_release_rate, toughness nor critical_stretch is given, and "
-                     "there is no crack: method: mpm suffices in place of %s",
-                     method);
+        warnings_add_if_new(
+            to,
+            "no bond can break, as neither energy_release_rate, toughness nor critical_stretch is given, and "
+            "there is no crack: method: mpm suffices in place of %s",
+            method);
     else if (reached < weakest)
-        warnings_add(
+        warnings_add_if_new(
             to, "stress in waves is at most %.3g Pa, and bonds break at %.3g Pa: method: mpm suffices in place of %s",
             reached, weakest, method);
 }
@@ -467,40 +470,41 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++) {
         const size_t used = strlen(planes);
         real at;
-        if (!scene_is_symmetric(e, axis, &at)) continue;
+        if (!scene_is_symmetric_about_mid_plane(e, axis, &at)) continue;
         snprintf(planes + used, sizeof planes - used, "%s%c = %.6g m", n++ ? " and " : "", 'x' + axis, at);
     }
     if (n > 0)
-        warnings_add(to,
-                     "the scene is symmetric about %s (all %lld particles, cracks and loads): %s of the body with a "
-                     "boundary `mirror` %s would take %s of the time",
-                     planes, (long long)e->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
+        warnings_add_if_new(
+            to,
+            "the scene is symmetric about %s (all %lld particles, cracks and loads): %s of the body with a "
+            "boundary `mirror` %s would take %s of the time",
+            planes, (long long)e->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
 }
 
 void print_accuracy_advice(const struct run *e, FILE *out)
 {
     advise_features(e, out);
     advise_narrow_holes(e, out);
-    print_narrow_width_advice(e, out);
+    print_advice_on_widths_of_narrow_parts(e, out);
     advise_on_close_crack_tips(e->scene, e->fracture, out);
-    print_incompressible_advice(e, out);
+    print_advice_on_incompressible_bodies(e, out);
     advise_faces(e->scene, out);
     print_particle_list_advice(e, out);
     advise_waves(e->scene, &e->tables, out);
     advise_shocks(e->scene, out);
-    print_load_step_advice(e, out);
+    print_load_step_accuracy_advice(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);
     advise_separation(e->scene, &e->loads, &e->part, out);
 }
 
-void cost_hints_list(const struct run *e, struct warnings *to)
+void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list)
 {
-    hint_precrack_ends(e, to);
-    hint_model(e->scene, to);
-    hint_frame(e, to);
-    hint_method(e, to);
-    hint_symmetry(e, to);
-    hint_unlikely_signs_and_sizes(e, to);
-    hint_idle_keys(e->scene, to);
+    hint_precrack_ends_exactly_on_bonds(e, warning_list);
+    hint_model(e->scene, warning_list);
+    hint_frame(e, warning_list);
+    hint_method(e, warning_list);
+    hint_symmetry(e, warning_list);
+    hint_unlikely_signs_and_sizes(e, warning_list);
+    hint_keys_without_effect(e->scene, warning_list);
 }

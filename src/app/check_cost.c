@@ -51,19 +51,20 @@ static status time_steps(struct run *e, struct quartiles *step)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     e->report->quiet = e->warnings.silent = true;
-    TRY(report_start(e));
-    const double begun = thread_cpu_clock();
-    TRY(engine_step(e));
-    const double first = thread_cpu_clock() - begun;
+    TRY(report_start_before_first_step(e));
+    const double begun = thread_cpu_clock_seconds();
+    TRY(engine_adapt_refinement_and_step(e));
+    const double first = thread_cpu_clock_seconds() - begun;
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < WINDOWS_LEAST || all < SECONDS_ENOUGH)) {
-        const double start = thread_cpu_clock();
+        const double start = thread_cpu_clock_seconds();
         int64_t taken = 0;
-        for (; taken < period && e->clock.step < e->clock.steps - 1 && thread_cpu_clock() - start < SECONDS_MOST;
+        for (;
+             taken < period && e->clock.step < e->clock.steps - 1 && thread_cpu_clock_seconds() - start < SECONDS_MOST;
              taken++)
-            TRY(engine_step(e));
+            TRY(engine_adapt_refinement_and_step(e));
         if (taken == 0) break;
-        all += thread_cpu_clock() - start;
-        spent[n++] = (thread_cpu_clock() - start) / (double)taken;
+        all += thread_cpu_clock_seconds() - start;
+        spent[n++] = (thread_cpu_clock_seconds() - start) / (double)taken;
     }
     *step = n > 0 ? quartiles_of(spent, n) : (struct quartiles){first, first, first};
     return OK;
@@ -75,9 +76,9 @@ static double time_force(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
-        const double start = thread_cpu_clock();
-        run_compute_forces(e);
-        all += spent[n++] = thread_cpu_clock() - start;
+        const double start = thread_cpu_clock_seconds();
+        run_compute_internal_forces(e);
+        all += spent[n++] = thread_cpu_clock_seconds() - start;
     }
     return median_by_sorting(spent, n);
 }
@@ -89,11 +90,11 @@ static double time_contact(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
-        const double start = thread_cpu_clock();
-        contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                                 e->contact->broken, e->contact->changed);
+        const double start = thread_cpu_clock_seconds();
+        contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
+                                             e->clock.step, e->contact->broken, e->contact->changed);
         contact_compute_forces(e->contact, &e->part, 0);
-        all += spent[n++] = thread_cpu_clock() - start;
+        all += spent[n++] = thread_cpu_clock_seconds() - start;
     }
     return median_by_sorting(spent, n);
 }
@@ -114,22 +115,25 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     TRY(read);
     s->active_set = s->active_set && rest;
     s->accept |= 1u << ACCEPT_SHOCK; /* as in check_sound */
-    return engine_make(e, s, NULL);
+    return engine_set_up_run(e, s, NULL);
 }
 
 /* Runs all steps of e and returns their processor time [s]. Returns NAN if a step fails, if the processor time exceeds
  * PATIENCE * SECONDS_WHOLE, or if the wall-clock time exceeds WALL_MOST. */
 static double all_steps(struct run *e)
 {
-    const double start = thread_cpu_clock(), began = wall_clock();
+    const double start = thread_cpu_clock_seconds(), began = wall_clock_seconds();
     e->report->quiet = e->warnings.silent = true;
-    if (report_start(e) != OK) return NAN;
+    if (report_start_before_first_step(e) != OK) return NAN;
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
-        if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
-        if (thread_cpu_clock() - start > PATIENCE * SECONDS_WHOLE || wall_clock() - began > WALL_MOST) return NAN;
+        if (engine_adapt_refinement_and_step(e) != OK || stability_check_after_step(e) != OK ||
+            report_finished_step(e) != OK)
+            return NAN;
+        if (thread_cpu_clock_seconds() - start > PATIENCE * SECONDS_WHOLE || wall_clock_seconds() - began > WALL_MOST)
+            return NAN;
     }
-    return engine_run_mpm_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
+    return engine_run_mpm_baseline_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
 /* Runs the scene of `a` with the additional override key=value (none if key is NULL) and returns the processor time of
@@ -143,15 +147,15 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     struct quartiles step;
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
-        memory_set_reuse(whole);
+        memory_set_reuse_of_freed_arrays(whole);
         if (whole)
             seconds = all_steps(&e);
         else if (time_steps(&e, &step) == OK)
             seconds = step.median * (double)e.clock.steps;
     }
-    memory_set_reuse(false);
-    if (found) warnings_append_from(found, &e.warnings, 0);
-    engine_free(&e);
+    memory_set_reuse_of_freed_arrays(false);
+    if (found) warnings_append_new_from_list(found, &e.warnings, 0);
+    engine_free_run(&e);
     scene_free(&s);
     return seconds;
 }
@@ -211,7 +215,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->basis = COST_TRIED;
     if (!isnan(loop)) { /* includes the warnings of the first steps, whose time may differ in the last digits */
         warnings_free(&c->found);
-        warnings_append_from(&c->found, &found, 0);
+        warnings_append_new_from_list(&c->found, &found, 0);
     }
     warnings_free(&found);
     if (isnan(loop)) {
@@ -241,7 +245,7 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step) == OK)
         seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(&s);
     return seconds;
 }
@@ -280,21 +284,21 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *e, const struct r
     if (scene_has_load_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
         const status result = cost_estimate_load_steps(c, e);
-        warnings_append_from(&c->found, &e->warnings, known);
+        warnings_append_new_from_list(&c->found, &e->warnings, known);
         TRY(result);
         c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
         return OK;
     }
     if (scene_is_single_equilibrium(e->scene)) {
         /* conjugate gradients use central differences of forces: two evaluations per iteration
-         * (static_body_tangent_product) */
+         * (static_body_compute_tangent_product) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
         c->bytes = (double)memory_peak_resident_size() + output_bytes(&e->part, e->scene);
         return OK;
     }
     struct quartiles step;
     const status result = time_steps(e, &step);
-    warnings_append_from(&c->found, &e->warnings, known);
+    warnings_append_new_from_list(&c->found, &e->warnings, known);
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;

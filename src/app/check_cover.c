@@ -15,7 +15,7 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
     return region_contains(&b->shape, X, p->scene->dim, tolerance) &&
-           (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
+           (p->material == ANY_MATERIAL || scene_material_at_position(p->scene, b, X, b->material) == p->material);
 }
 
 /* Returns true if the point X[dim] [m] is inside the piece p of a body or within `distance` [m] of it. Always returns
@@ -36,13 +36,13 @@ bool piece_bounding_box(const struct piece *p, real lower[DIM_MAX], real upper[D
     const int dim = p->scene->dim;
     real low[DIM_MAX], high[DIM_MAX];
     bool any = false;
-    if (!region_bounding_box(&b->shape, dim, lower, upper)) return false;
+    if (!region_compute_bounding_box_if_finite(&b->shape, dim, lower, upper)) return false;
     if (p->material == ANY_MATERIAL || p->material == b->material) return true;
     for (int d = 0; d < dim; d++) low[d] = upper[d], high[d] = lower[d];
     for (int k = 0; k < b->parts; k++) {
         real begin[DIM_MAX], end[DIM_MAX];
         if (b->part[k].material != p->material) continue;
-        if (!region_bounding_box(&b->part[k].region, dim, begin, end)) return true;
+        if (!region_compute_bounding_box_if_finite(&b->part[k].region, dim, begin, end)) return true;
         for (int d = 0; d < dim; d++) low[d] = real_min(low[d], begin[d]), high[d] = real_max(high[d], end[d]);
         any = true;
     }
@@ -58,7 +58,7 @@ static int64_t cover_index(const struct cover *c, const int64_t *at)
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void piece_coverage_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
+void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index)
 {
     index[0] = cell % c->n[0], index[1] = cell / c->n[0] % c->n[1], index[2] = cell / c->n[0] / c->n[1];
 }
@@ -66,7 +66,7 @@ void piece_coverage_cell_indices(const struct cover *c, int64_t cell, int64_t *i
 static void cell_middle(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
@@ -79,7 +79,7 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
     bool beside = false;
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     for (int k = 0; k < 27; k++) {
         const int64_t near[DIM_MAX] = {at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
         bool within = true;
@@ -102,7 +102,7 @@ static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
     bool thin = false, beside = false;
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
         const bool before = at[d] > 0 && c->filled[cell - stride];
         const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
@@ -129,7 +129,7 @@ static bool is_dear(const struct region *shape)
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
-    const real away = region_distance(shape, X, c->dim, normal);
+    const real away = region_signed_distance(shape, X, c->dim, normal);
     for (int d = 0; d < c->dim; d++) reach += fabs(normal[d]) * c->spacing;
     const real share = reach > 0 ? 0.5 - away / reach : away < 0;
     return share < 0 ? 0 : share > 1 ? 1 : share;

@@ -35,7 +35,7 @@ struct cover {
 bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
 
 /* Computes the indices index[DIM_MAX] of the cell number `cell` of c along the axes. */
-void piece_coverage_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
+void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
 void piece_cell_coverage_free(struct cover *c);
 

@@ -93,7 +93,7 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     particle_reference_position(part, i, X);
     if (!c->height) {
         X[b->face] += 0.5 * b->side * scene->spacing;
-        region_distance(shape, X, part->dim, normal);
+        region_signed_distance(shape, X, part->dim, normal);
         return b->side * normal[b->face];
     }
     for (int k = 0; k < c->axes; k++) slope2 += square(slope_along(c, place_of(c, X, scene->spacing), k));
@@ -144,7 +144,8 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     for (int k = 0; k < s->bodies; k++) {
         const struct region *shape = &s->body[k].shape;
         if (b->body >= 0 && s->body[k].joined != b->body) continue;
-        all &= !s->body[k].file && s->body[k].joined == k && shape->n > 0 && !region_has_infinite_box(shape, s->dim);
+        all &= !s->body[k].file && s->body[k].joined == k && shape->n > 0 &&
+               !region_contains_infinite_box_solid(shape, s->dim);
         for (int j = 0; j < shape->n; j++)
             all &= shape->solid[j].kind != SOLID_VOXELS && shape->solid[j].kind != SOLID_ALL;
         for (int j = 0; j < s->bodies; j++) all &= j == k || s->body[j].joined != k;
@@ -152,7 +153,7 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     return all;
 }
 
-void print_face_off_axis(const struct run *e, const struct boundary *b)
+void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
     struct elsewhere w = {0};

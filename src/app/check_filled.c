@@ -26,7 +26,7 @@ static int64_t particles_of(const struct scene *scene, const struct particles *p
     return n;
 }
 
-void print_filled_volume(const struct run *e)
+void print_volume_filled_by_particles(const struct run *e)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {
@@ -34,8 +34,10 @@ void print_filled_volume(const struct run *e)
         bool joined = s->body[b].joined != b;
         real from[DIM_MAX], to[DIM_MAX];
         for (int k = b + 1; k < s->bodies; k++) joined |= s->body[k].joined == b;
-        if (s->body[b].file || joined || all_boxes(shape) || !region_bounding_box(shape, s->dim, from, to)) continue;
-        const real exact = region_volume(shape, s->dim, from, to), section = scene_section_or_thickness(s);
+        if (s->body[b].file || joined || all_boxes(shape) ||
+            !region_compute_bounding_box_if_finite(shape, s->dim, from, to))
+            continue;
+        const real exact = region_volume_within_box(shape, s->dim, from, to), section = scene_section_or_thickness(s);
         const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
         printf("filled         body %s: its particles have %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
                filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");

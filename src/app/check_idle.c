@@ -113,10 +113,11 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method == METHOD_MPM; m++)
         if (isfinite(s->material[m].critical_stretch))
-            warnings_add(to,
-                         "material %s: its energy_release_rate, toughness or critical_stretch does nothing, as method "
-                         "mpm has no bonds that break: method: adaptive or pd has",
-                         s->material[m].name);
+            warnings_add_if_new(
+                to,
+                "material %s: its energy_release_rate, toughness or critical_stretch does nothing, as method "
+                "mpm has no bonds that break: method: adaptive or pd has",
+                s->material[m].name);
 }
 
 /* Adds a hint to *to for each material of which no body consists. */
@@ -124,19 +125,19 @@ static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
         bool used = false;
-        for (int b = 0; b < s->bodies; b++) used = used || scene_body_has_material(&s->body[b], m);
-        if (!used) warnings_add(to, "material %s: no body consists of it", s->material[m].name);
+        for (int b = 0; b < s->bodies; b++) used = used || scene_body_can_have_material(&s->body[b], m);
+        if (!used) warnings_add_if_new(to, "material %s: no body consists of it", s->material[m].name);
     }
 }
 
-void hint_idle_keys(const struct scene *s, struct warnings *to)
+void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list)
 {
     char text[2000] = "";
     size_t used = 0;
-    hint_unused_materials(s, to);
-    hint_unbreakable(s, to);
+    hint_unused_materials(s, warning_list);
+    hint_unbreakable(s, warning_list);
     if (scene_gives_all(s)) return;
     for (size_t row = 0; row < COUNT_OF(idle_keys); row++)
         if (idle_keys[row].idle(s)) used = idle_row_append(s, row, text, sizeof text, used);
-    if (used > 0) warnings_add(to, "keys that do nothing in this scene: %s", text);
+    if (used > 0) warnings_add_if_new(warning_list, "keys that do nothing in this scene: %s", text);
 }

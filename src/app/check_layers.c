@@ -116,17 +116,18 @@ static double body_layers(const struct run *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double count_thin_layers(const struct run *e, int body, double max_layers)
+double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;
-    bool known = s->body[body].joined == body && s->body[body].shape.n == 1 && !s->body[body].file;
-    for (int b = 0; b < s->bodies; b++) known = known && (b == body || s->body[b].joined != body);
-    if (s->body[body].joined != body) return INFINITY;
-    if (known) least = solid_smallest_edge(e, &s->body[body].shape.solid[0]) / s->spacing;
+    bool known =
+        s->body[body_index].joined == body_index && s->body[body_index].shape.n == 1 && !s->body[body_index].file;
+    for (int b = 0; b < s->bodies; b++) known = known && (b == body_index || s->body[b].joined != body_index);
+    if (s->body[body_index].joined != body_index) return INFINITY;
+    if (known) least = solid_smallest_edge(e, &s->body[body_index].shape.solid[0]) / s->spacing;
     if (isfinite(least)) return least < max_layers ? least : INFINITY;
     /* steps of curved faces take some of the counted layers: only half of max_layers counts as thin */
-    return body_layers(e, body, real_min(0.5 * max_layers, RUNS_MOST - 1));
+    return body_layers(e, body_index, real_min(0.5 * max_layers, RUNS_MOST - 1));
 }
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
@@ -149,7 +150,7 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_CELLS 0.45   /* the same for cells */
 #define SOFT_MOST 2.0     /* least error that is reported [%] */
 
-void print_incompressible_advice(const struct run *e, FILE *out)
+void print_advice_on_incompressible_bodies(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const bool families = s->method == METHOD_PD;
@@ -157,9 +158,9 @@ void print_incompressible_advice(const struct run *e, FILE *out)
     for (int b = 0; b < s->bodies; b++) {
         real poisson = 0;
         for (int m = 0; m < s->materials; m++)
-            if (scene_body_has_material(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
+            if (scene_body_can_have_material(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
         if (!(poisson > (families ? SOFT_FAMILIES : SOFT_CELLS)) || s->body[b].joined != b) continue;
-        const double layers = fmin(count_thin_layers(e, b, 2 * RUNS_MOST), RUNS_MOST);
+        const double layers = fmin(count_layers_across_thin_parts(e, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,

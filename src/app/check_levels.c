@@ -11,12 +11,12 @@ void print_coarse_cells(const struct run *e)
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_is_single_equilibrium(e->scene)) return;
-    const struct levels_choice c = mesh_levels_choose_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
-    mesh_levels_describe_choice(&c, e->scene, text, sizeof text);
+    const struct levels_choice c = mesh_levels_choose_level_count(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    mesh_levels_describe_level_count(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
-               (long long)levels_count_cells(l, level), 2 << level, level == l->n ? "\n" : "");
+               (long long)levels_count_cells_of_level(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
 /* Writes the number n into text[32], in full or, if `millions` is true, as in "52 million". Returns text. */
@@ -54,7 +54,8 @@ static const char *much_memory(double bytes, char text[static 32])
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;
-    for (int level = 1; level <= l->n; level++) n += (double)levels_count_cells(l, level) * pow(2 << level, dim);
+    for (int level = 1; level <= l->n; level++)
+        n += (double)levels_count_cells_of_level(l, level) * pow(2 << level, dim);
     return n;
 }
 
@@ -64,7 +65,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
     const bool millions = e->part.n_body >= 1000000;
     double cells = 0;
-    for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells(l, level);
+    for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells_of_level(l, level);
     if (l->n == 0 || cells == 0) return;
     if (e->part.n < e->part.n_body)
         printf("levels         %s particles would fill the body, and coarse cells replace them by %s at the start",
@@ -74,7 +75,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *c)
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
                many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
-    const double peridynamic = run_estimate_memory_all_pd(e->scene, &e->part, &e->source);
+    const double peridynamic = run_estimate_peak_memory_if_all_peridynamic(e->scene, &e->part, &e->source);
     if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
         printf(" instead of %s", much_memory(peridynamic, whole));
     printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",

@@ -15,7 +15,7 @@ static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
     int32_t found[ROOM];
-    const int n = cells_find_near(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
+    const int n = cells_list_particles_near_point(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
     for (int k = 0; k < n && k < ROOM; k++)
         if (found[k] < e->part.n && e->part.body[found[k]] == body) return true;
     return n > ROOM;

@@ -138,7 +138,7 @@ struct faced {
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
-    bool has = !s->body[body].file && shape->n > 0 && !region_has_infinite_box(shape, s->dim);
+    bool has = !s->body[body].file && shape->n > 0 && !region_contains_infinite_box_solid(shape, s->dim);
     for (int b = 0; b < s->bodies; b++) has &= b == body || s->body[b].joined != body;
     for (int k = 0; k < shape->n; k++)
         has &= shape->solid[k].kind != SOLID_VOXELS && shape->solid[k].kind != SOLID_HULL &&
@@ -161,7 +161,7 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     if (f->unknown) return;
     particle_reference_position(p, i, X);
     X[axis] += 0.5 * side * f->e->scene->spacing;
-    const real off = region_distance(&f->e->scene->body[body].shape, X, p->dim, normal);
+    const real off = region_signed_distance(&f->e->scene->body[body].shape, X, p->dim, normal);
     f->along += area * side * normal[axis];
     f->off += area * side * normal[axis] * off;
 }
@@ -315,7 +315,7 @@ static void say_load(const struct run *e, int which)
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(&e->part, e->scene, l);
     if (b->displaces) say_displacement(e->scene, &e->part, l);
-    if (faces) print_face_off_axis(e, b);
+    if (faces) print_oblique_share_of_loaded_face(e, b);
     putchar('\n');
 }
 

@@ -51,7 +51,7 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     const struct cover *c = k->cover;
     const int64_t next = cell + way * k->stride[k->axis];
     int64_t at[DIM_MAX];
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     if (at[k->axis] + way < 0 || at[k->axis] + way >= c->n[k->axis]) return false;
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
@@ -71,7 +71,7 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX];
-    piece_coverage_cell_indices(c, from, at);
+    piece_coverage_compute_cell_indices(c, from, at);
     return (at[k->axis] > 0 && c->filled[from - k->stride[k->axis]]) ||
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
@@ -100,7 +100,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
 {
     const struct cover *c = k->cover;
     int64_t at[DIM_MAX], found = -1, from = cell;
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     if (at[across] + way < 0 || at[across] + way >= c->n[across]) return -1;
     while (run_goes_on(k, from, -1)) from -= k->stride[k->axis];
     const int64_t n = run_span(k, from);
@@ -118,7 +118,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
     const struct run *e = k->engine;
     int64_t at[DIM_MAX];
     bool found = false;
-    piece_coverage_cell_indices(k->cover, cell, at);
+    piece_coverage_compute_cell_indices(k->cover, cell, at);
     const real X = k->cover->first[across] + (real)at[across] * k->cover->spacing;
     for (int m = 0; m < e->source.mirrors; m++)
         found |= e->source.mirror[m].axis == across && e->source.mirror[m].outside == way &&
@@ -129,7 +129,7 @@ static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 static void cell_point(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    piece_coverage_cell_indices(c, cell, at);
+    piece_coverage_compute_cell_indices(c, cell, at);
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
@@ -139,8 +139,8 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
     if (!piece_contains(k->piece, X, -WITHIN * h)) return false;
-    const real down = piece_distance_to_surface(k->piece, X, k->axis, -0.25 * h, most);
-    const real up = piece_distance_to_surface(k->piece, X, k->axis, 0.25 * h, most);
+    const real down = piece_distance_to_surface_along_axis(k->piece, X, k->axis, -0.25 * h, most);
+    const real up = piece_distance_to_surface_along_axis(k->piece, X, k->axis, 0.25 * h, most);
     chord->middle = X[k->axis] + 0.5 * (up - down), chord->width = up + down;
     return true;
 }
@@ -340,7 +340,7 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     const int64_t middle = neck_cell(k, &u);
     for (int d = 0; d < k->cover->dim; d++)
         if (d != p->across && d != k->axis && (middle < 0 || !is_least_across(k, middle, d, u.width))) return;
-    uneven_list_add(list, &u, false);
+    uneven_list_add_narrow_part(list, &u, false);
 }
 
 /* Sets k->seen of `cell` and of all cells that are connected to it through cells with the same number of particle rows
@@ -352,7 +352,7 @@ static void neck_mark(struct necks *k, int64_t cell)
     while (top > 0) {
         const int64_t here = k->stack[--top];
         int64_t at[DIM_MAX];
-        piece_coverage_cell_indices(k->cover, here, at);
+        piece_coverage_compute_cell_indices(k->cover, here, at);
         for (int way = -1; way <= 1; way += 2)
             for (int d = 0; d < k->cover->dim; d++) {
                 const int64_t next = here + way * k->stride[d];
@@ -387,7 +387,8 @@ static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell,
     memory_free(p);
 }
 
-void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *listed_axes)
+void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *e, const struct cover *c,
+                                    uint8_t *listed_axes)
 {
     struct necks k = {.cover = c, .engine = e, .piece = &list->piece};
     k.stride[0] = 1, k.stride[1] = c->n[0], k.stride[2] = c->n[0] * c->n[1];
@@ -421,10 +422,10 @@ static void length_judge(struct uneven_list *list, real low, real high, real fir
                              .filled = rows * h,
                              .at = {0.5 * (low + high)},
                              .measured = true};
-    if (fabs(u.off) > LENGTH_OFF) uneven_list_add(list, &u, false);
+    if (fabs(u.off) > LENGTH_OFF) uneven_list_add_narrow_part(list, &u, false);
 }
 
-void uneven_add_lengths(struct uneven_list *list)
+void uneven_list_add_parts_of_1d_body(struct uneven_list *list)
 {
     const struct piece *p = &list->piece;
     const struct scene *s = p->scene;
@@ -435,8 +436,8 @@ void uneven_add_lengths(struct uneven_list *list)
     for (real m = 0.5; m < steps; m++) {
         X[0] = from[0] + m * step;
         if (!piece_contains(p, X, 0)) continue;
-        const real low = X[0] - piece_distance_to_surface(p, X, 0, -step, INFINITY),
-                   high = X[0] + piece_distance_to_surface(p, X, 0, step, INFINITY);
+        const real low = X[0] - piece_distance_to_surface_along_axis(p, X, 0, -step, INFINITY),
+                   high = X[0] + piece_distance_to_surface_along_axis(p, X, 0, step, INFINITY);
         length_judge(list, low, high, first[0]);
         while (m < steps && from[0] + m * step < high) m++;
     }

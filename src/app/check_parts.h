@@ -49,7 +49,7 @@ status cost_measure_by_trial_steps(struct cost *c, struct run *run, const struct
 
 /* Prints, for a material m whose bonds soften, its strengths, its softening law and the limits that they set to the
  * horizon. Prints nothing for other materials. */
-void print_softening(const struct scene *s, const struct material *m);
+void print_softening_and_horizon_limits(const struct scene *s, const struct material *m);
 
 /* Prints, as a part of a sentence, the strength that brittle bonds of material m have at the horizon of the scene s.
  * Prints nothing if no strength is known for these bonds. */
@@ -62,25 +62,25 @@ void print_brittle_strength(const struct scene *s, const struct material *m);
 
 /* Prints the length of the smallest pre-crack and its ratio to the horizon. Prints nothing unless the body is plane and
  * its bonds soften. */
-void print_precracks(const struct run *e);
+void print_smallest_precrack_length(const struct run *e);
 
 /* Writes a remark to `out` for each 2D crack whose two tips are less than FEATURE horizons apart, so that they affect
  * each other. A crack that begins at a face or a plane of symmetry has one tip. It counts as half of a crack of twice
  * its length. */
 void advise_on_close_crack_tips(const struct scene *s, const struct fracture_state *fracture, FILE *out);
 
-/* Adds a hint to *to for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether it cuts
- * them. */
-void hint_precrack_ends(const struct run *e, struct warnings *to);
+/* Adds a hint to *warning_list for each 2D pre-crack that ends exactly on bonds, so that rounding decides whether it
+ * cuts them. */
+void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *warning_list);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints the solver of load steps and the rule by which cracks grow. */
-void print_load_steps(const struct run *e);
+void print_load_step_solver(const struct run *e);
 
 /* Writes a line to `out` for each setting that reduces the accuracy of load steps: loads, supports, lengths of
  * cracks. */
-void print_load_step_advice(const struct run *e, FILE *out);
+void print_load_step_accuracy_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of a run with load steps from the time of its first equilibrium, into *c. The run cannot be
  * continued afterwards. Returns FAILED if no equilibrium is found. */
@@ -97,7 +97,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
 void print_shape_file_volumes(const struct run *e);
 
 /* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
-void print_separate_pieces(const struct run *e);
+void print_bodies_of_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
@@ -109,10 +109,10 @@ real solid_smallest_edge(const struct run *e, const struct solid *solid);
  * this is its smallest edge over the spacing, INFINITY unless this is less than `max_layers`. For other shapes it is a
  * count, INFINITY unless at least half of the particles have fewer layers than half of `max_layers`. Returns INFINITY
  * for a body that is joined to one of a lower index. */
-double count_thin_layers(const struct run *e, int body, double max_layers);
+double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
 /* Writes a line to `out` for each nearly incompressible body whose particles or cells are too stiff. */
-void print_incompressible_advice(const struct run *e, FILE *out);
+void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
@@ -126,7 +126,7 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
 
 /* Writes a line to `out` for each narrow part of a body whose width is no whole number of spacings, so that the
  * particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
-void print_narrow_width_advice(const struct run *e, FILE *out);
+void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */
 struct length_text {
@@ -135,7 +135,7 @@ struct length_text {
 
 /* Returns `length` [m] as text with `digits` digits, in the largest unit (m, mm, ...) in which the number for `spacing`
  * [m] is at least 0.1. */
-struct length_text length_with_unit(real length, int digits, real spacing);
+struct length_text length_text_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
@@ -144,23 +144,23 @@ void print_loads(const struct run *e);
 
 /* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,
  * the mean angle between normal and axis there, and a region that would exclude this part of the face. */
-void print_face_off_axis(const struct run *e, const struct boundary *b);
+void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
  * (check_filled.c). */
-void print_filled_volume(const struct run *e);
+void print_volume_filled_by_particles(const struct run *e);
 
 /* ---- check_idle.c ------------------------------------------------------------------------------------------------ */
 
-/* Adds one line to *to with those keys of the scene that have no effect in it. Adds further lines for materials of
- * which no body consists, and for fracture criteria in scenes without bonds. No line about keys is added for a scene
- * that gives all keys, as the scene.yaml of a run does. */
-void hint_idle_keys(const struct scene *s, struct warnings *to);
+/* Adds one line to *warning_list with those keys of the scene that have no effect in it. Adds further lines for
+ * materials of which no body consists, and for fracture criteria in scenes without bonds. No line about keys is added
+ * for a scene that gives all keys, as the scene.yaml of a run does. */
+void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list);
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *to for each load whose sign, and for each setting whose size, is probably not intended. */
-void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *to);
+/* Adds a line to *warning_list for each load whose sign, and for each setting whose size, is probably not intended. */
+void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning_list);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
@@ -168,20 +168,20 @@ void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *to);
  * error and a remedy. The run must not have taken a step. */
 void print_accuracy_advice(const struct run *e, FILE *out);
 
-/* Adds a line to *to for each setting of the scene that costs more than necessary or has no effect, and for each end of
- * a crack that is exactly on bonds. The run must not have taken a step. */
-void cost_hints_list(const struct run *e, struct warnings *to);
+/* Adds a line to *warning_list for each setting of the scene that costs more than necessary or has no effect, and for
+ * each end of a crack that is exactly on bonds. The run must not have taken a step. */
+void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list);
 
-/* Writes to `out` by how much the stiffness of a part that is `layers` particle layers thick differs at most from that
- * of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The values are from a
- * table. surface: correction of bonds near faces. */
-void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layers, FILE *out);
+/* Writes to `out` by how much the stiffness of a part that is `layer_count` particle layers thick differs at most from
+ * that of the material, for example "about 2 % in bending and tension". In 3D, torsion is included. The values are from
+ * a table. surface: correction of bonds near faces. */
+void print_stiffness_error(const struct scene *s, enum surface_rule surface, double layer_count, FILE *out);
 
 /* Writes a line to `out` for each body with thin parts whose particles are read from a list and form no lattice. */
 void print_particle_list_advice(const struct run *e, FILE *out);
 
-/* Returns true if the scene equals its mirror image in the plane normal to axis `axis` through the middle of its
+/* Returns true if the scene equals its mirror image in the plane normal to axis `normal_axis` through the middle of its
  * particles. *plane_position receives the position of this plane along the axis [m] (check_symmetry.c). */
-bool scene_is_symmetric(const struct run *e, int axis, real *plane_position);
+bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position);
 
 #endif

@@ -37,11 +37,11 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "");
 }
 
-void print_separate_pieces(const struct run *e)
+void print_bodies_of_separate_pieces(const struct run *e)
 {
     struct fragments f;
     if (e->scene->method != METHOD_PD) return;
-    fragments_find(&f, &e->bonds, &e->part);
+    fragments_find_by_intact_bonds(&f, &e->bonds, &e->part);
     bool *driven = NEW("check.driven", f.n, bool);
     mark_driven(&e->source, &e->part, &f, driven);
     for (int b = 0; b < e->scene->bodies; b++) say_body(e->scene, &f, driven, b);

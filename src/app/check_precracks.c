@@ -86,7 +86,8 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);
     for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
     int64_t tied = 0;
-    const int n = cells_find_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, capacity);
+    const int n =
+        cells_list_particles_near_point(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, capacity);
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) {
             real a[DIM_MAX], b[DIM_MAX], r2 = 0;
@@ -100,7 +101,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     return tied;
 }
 
-void hint_precrack_ends(const struct run *e, struct warnings *to)
+void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *warning_list)
 {
     enum { ROOM = 1024 };
     int32_t found[ROOM];
@@ -110,15 +111,16 @@ void hint_precrack_ends(const struct run *e, struct warnings *to)
         for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
-            warnings_add(to,
-                         "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make the "
-                         "choice explicit",
-                         k + 1, both ? "its ends lie" : "an end lies", (long long)(tied[0] > 0 ? tied[0] : tied[1]),
-                         both ? " each" : "", both ? "the ends" : "the end");
+            warnings_add_if_new(
+                warning_list,
+                "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make the "
+                "choice explicit",
+                k + 1, both ? "its ends lie" : "an end lies", (long long)(tied[0] > 0 ? tied[0] : tied[1]),
+                both ? " each" : "", both ? "the ends" : "the end");
     }
 }
 
-void print_precracks(const struct run *e)
+void print_smallest_precrack_length(const struct run *e)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;

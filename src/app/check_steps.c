@@ -67,7 +67,7 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
     return INFINITY;
 }
 
-void print_load_steps(const struct run *e)
+void print_load_step_solver(const struct run *e)
 {
     static const char *const by[] = {[CONTROL_LOAD] = "of equal length",
                                      [CONTROL_ENERGY] = "at most, by energy",
@@ -108,11 +108,11 @@ static void advise_growth(const struct run *e, FILE *out)
     const struct scene *s = e->scene;
     real most = 0, before = 0, falls = NAN;
     for (int k = 0; k <= LOADS_LOOKS; k++) {
-        const real t = s->duration * k / LOADS_LOOKS, now = statics_load_size(e, t);
+        const real t = s->duration * k / LOADS_LOOKS, now = statics_norm_of_prescribed_loads(e, t);
         if (isnan(falls) && now < before - FALLS * most) falls = t;
         most = real_max(most, now), before = now;
     }
-    const real first = statics_load_size(e, 0);
+    const real first = statics_norm_of_prescribed_loads(e, 0);
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
                 "accuracy       %.3g %% of the largest loads act before the first load step: let loads grow from 0, by "
@@ -180,7 +180,7 @@ static void advise_supports(const struct run *e, FILE *out)
     }
 }
 
-void print_load_step_advice(const struct run *e, FILE *out)
+void print_load_step_accuracy_advice(const struct run *e, FILE *out)
 {
     if (!scene_has_load_steps(e->scene)) return;
     advise_growth(e, out);
@@ -226,10 +226,10 @@ static double advances_of(const struct run *e)
 
 status cost_estimate_load_steps(struct cost *c, struct run *e)
 {
-    const double began = thread_cpu_clock();
+    const double began = thread_cpu_clock_seconds();
     const real first = e->scene->duration / e->scene->steps.number;
-    TRY(engine_find_trial_equilibrium(e, first));
-    c->step = thread_cpu_clock() - began;
+    TRY(engine_find_equilibrium_for_cost_estimate(e, first));
+    c->step = thread_cpu_clock_seconds() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
     if (engine_predict_largest_stretch_ratio(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;

@@ -50,7 +50,8 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 {
     say_horizon(s, m);
     printf("; this strength needs less than %.4g m, and cracks run free of the lattice below %.4g m",
-           scene_softening_horizon(s, m, 1), scene_softening_horizon(s, m, FREE_OF_TRAPPING));
+           scene_softening_horizon_for_stretch_ratio(s, m, 1),
+           scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) say_excess(s, kappa);
     printf("\n");
 }
@@ -61,7 +62,7 @@ static void say_horizons(const struct scene *s, const struct material *m, real k
 static void print_surface(const struct scene *s, const struct material *m)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
-    const struct surface_strengths surface = material_surface_strengths(m, s->space);
+    const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
     const real horizon = s->horizon * s->spacing,
                unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
     const struct softening_strength own =
@@ -73,7 +74,7 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
-    printf("; the surface needs less than %.4g m", scene_strength_surface_horizon(s, m));
+    printf("; the surface needs less than %.4g m", scene_strength_surface_largest_horizon(s, m));
     if (surface.tension > unit)
         printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);
     if (surface.shear > own_shear)
@@ -93,7 +94,7 @@ static void print_rate(const struct material *m)
            rate->rate[last]);
 }
 
-void print_softening(const struct scene *s, const struct material *m)
+void print_softening_and_horizon_limits(const struct scene *s, const struct material *m)
 {
     static const char *const law[] = {[SOFTENING_LINEAR] = "linearly",
                                       [SOFTENING_BILINEAR] = "bilinearly",
@@ -103,7 +104,7 @@ void print_softening(const struct scene *s, const struct material *m)
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     const real kappa = square(m->critical_stretch / m->onset_stretch);
     const real unit = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch;
-    const struct softening_model model = scene_softening_model(s, m);
+    const struct softening_model model = scene_softening_model_of_bonds(s, m);
     const struct softening_strength strength = softening_model_normalised_strengths(&curve, s->space, kappa, &model);
     printf("strength       %s: %.4g Pa in tension", m->name, unit * strength.tension);
     if (s->dim > 1) printf(", %.4g Pa in equal biaxial tension", unit * strength.biaxial);

@@ -17,7 +17,8 @@
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
-    const int n = cells_find_near(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found, COUNT_OF(found));
+    const int n = cells_list_particles_near_point(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found,
+                                                  COUNT_OF(found));
     return n == 1 && found[0] < e->part.n ? found[0] : -1;
 }
 
@@ -149,8 +150,8 @@ static bool rigid_twins(const struct particles *p, const struct scene *scene, in
         particle_reference_position(p, i, X);
         memcpy(image, X, sizeof image);
         image[axis] = 2 * at - X[axis];
-        const real far = region_distance(&a->shape, X, dim, normal);
-        same = fabs(far - region_distance(&b->shape, image, dim, normal)) <= near;
+        const real far = region_signed_distance(&a->shape, X, dim, normal);
+        same = fabs(far - region_signed_distance(&b->shape, image, dim, normal)) <= near;
     }
     return same;
 }
@@ -199,30 +200,31 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
  * stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
-    const struct observed_run seen = observed_run_of(e);
+    const struct observed_run seen = observed_run_view_of(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
-        if (!probes_get_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
+        if (!probes_locate_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
         if (fabs(place[axis] - at) < radius) return false;
     }
     return true;
 }
 
-bool scene_is_symmetric(const struct run *e, int axis, real *plane_position)
+bool scene_is_symmetric_about_mid_plane(const struct run *e, int normal_axis, real *plane_position)
 {
     const struct particles *p = &e->part;
     real low, high;
     for (int b = 0; b < e->loads.n; b++)
-        if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == axis) return false;
-    particles_coordinate_range(p, p->n, axis, &low, &high);
+        if (e->loads.load[b].boundary->kind == BOUNDARY_MIRROR && e->loads.load[b].boundary->axis == normal_axis)
+            return false;
+    particles_coordinate_range(p, p->n, normal_axis, &low, &high);
     *plane_position = 0.5 * (low + high);
-    if (high - low < e->scene->spacing || !rings_clear(e, axis, *plane_position)) return false;
-    if (!rigid_bodies_agree(e->scene, &e->part, axis, *plane_position) ||
-        !growths_agree(e->scene, &e->part, axis, *plane_position))
+    if (high - low < e->scene->spacing || !rings_clear(e, normal_axis, *plane_position)) return false;
+    if (!rigid_bodies_agree(e->scene, &e->part, normal_axis, *plane_position) ||
+        !growths_agree(e->scene, &e->part, normal_axis, *plane_position))
         return false;
     int32_t *twin = NEW("check.twin", p->n, int32_t);
-    const bool same = mirror_twins_find(e, axis, *plane_position, twin) && matter_agrees(&e->part, twin) &&
-                      voids_agree(e->source.voids, twin, p->n) && loads_agree(&e->part, &e->loads, axis, twin);
+    const bool same = mirror_twins_find(e, normal_axis, *plane_position, twin) && matter_agrees(&e->part, twin) &&
+                      voids_agree(e->source.voids, twin, p->n) && loads_agree(&e->part, &e->loads, normal_axis, twin);
     memory_free(twin);
     return same;
 }

@@ -14,7 +14,7 @@ enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
  * of the width of its particles [1]. The list must not be full, or |error| must exceed 0.9 times the smallest |error|
  * in it. The factor 0.9 allows for errors of equal parts, which differ by up to a tenth because they are estimated from
  * samples. */
-bool uneven_list_accepts_error(const struct uneven_list *list, real error)
+bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error)
 {
     return list->n < UNEVEN_MOST || fabs(error) > 0.9 * fabs(list->part[list->n - 1].off);
 }
@@ -35,7 +35,7 @@ static bool same_place(const struct uneven *a, const struct uneven *b, const str
     return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
 }
 
-void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool already_listed)
+void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *u, bool already_listed)
 {
     struct uneven *part = list->part, added = *u;
     int place = list->n;
@@ -61,7 +61,7 @@ void uneven_list_add(struct uneven_list *list, const struct uneven *u, bool alre
     }
 }
 
-real piece_distance_to_surface(const struct piece *p, const real *X, int axis, real step, real max_distance)
+real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance)
 {
     enum { HALVINGS = 30 };
     real Y[DIM_MAX], inside = 0;
@@ -88,8 +88,8 @@ real piece_distance_to_surface(const struct piece *p, const real *X, int axis, r
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
-    *low = u->at[u->axis] - piece_distance_to_surface(p, u->at, u->axis, -0.05 * h, most);
-    *high = u->at[u->axis] + piece_distance_to_surface(p, u->at, u->axis, 0.05 * h, most);
+    *low = u->at[u->axis] - piece_distance_to_surface_along_axis(p, u->at, u->axis, -0.05 * h, most);
+    *high = u->at[u->axis] + piece_distance_to_surface_along_axis(p, u->at, u->axis, 0.05 * h, most);
 }
 
 /* Measures the width of the narrow part u of piece p on the line along u->axis through the point u->at. u->width must
@@ -163,7 +163,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
     fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing reduces the difference\n");
 }
 
-struct length_text length_with_unit(real length, int digits, real spacing)
+struct length_text length_text_with_unit(real length, int digits, real spacing)
 {
     const struct length_unit unit = unit_of_spacing(spacing);
     struct length_text out;
@@ -184,7 +184,7 @@ static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
     if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
 }
 
-void print_uneven_parts(struct uneven_list *list, FILE *out)
+void print_parts_of_uneven_width(struct uneven_list *list, FILE *out)
 {
     const int dim = list->piece.scene->dim;
     int measured = 0;

@@ -27,29 +27,30 @@ struct uneven_list {
 /* Returns true if a part whose cross-section has the relative error `error` [1] may be added to the list of the parts
  * with the largest errors. The list must not be full, or |error| must exceed 0.9 times the smallest error in it (errors
  * of equal parts differ a little by sampling). */
-bool uneven_list_accepts_error(const struct uneven_list *list, real error);
+bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real error);
 
 /* Adds the narrow part `part` of a body to the list, which is sorted by error and has at most UNEVEN_MOST entries. If
  * the list has a part of equal width, only the one with the larger error is kept, and its count `more` of equal parts
  * is increased. already_listed: true if another cross-section of the same part was added before; `more` is then
  * unchanged. */
-void uneven_list_add(struct uneven_list *list, const struct uneven *part, bool already_listed);
+void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
 /* Returns the distance [m] from the point X[dim] (inside the piece p) to the surface of p, along the axis `axis`, found
  * by steps and bisection. p: a body, or its part of one material. step: length of a step, whose sign is the direction
  * [m]. Returns max_distance [m] if the distance is larger. */
-real piece_distance_to_surface(const struct piece *p, const real *X, int axis, real step, real max_distance);
+real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
 /* Prints to `out` a line for each part of the list whose width was measured on a line through the part. If no width was
  * measured, prints a line for the part with the largest error. */
-void print_uneven_parts(struct uneven_list *list, FILE *out);
+void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of the piece list->piece to the list. A neck is a narrow part that widens on both sides, such as the
  * ligament between a hole and an edge. cover: lattice cells of the piece. listed_axes[cells] excludes parts that are in
  * the list already: bit d is set for cells of a listed part whose width is measured along axis d. */
-void uneven_add_necks(struct uneven_list *list, const struct run *run, const struct cover *cover, uint8_t *listed_axes);
+void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *run, const struct cover *cover,
+                                    uint8_t *listed_axes);
 
 /* Adds to the list the parts of the 1D body of list->piece whose length is no whole number of spacings. */
-void uneven_add_lengths(struct uneven_list *list);
+void uneven_list_add_parts_of_1d_body(struct uneven_list *list);
 
 #endif

@@ -17,23 +17,25 @@ static status no_benches(int argc, char **argv)
 #endif
 
 const struct command commands[] = {
-    {"run", RUN_WORDS, "runs a scene", command_run},
-    {"check", CHECK_WORDS, "what a scene would cost and whether it is sound", command_check},
-    {"new", "NAME [KIND]", "writes a commented scene to begin with, of a kind; alone it lists the kinds", command_new},
-    {"sweep", SWEEP_WORDS, "a study: runs, or lists, every combination", command_sweep},
-    {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge},
-    {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot},
-    {"report", REPORT_WORDS, "a run or a study as one page for a browser", command_report},
-    {"compare", "DIR DIR", "how far two runs are apart", command_compare},
-    {"export", EXPORT_WORDS, "a scene as input of LAMMPS, or a scene or a run as an Exodus II file", command_export},
+    {"run", RUN_WORDS, "runs a scene", command_run_main},
+    {"check", CHECK_WORDS, "what a scene would cost and whether it is sound", command_check_main},
+    {"new", "NAME [KIND]", "writes a commented scene to begin with, of a kind; alone it lists the kinds",
+     command_new_main},
+    {"sweep", SWEEP_WORDS, "a study: runs, or lists, every combination", command_sweep_main},
+    {"converge", CONVERGE_WORDS, "every figure of a scene with its error bar", command_converge_main},
+    {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot_main},
+    {"report", REPORT_WORDS, "a run or a study as one page for a browser", command_report_main},
+    {"compare", "DIR DIR", "how far two runs are apart", command_compare_main},
+    {"export", EXPORT_WORDS, "a scene as input of LAMMPS, or a scene or a run as an Exodus II file",
+     command_export_main},
     {"bench", "[NAME...] [--quick] [--readme]", "measures; without a name it lists what there is", command_bench},
     {"help", "[KEY|scene|units|expression|run|theory|trust]",
-     "every scene key; units; formulas; a run; the equations; what a run promises", command_help},
-    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},
+     "every scene key; units; formulas; a run; the equations; what a run promises", command_help_main},
+    {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info_main},
 };
 const int commands_count = COUNT_OF(commands);
 
-status command_find(const char *name, const struct command **found)
+status command_find_by_name(const char *name, const struct command **found)
 {
     const struct command *nearest = commands;
     for (int k = 0; k < commands_count; k++) {

@@ -38,25 +38,25 @@ extern const int commands_count;
     "lammps SCENE -o DIR [-s KEY=VALUE]... [-t THREADS] [--style peri|bpm] [--allow-different] "                       \
     "[--overwrite], or exodus SCENE|DIR -o FILE [-s KEY=VALUE]... [--overwrite]"
 
-status command_run(int argc, char **argv);
-status command_sweep(int argc, char **argv);
-status command_converge(int argc, char **argv);
-status command_check(int argc, char **argv);
-status command_plot(int argc, char **argv);
-status command_report(int argc, char **argv);
-status command_compare(int argc, char **argv);
-status command_new(int argc, char **argv);
-status command_export(int argc, char **argv);
-status command_help(int argc, char **argv);
-status command_info(int argc, char **argv);
+status command_run_main(int argc, char **argv);
+status command_sweep_main(int argc, char **argv);
+status command_converge_main(int argc, char **argv);
+status command_check_main(int argc, char **argv);
+status command_plot_main(int argc, char **argv);
+status command_report_main(int argc, char **argv);
+status command_compare_main(int argc, char **argv);
+status command_new_main(int argc, char **argv);
+status command_export_main(int argc, char **argv);
+status command_help_main(int argc, char **argv);
+status command_info_main(int argc, char **argv);
 
 /* Finds the command called `name` and stores a pointer to its entry of `commands` in *found. Returns REFUSED, with the
  * most similar name in the message, if there is none. */
-status command_find(const char *name, const struct command **found);
+status command_find_by_name(const char *name, const struct command **found);
 
 /* Installs handlers for signals that request the end of the program. Returns a pointer to the flag that the handlers
  * set. A second interrupt ends the program at once. */
-const volatile sig_atomic_t *stop_signals_install(void);
+const volatile sig_atomic_t *stop_signals_install_handlers(void);
 
 /* Prints one line with the version of the program and the commit of its source to `out`. */
 void version_print(FILE *out);
@@ -65,7 +65,7 @@ void version_print(FILE *out);
 void usage_print(FILE *out);
 
 /* Prints the text of `cleave COMMAND --help` for the command c to `out`. */
-void usage_print_of(FILE *out, const struct command *c);
+void usage_print_of_command(FILE *out, const struct command *c);
 
 /* Returns true if `word`, a word of the command line, is -h or --help. */
 static inline bool word_is_help_option(const char *word)
@@ -75,7 +75,7 @@ static inline bool word_is_help_option(const char *word)
 
 /* Prints the page `cleave help trust` to `out`: guarantees of a run, and the tests that check them. Returns FAILED if
  * it cannot be written. */
-status help_trust_print(FILE *out);
+status help_print_guarantees_of_runs(FILE *out);
 
 /* Prints the page `cleave help theory` to `out`: the equations with their sources. Returns FAILED if it cannot be
  * written. */
@@ -83,20 +83,20 @@ status help_theory_print(FILE *out);
 
 /* Prints the page `cleave help run` to `out`: options, files and exit statuses of a run. Returns FAILED if it cannot be
  * written. */
-status manual_run_print(FILE *out);
+status manual_print_page_on_runs(FILE *out);
 
 /* Prints the manual page cleave.1 to `out`, in troff. Returns FAILED if it cannot be written. */
 status manual_print(FILE *out);
 
 /* Finds the JSON schema of scenes, in the installation or else in the build folder of the program, and writes its path
  * to path[capacity]. Returns false if neither has one. */
-bool schema_path(char *path, size_t capacity);
+bool schema_find_file_path(char *path, size_t capacity);
 
 /* Prints the kinds of scenes that `cleave new` can write to `out`, separated by blanks. */
 void new_scene_kinds_print(FILE *out);
 
 /* Prints to `out` a script by which a shell completes the commands, options and keys of the program. shell: name of the
  * shell, bash or zsh. Returns REFUSED for another shell. */
-status completion_print(FILE *out, const char *shell);
+status completion_print_shell_script(FILE *out, const char *shell);
 
 #endif

@@ -191,7 +191,7 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
 {
     const char *why = particles_differ(a, b);
     p->dim = a->dim;
-    p->spacing = frame_spacing(a);
+    p->spacing = frame_particle_spacing(a);
     printf("\nlast common frame: t = %.7g s (A), %.7g s (B); step %lld, %lld; particles %lld, %lld\n", a->t, b->t,
            (long long)a->step, (long long)b->step, (long long)a->n, (long long)b->n);
     print_time_apart(p, a, b);
@@ -395,13 +395,13 @@ static status print_run(const char *letter, const char *folder)
     return OK;
 }
 
-status command_compare(int argc, char **argv)
+status command_compare_main(int argc, char **argv)
 {
     struct pair p = {.dim = 0};
     TRY(read_words(&p, argc, argv));
     TRY(print_run("A", p.folder[0]));
     TRY(print_run("B", p.folder[1]));
-    for (int k = 0; k < 2; k++) TRY(lammps_check_print_differences(p.folder[k]));
+    for (int k = 0; k < 2; k++) TRY(lammps_print_differences_from_export(p.folder[k]));
     TRY(compare_frames(&p));
     TRY(compare_energies(&p));
     compare_cracks(&p);

@@ -33,15 +33,15 @@ static status lammps_time_step(const char *folder, double *dt)
                             printable_name(path.text).text);
 }
 
-status lammps_frames_list(const char *folder, int *n, struct listed_frame **list)
+status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames)
 {
     double dt;
     int64_t *step;
-    *n = 0, *list = NULL;
+    *frame_count = 0, *frames = NULL;
     TRY(lammps_time_step(folder, &dt));
-    TRY(lammps_list_steps(path_join(folder, "plate.dump").text, n, &step));
-    *list = NEW("compare.frames", *n, struct listed_frame);
-    for (int k = 0; k < *n; k++) (*list)[k] = (struct listed_frame){(int)step[k], (real)step[k] * dt};
+    TRY(lammps_list_step_numbers(path_join(folder, "plate.dump").text, frame_count, &step));
+    *frames = NEW("compare.frames", *frame_count, struct listed_frame);
+    for (int k = 0; k < *frame_count; k++) (*frames)[k] = (struct listed_frame){(int)step[k], (real)step[k] * dt};
     memory_free(step);
     return OK;
 }
@@ -168,7 +168,7 @@ static void check_print(const struct check *c, const struct lammps_frame *f)
            (long long)f->n, damage);
 }
 
-status lammps_check_print_differences(const char *folder)
+status lammps_print_differences_from_export(const char *folder)
 {
     struct lammps_frame f;
     struct check c = {0};
@@ -176,7 +176,7 @@ status lammps_check_print_differences(const char *folder)
     int64_t *step;
     const struct path dump = path_join(folder, "check.dump");
     if (!run_has_file(folder, "check.dump") || !run_has_file(folder, "check.csv")) return OK;
-    TRY(lammps_list_steps(dump.text, &n, &step));
+    TRY(lammps_list_step_numbers(dump.text, &n, &step));
     const int64_t last = step[n - 1];
     memory_free(step);
     if (last == 0) return OK; /* LAMMPS has not reached this step */

@@ -7,10 +7,10 @@
 /* Returns true if the folder contains a run of LAMMPS that `cleave export lammps` has set up. */
 bool lammps_run_exists(const char *folder);
 
-/* Lists the frames of the run of LAMMPS in a folder, from its file plate.dump. Stores their number in *n and an
- * allocated array in *list, which the caller releases with memory_free. Returns FAILED if in.lammps or plate.dump
+/* Lists the frames of the run of LAMMPS in a folder, from its file plate.dump. Stores their number in *frame_count and
+ * an allocated array in *frames, which the caller releases with memory_free. Returns FAILED if in.lammps or plate.dump
  * cannot be read or has no frame. */
-status lammps_frames_list(const char *folder, int *n, struct listed_frame **list);
+status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames);
 
 /* Reads the frame with the number `frame_number` of the run of LAMMPS in a folder into *f. The frame has no stress.
  * Returns FAILED if a file of the run cannot be read or is damaged. Release f with frame_free. */
@@ -18,6 +18,6 @@ status lammps_run_read_frame(struct output_frame *f, const char *folder, int fra
 
 /* Prints the differences between the run of LAMMPS in a folder and the state that Cleave has computed, which the export
  * wrote to check.csv. Prints nothing if the folder has no check.csv. Returns FAILED if a file cannot be read. */
-status lammps_check_print_differences(const char *folder);
+status lammps_print_differences_from_export(const char *folder);
 
 #endif

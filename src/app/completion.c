@@ -88,7 +88,7 @@ static const char rest_of_zsh[] =
     "}\n"
     "compdef _cleave cleave\n";
 
-status completion_print(FILE *out, const char *shell)
+status completion_print_shell_script(FILE *out, const char *shell)
 {
     const bool bash = !strcmp(shell, "bash");
     if (!bash && strcmp(shell, "zsh") != 0)

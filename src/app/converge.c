@@ -43,7 +43,7 @@ static status budget_read(struct convergence_request *w, const char *text)
 static status converge_override(struct converge_arguments *a, const char *text)
 {
     struct varied_key *k = &a->key[a->keys];
-    TRY(varied_key_read(k, text));
+    TRY(varied_key_parse_values(k, text));
     a->keys++;
     if (k->values > 1) return status_set(REFUSED, "-s %s: one value is expected; cleave sweep varies keys", k->key);
     return OK;
@@ -67,7 +67,7 @@ static status converge_option(struct converge_arguments *a, const char *word, co
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
     else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
-        return option_picture(&a->size, word, value, usage);
+        return option_read_picture_size_or_dpi(&a->size, word, value, usage);
     else
         a->wanted[a->wanteds++] = value;
     return OK;
@@ -111,7 +111,7 @@ static status converge_place(struct converge_arguments *a)
     TRY(scene_read(&scene, w->scene, w->override, w->overrides));
     study_compose_default_folder(a->folder, sizeof a->folder, &scene, "converge");
     if (!w->folder) w->folder = a->folder;
-    const status fits = w->options.overwrite ? OK : study_folder_check_scene(w->folder, scene.text);
+    const status fits = w->options.overwrite ? OK : study_folder_check_is_usable_for_scene(w->folder, scene.text);
     scene_free(&scene);
     return fits == OK ? scalar_results_check_replaceable(w->folder) : fits;
 }
@@ -126,7 +126,7 @@ static status converge_all(struct converge_arguments *a)
     wish.wanted = a->wanted, wish.wanteds = a->wanteds;
     TRY(convergence_study_run(&s, &wish));
     study_print_warnings(&s.study, stderr);
-    status done = scalar_results_find(&s, a->wanted, a->wanteds, &figure, &figures);
+    status done = scalar_results_determine_convergence(&s, a->wanted, a->wanteds, &figure, &figures);
     if (done == OK) done = scalar_results_write(&s, figure, figures);
     if (done == OK) scalar_results_print(&s, figure, figures);
     if (done == OK) done = scalar_results_draw(&s, figure, figures);
@@ -135,7 +135,7 @@ static status converge_all(struct converge_arguments *a)
     return done;
 }
 
-status command_converge(int argc, char **argv)
+status command_converge_main(int argc, char **argv)
 {
     struct converge_arguments a = {.key = NEW("converge.keys", argc, struct varied_key),
                                    .wanted = NEW("converge.wanted", argc, const char *),
@@ -143,14 +143,14 @@ status command_converge(int argc, char **argv)
                                    .wish = {.runs = RUNS_USUAL,
                                             .levels = LEVELS_USUAL,
                                             .budget = BUDGET_USUAL,
-                                            .options.stop = stop_signals_install()}};
+                                            .options.stop = stop_signals_install_handlers()}};
     status done = converge_words(&a, argc, argv);
     picture_size_set(a.size);
     struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};
     a.wish.override = override;
     a.wish.overrides = a.keys;
-    char *words = done == OK ? study_options_make(argc, argv, a.wish.scene) : NULL;
+    char *words = done == OK ? study_options_compose_from_arguments(argc, argv, a.wish.scene) : NULL;
     a.wish.words = words;
     if (done == OK) done = converge_all(&a);
     memory_free(words);

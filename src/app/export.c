@@ -51,7 +51,7 @@ static status check_not_study(const char *scene)
                       printable_name(scene).text);
 }
 
-status command_export(int argc, char **argv)
+status command_export_main(int argc, char **argv)
 {
     struct export_request request = {0};
     struct run_arguments a;
@@ -64,7 +64,7 @@ status command_export(int argc, char **argv)
     if (!lammps && (request.bond_style || request.allow_different))
         return status_set(REFUSED, "export: --style and --allow-different are for lammps; usage: cleave %s", usage);
     TRY(arguments_read(&a, argc, argv, usage));
-    team_set_threads(a.threads);
+    team_set_thread_count(a.threads);
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
     status result =

@@ -63,8 +63,8 @@ static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
     if (answer) printf("%s: %s\n", word, answer);
-    if (answer && scene_help_knows_word(word)) putchar('\n');
-    return answer && !scene_help_knows_word(word) ? OK : scene_print_help(stdout, word);
+    if (answer && scene_help_can_explain_word(word)) putchar('\n');
+    return answer && !scene_help_can_explain_word(word) ? OK : scene_print_help_on_keys(stdout, word);
 }
 
 /* Prints the page of all scene keys, preceded by the line with which an editor finds the schema of scenes. Returns
@@ -72,11 +72,11 @@ static status help_topic(const char *word)
 static status help_scene(void)
 {
     char schema[4096];
-    if (schema_path(schema, sizeof schema))
+    if (schema_find_file_path(schema, sizeof schema))
         printf("# yaml-language-server: $schema=%s\n"
                "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n",
                schema);
-    return scene_print_help(stdout, NULL);
+    return scene_print_help_on_keys(stdout, NULL);
 }
 
 /* Returns REFUSED, with the nearest name in the message, if a word is no key or topic but at most two edits away from
@@ -85,7 +85,7 @@ static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
     const char *nearest = pages[0];
-    if (scene_help_knows_word(word) || topic_answer(word)) return OK;
+    if (scene_help_can_explain_word(word) || topic_answer(word)) return OK;
     for (size_t k = 0; k < COUNT_OF(pages); k++)
         if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
     for (int k = 0; k < commands_count; k++)
@@ -104,23 +104,23 @@ static const char *help_word(int argc, char **argv, char *joined, size_t capacit
     return argc > 1 ? joined : NULL;
 }
 
-status command_help(int argc, char **argv)
+status command_help_main(int argc, char **argv)
 {
     char joined[256];
     const bool completion = argc > 1 && !strcmp(argv[1], "--completion");
     const char *word = completion ? argv[1] : help_word(argc, argv, joined, sizeof joined);
     if (!word || !strcmp(word, "scene") || !strcmp(word, "all") || !strcmp(word, "--all")) return help_scene();
-    if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
-    if (!strcmp(word, "--schema")) return scene_print_schema(stdout);
+    if (!strcmp(word, "--completion")) return completion_print_shell_script(stdout, argc == 3 ? argv[2] : "");
+    if (!strcmp(word, "--schema")) return scene_print_json_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
-    if (!strcmp(word, "--reference")) return scene_print_reference(stdout), OK;
+    if (!strcmp(word, "--reference")) return scene_print_key_reference_as_markdown(stdout), OK;
     if (!strcmp(word, "units")) return scene_print_units(stdout), OK;
     if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_print_expressions(stdout), OK;
-    if (!strcmp(word, "run")) return manual_run_print(stdout);
-    if (!strcmp(word, "trust")) return help_trust_print(stdout);
+    if (!strcmp(word, "run")) return manual_print_page_on_runs(stdout);
+    if (!strcmp(word, "trust")) return help_print_guarantees_of_runs(stdout);
     if (!strcmp(word, "theory")) return help_theory_print(stdout);
     for (int k = 0; k < commands_count; k++)
-        if (!strcmp(word, commands[k].name)) return usage_print_of(stdout, &commands[k]), OK;
+        if (!strcmp(word, commands[k].name)) return usage_print_of_command(stdout, &commands[k]), OK;
     TRY(help_misspelt(word));
     return help_topic(word);
 }

@@ -37,8 +37,8 @@ static status call(int argc, char **argv)
     TRY(simd_select_kernels());
     if (word_is_help_option(argv[1])) return usage_print(stdout), OK;
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
-    TRY(command_find(argv[1], &c));
-    if (asks_help(argc, argv)) return usage_print_of(stdout, c), OK;
+    TRY(command_find_by_name(argv[1], &c));
+    if (asks_help(argc, argv)) return usage_print_of_command(stdout, c), OK;
     return c->call(argc - 1, argv + 1);
 }
 
@@ -73,7 +73,7 @@ int main(int argc, char **argv)
 {
     keep_descriptors();
     limit_spin(argv);
-    crash_message_install();
+    crash_message_install_signal_handlers();
     standard_streams_replace_control_characters();
     program_commit_set(CLEAVE_COMMIT);
     status result = call(argc, argv);

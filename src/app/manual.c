@@ -211,7 +211,7 @@ static bool is_of(const struct entry *e, const struct command *c)
     return of;
 }
 
-void usage_print_of(FILE *out, const struct command *c)
+void usage_print_of_command(FILE *out, const struct command *c)
 {
     fprintf(out, "cleave %s%s%s\n  %s\n", c->name, *c->words ? " " : "", c->words, c->meaning);
     for (size_t k = 0; k < COUNT_OF(options); k++) {
@@ -253,10 +253,10 @@ static bool is_of_run(const struct section *s, const struct entry *e)
 {
     const struct command *run = NULL;
     if (s->entry != options) return true;
-    return command_find("run", &run) == OK && takes_option(run, e->term) && is_of(e, run);
+    return command_find_by_name("run", &run) == OK && takes_option(run, e->term) && is_of(e, run);
 }
 
-status manual_run_print(FILE *out)
+status manual_print_page_on_runs(FILE *out)
 {
     for (size_t j = 0; j < COUNT_OF(sections); j++) {
         const struct section *s = &sections[j];
@@ -291,6 +291,6 @@ status manual_print(FILE *out)
         troff_text(out, commands[k].meaning);
     }
     for (size_t k = 1; k < COUNT_OF(sections); k++) section_troff(out, &sections[k]);
-    scene_print_manual_keys(out);
+    scene_print_keys_for_manual_page(out);
     return ferror(out) ? status_set(FAILED, "the manual page cannot be written") : OK;
 }

@@ -62,7 +62,7 @@ static status check_path(const char *path, int *length, const char **name)
 static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)
 {
     char schema[4096];
-    if (schema_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
+    if (schema_find_file_path(schema, sizeof schema)) fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
     fprintf(out,
             "# %s\n#\n"
             "# cleave check %s    says what it costs, and whether it is sound\n"
@@ -122,7 +122,7 @@ void new_scene_kinds_print(FILE *out)
     for (size_t k = 0; k < COUNT_OF(kinds); k++) fprintf(out, "%s%s", k ? " " : "", kinds[k].name);
 }
 
-status command_new(int argc, char **argv)
+status command_new_main(int argc, char **argv)
 {
     char path[PATH_LONGEST + 8];
     const struct kind *kind;

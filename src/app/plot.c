@@ -324,10 +324,10 @@ static status draw_words(const struct plot_words *w)
     TRY(check_folder(r->folder));
     const bool one = r->field || r->projection.outside || r->projection.normal >= 0 ||
                      (r->out && !is_folder_name(r->out)) || picture_is_film(r->format);
-    return one ? field_draw_picture(r) : run_draw_pictures(r);
+    return one ? field_draw_picture_or_film(r) : run_draw_standard_pictures(r);
 }
 
-status command_plot(int argc, char **argv)
+status command_plot_main(int argc, char **argv)
 {
     struct plot_words w = {.scene.override = NEW("arguments.override", argc, struct scene_override),
                            .size.dpi = PICTURE_DPI};

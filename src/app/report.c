@@ -7,7 +7,7 @@
 
 static const char usage[] = "report " REPORT_WORDS;
 
-status command_report(int argc, char **argv)
+status command_report_main(int argc, char **argv)
 {
     struct report_request r = {0};
     for (int k = 1; k < argc; k++) {
@@ -27,5 +27,5 @@ status command_report(int argc, char **argv)
             r.folder = argv[k];
     }
     if (!r.folder) return status_set(REFUSED, "report: no folder is given; usage: cleave %s", usage);
-    return report_write(&r);
+    return report_write_html_page(&r);
 }

@@ -29,9 +29,9 @@
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
-    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
     const bool in_steps = scene_has_load_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_count_longest_ends(&e->fracture->tips);
+    const int64_t tied = tips_count_ends_with_largest_growth(&e->fracture->tips);
     if (broke && in_steps)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
@@ -89,7 +89,7 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     snprintf(folder, sizeof folder, "results/%s", s->name);
     const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
     const char *to = a->folder ? a->folder : folder;
-    for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder(to, s->series[k].name));
+    for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder_is_free(to, s->series[k].name));
     TRY(output_open(out, to, s->text, mode, s->compress));
     for (int k = 0; k < s->n_series; k++) TRY(output_add_frame_series(out, s->series[k].name, &s->series[k].region));
     return OK;
@@ -103,69 +103,73 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                          int threads)
 {
     char busy[256];
-    const double start = wall_clock(), load = machine_load_average();
+    const double start = wall_clock_seconds(), load = machine_load_average();
     engine_announce_long_set_up(s);
-    TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
-    const double made = wall_clock();
+    TRY(engine_set_up_run(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
+    const double made = wall_clock_seconds();
     TRY(open_folder(out, s, a));
-    const double opened = wall_clock();
+    const double opened = wall_clock_seconds();
     e->report->began = start;
     e->report->quiet = a->quiet;
     engine_warn_of_suspicious_input(e);
-    const struct levels_choice levels = mesh_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical);
+    const struct levels_choice levels = mesh_levels_choose_level_count(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
-    if (mesh_levels_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
+    if (mesh_levels_of_scene_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse))
+        warnings_add_if_new(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
-    if (!a->quiet && machine_describe_load(busy, sizeof busy, load, machine_cores(), threads)) printf("  %s\n", busy);
-    e->report->stop = stop_signals_install();
+    if (!a->quiet && machine_describe_overload_if_any(busy, sizeof busy, load, machine_physical_core_count(), threads))
+        printf("  %s\n", busy);
+    e->report->stop = stop_signals_install_handlers();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_load_checkpoint, e));
     if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
     output_remove_vtkhdf_of_all_frames(out);
-    e->report->setup_seconds = wall_clock() - opened + made - start;
-    status ran = engine_run(e);
-    const double run = wall_clock();
-    if (ran == OK) ran = engine_run_mpm_baseline(e);
-    e->report->setup_seconds += wall_clock() - run;
+    e->report->setup_seconds = wall_clock_seconds() - opened + made - start;
+    status ran = engine_run_to_end(e);
+    const double run = wall_clock_seconds();
+    if (ran == OK) ran = engine_run_mpm_baseline_for_pulse_probe(e);
+    e->report->setup_seconds += wall_clock_seconds() - run;
     if (ran == OK || ran == INTERRUPTED) {
         const status temporal = output_write_vtkhdf_of_all_frames(out, s->text);
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];
     e->report->bar = bar;
-    e->report->bars = error_bars_read(bar, ERROR_BARS_MOST, s, out->folder);
+    e->report->bars = error_bars_read_from_convergence_study(bar, ERROR_BARS_MOST, s, out->folder);
     status written = ran == REFUSED ? OK : summary_write(e, ran, threads);
     if (ran != OK) return ran;
     TRY(written);
-    if (!a->quiet) print_summary(e, out->folder, wall_clock() - start);
+    if (!a->quiet) print_summary(e, out->folder, wall_clock_seconds() - start);
     return OK;
 }
 
-status command_run(int argc, char **argv)
+status command_run_main(int argc, char **argv)
 {
-    const volatile sig_atomic_t *stop = stop_signals_install(); /* before the scene is read, which can take seconds */
+    const volatile sig_atomic_t *stop =
+        stop_signals_install_handlers(); /* before the scene is read, which can take seconds */
     struct run_arguments a;
     struct pilot pilot;
     struct path folder = {{0}};
     const bool page = arguments_remove_option(&argc, argv, "--report");
     TRY(arguments_read(&a, argc, argv, "run " RUN_WORDS));
-    int threads = team_set_threads(a.threads);
+    int threads = team_set_thread_count(a.threads);
     struct scene s = {0};
     struct run e = {0};
     struct output out = {0};
-    status result = pilot_scene_read(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
-                                     (struct study_options){.quiet = a.quiet, .stop = stop});
+    status result = pilot_scene_read_or_choose_method(&s, &pilot, a.scene, a.override, a.overrides, a.folder,
+                                                      (struct study_options){.quiet = a.quiet, .stop = stop});
     if (result == OK) result = run_engine(&e, &s, &out, &a, threads);
-    engine_free(&e);
+    engine_free_run(&e);
     if (out.folder) snprintf(folder.text, sizeof folder.text, "%s", out.folder);
     output_close(&out);
     scene_free(&s);
     pilot_free(&pilot);
-    if (result == OK && page) result = report_write(&(struct report_request){.folder = folder.text, .quiet = a.quiet});
+    if (result == OK && page)
+        result = report_write_html_page(&(struct report_request){.folder = folder.text, .quiet = a.quiet});
     arguments_free(&a);
     return result;
 }

@@ -7,7 +7,7 @@
 
 #include "commands.h"
 
-bool schema_path(char *path, size_t capacity)
+bool schema_find_file_path(char *path, size_t capacity)
 {
     static const char *const beside[] = {"/../share/cleave/cleave.schema.json", "/cleave.schema.json"};
     char program[PATH_MAX], place[PATH_MAX + 64];

@@ -38,7 +38,7 @@ static void listen_to_signals(void)
     }
 }
 
-const volatile sig_atomic_t *stop_signals_install(void)
+const volatile sig_atomic_t *stop_signals_install_handlers(void)
 {
     static bool listens;
     if (!listens) listen_to_signals();

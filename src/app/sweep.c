@@ -21,7 +21,7 @@ struct sweep_arguments {
     const char *of[FIGURES_MOST]; /* figures of the pictures */
     int asked;
     struct picture_size size; /* of pictures */
-    char *words;              /* text of study_options_make */
+    char *words;              /* text of study_options_compose_from_arguments */
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -30,7 +30,7 @@ struct sweep_arguments {
  * it to a->key. Returns REFUSED if the key is given twice or the text is invalid. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
-    TRY(varied_key_read(&a->key[a->keys], text));
+    TRY(varied_key_parse_values(&a->key[a->keys], text));
     const char *key = a->key[a->keys++].key;
     for (int k = 0; k + 1 < a->keys; k++)
         if (strcmp(a->key[k].key, key) == 0)
@@ -65,7 +65,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (!strcmp(word, "--of"))
             TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
         else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
-            TRY(option_picture(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
+            TRY(option_read_picture_size_or_dpi(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
@@ -120,7 +120,8 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     struct study_table table;
     TRY(study_table_read(&table, s));
     status done = study_write_table(&table, s, a->key, a->keys);
-    if (done == OK && table.figures > 0) done = study_draw(&table, s, a->key, a->keys, a->of, a->asked);
+    if (done == OK && table.figures > 0)
+        done = study_draw_results_over_keys(&table, s, a->key, a->keys, a->of, a->asked);
     study_table_free(&table);
     return done;
 }
@@ -129,7 +130,8 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
  * study is in use for something else. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
-    TRY(a->options.overwrite ? study_folder_check(s->folder) : study_folder_check_scene(s->folder, s->text));
+    TRY(a->options.overwrite ? study_folder_check_is_usable(s->folder)
+                             : study_folder_check_is_usable_for_scene(s->folder, s->text));
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->options, stdout);
     return OK;
@@ -143,12 +145,12 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     TRY(study_determine_case_states(s, a->collect));
     study_print_equal_scene_count(s, stderr);
     if (a->list) return sweep_list(s, a);
-    TRY(study_check_output_files(s, a->key, a->keys));
+    TRY(study_check_output_files_replaceable(s, a->key, a->keys));
     status ran = OK;
     if (a->collect)
         TRY(study_lock_folder(s, a->options.overwrite));
     else
-        ran = study_run(s, a->options);
+        ran = study_execute_waiting_runs(s, a->options);
     if (ran != OK && ran != INTERRUPTED) return ran;
     char message[256];
     snprintf(message, sizeof message, "%s", status_message());
@@ -164,16 +166,16 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n - cases_in(s, CASE_SAME)) : OK;
 }
 
-status command_sweep(int argc, char **argv)
+status command_sweep_main(int argc, char **argv)
 {
     struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key),
                                 .size.dpi = PICTURE_DPI,
-                                .options.stop = stop_signals_install()};
+                                .options.stop = stop_signals_install_handlers()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
     picture_size_set(a.size);
     if (done == OK) {
-        a.words = study_options_make(argc, argv, a.scene);
+        a.words = study_options_compose_from_arguments(argc, argv, a.scene);
         done = sweep_all(&s, &a);
     }
     study_free(&s);

@@ -78,7 +78,7 @@ static void paragraph(FILE *out, const char *text, int indent)
     fputc('\n', out);
 }
 
-status help_trust_print(FILE *out)
+status help_print_guarantees_of_runs(FILE *out)
 {
     fputs("What a run promises, and the tests in tests/ that hold it to that (long_*: make test-long):\n\n", out);
     for (const struct promise *p = promises; p < promises + COUNT_OF(promises); p++) {

@@ -12,13 +12,14 @@ double machine_load_average(void)
     return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
-bool machine_describe_load(char *text, size_t capacity, double load, int cores, int threads)
+bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads)
 {
-    if (cores < 1 || load + threads <= cores + UNNOTICED) return false;
+    if (cores < 1 || other_process_load + threads <= cores + UNNOTICED) return false;
     snprintf(
         text, capacity,
         "other programs use %.1f of this machine's %d core%s: on %d thread%s the wall time will be about %.2g times "
         "the processor time",
-        load, cores, cores > 1 ? "s" : "", threads, threads > 1 ? "s" : "", (load + threads) / cores);
+        other_process_load, cores, cores > 1 ? "s" : "", threads, threads > 1 ? "s" : "",
+        (other_process_load + threads) / cores);
     return true;
 }

@@ -89,7 +89,7 @@ static void on_library_exit(int result, void *unused)
 }
 #endif
 
-void crash_message_install(void)
+void crash_message_install_signal_handlers(void)
 {
     static char room[1 << 16]; /* the handler needs a separate stack if the stack cannot grow */
     const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};

@@ -93,17 +93,17 @@ real tridiagonal_largest_eigenvalue(const real *diagonal, const real *off_diagon
     return high;
 }
 
-real largest_eigenvalue(int64_t n, matrix_product_fn *apply, void *context)
+real largest_eigenvalue(int64_t matrix_size, matrix_product_fn *multiply_by_matrix, void *context)
 {
     real a[ITERATIONS_MOST], b[ITERATIONS_MOST], found[ITERATIONS_MOST] = {0};
-    const int most = n < ITERATIONS_MOST ? (int)n : ITERATIONS_MOST;
+    const int most = matrix_size < ITERATIONS_MOST ? (int)matrix_size : ITERATIONS_MOST;
     int k = 0;
-    if (n == 0) return 0;
-    struct lanczos l = {n, NEW("eigenvalue.v", n, real), NEW("eigenvalue.before", n, real),
-                        NEW("eigenvalue.w", n, real)};
+    if (matrix_size == 0) return 0;
+    struct lanczos l = {matrix_size, NEW("eigenvalue.v", matrix_size, real),
+                        NEW("eigenvalue.before", matrix_size, real), NEW("eigenvalue.w", matrix_size, real)};
     eigenvalue_start(&l);
     while (k < most) {
-        b[k] = next(&l, apply, context, k > 0 ? b[k - 1] : 0, &a[k]);
+        b[k] = next(&l, multiply_by_matrix, context, k > 0 ? b[k - 1] : 0, &a[k]);
         found[k] = tridiagonal_largest_eigenvalue(a, b, k + 1);
         k++;
         if (!(b[k - 1] > EXHAUSTED * fabs(found[k - 1]))) break;

@@ -53,7 +53,7 @@ static void input_add(const struct stat *s)
     inputs[input_count++] = one;
 }
 
-void input_file_register(const char *path)
+void input_file_register_as_read(const char *path)
 {
     struct stat s;
     if (stat(path, &s) == 0) input_add(&s);
@@ -87,7 +87,7 @@ static const char *input_fault(int fd, const char *path, struct stat *s)
     return fd < 0 ? strerror(cause) : NULL;
 }
 
-status input_file_open(FILE **file, const char *path, const char *expected)
+status input_file_open(FILE **file, const char *path, const char *expected_content)
 {
     struct stat s;
     /* a pipe would block until a writer opens it */
@@ -100,6 +100,6 @@ status input_file_open(FILE **file, const char *path, const char *expected)
     }
     if (!fault) fault = strerror(errno);
     if (fd >= 0) close(fd);
-    return status_set(REFUSED, "%s: %s%s%s%s", path, fault, expected ? "; " : "", expected ? expected : "",
-                      expected ? " is expected" : "");
+    return status_set(REFUSED, "%s: %s%s%s%s", path, fault, expected_content ? "; " : "",
+                      expected_content ? expected_content : "", expected_content ? " is expected" : "");
 }

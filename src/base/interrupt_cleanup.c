@@ -52,14 +52,16 @@ static void leavings_watch(void)
     watched = true;
 }
 
-void interrupt_cleanup_register(enum cleanup_kind kind, const char *path, int process)
+void interrupt_cleanup_register(enum cleanup_kind kind, const char *file_to_remove, int child_process_id)
 {
     leavings_watch();
     leavings[kind].process = 0;
     leavings[kind].path[0] = '\0';
-    if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[kind].path, path);
-    if (process > 0) setpgid(process, process); /* as interrupt_cleanup_prepare_child, whichever is first */
-    leavings[kind].process = process;
+    if (file_to_remove && strlen(file_to_remove) < PATH_LONGEST) strcpy(leavings[kind].path, file_to_remove);
+    if (child_process_id > 0)
+        setpgid(child_process_id,
+                child_process_id); /* as interrupt_cleanup_prepare_child_process, whichever is first */
+    leavings[kind].process = child_process_id;
 }
 
 void interrupt_signals_block(bool block)
@@ -70,7 +72,7 @@ void interrupt_signals_block(bool block)
     pthread_sigmask(block ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
 }
 
-void interrupt_cleanup_prepare_child(void)
+void interrupt_cleanup_prepare_child_process(void)
 {
     setpgid(0, 0);
     interrupt_signals_block(false);

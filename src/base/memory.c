@@ -312,7 +312,7 @@ void memory_free(void *pointer)
     free(block.whole);
 }
 
-void memory_set_reuse(bool reuse)
+void memory_set_reuse_of_freed_arrays(bool reuse)
 {
 #ifdef __GLIBC__ /* the heap neither gives back pages nor merges small pieces whenever a large one is released */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);

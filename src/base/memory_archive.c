@@ -33,7 +33,7 @@ void memory_archive_make(struct memory_archive *m, enum archive_scope scope)
         .archive = {.saving = true, .exchange = exchange, .stored_size = stored_size, .scope = scope}};
 }
 
-void memory_archive_rewind(struct memory_archive *m) { m->archive.saving = false, m->next = 0; }
+void memory_archive_rewind_for_loading(struct memory_archive *m) { m->archive.saving = false, m->next = 0; }
 
 void memory_archive_free(struct memory_archive *m)
 {

@@ -224,34 +224,34 @@ static bool threads_start(int threads)
     return started;
 }
 
-int team_set_threads(int threads)
+int team_set_thread_count(int requested_threads)
 {
     struct place place;
     bool known = place_make(&place);
-    if (threads <= 0) {
+    if (requested_threads <= 0) {
         /* a process bound to places sees only one of them in its mask: count threads by places */
         if (getenv("OMP_NUM_THREADS") != NULL)
-            threads = omp_get_max_threads();
+            requested_threads = omp_get_max_threads();
         else if (user_binds())
-            threads = bound_threads();
+            requested_threads = bound_threads();
         else
-            threads = known ? core_count(&place) : omp_get_num_procs();
+            requested_threads = known ? core_count(&place) : omp_get_num_procs();
     }
-    if (!threads_start(threads)) {
+    if (!threads_start(requested_threads)) {
         fprintf(
             stderr,
             "%d threads cannot be started: no memory for their stacks, or a limit of processes; choose fewer with -t\n",
-            threads);
+            requested_threads);
         _exit(FAILED);
     }
     omp_set_dynamic(0); /* a fixed number: partitions must not change between loops */
-    omp_set_num_threads(threads);
-    flush_tiny_numbers(threads);
+    omp_set_num_threads(requested_threads);
+    flush_tiny_numbers(requested_threads);
     if (known) {
-        if (!user_binds()) bind_helpers(&place, threads);
+        if (!user_binds()) bind_helpers(&place, requested_threads);
         place_free(&place);
     }
-    return threads;
+    return requested_threads;
 }
 
 /* ---- shares of the cores ----------------------------------------------------------------------------------------- */
@@ -262,7 +262,7 @@ struct core_shares {
     int n, cores;
 };
 
-int machine_cores(void)
+int machine_physical_core_count(void)
 {
     struct place place;
     if (!place_make(&place)) return omp_get_num_procs();
@@ -271,20 +271,20 @@ int machine_cores(void)
     return cores;
 }
 
-struct core_shares *core_shares_make(int shares)
+struct core_shares *core_shares_make(int share_count)
 {
     struct core_shares *s = NEW("team.shares", 1, struct core_shares);
     if (place_make(&s->place)) {
-        s->n = shares;
+        s->n = share_count;
         s->cores = core_count(&s->place);
-        if (shares > 1 && shares <= s->cores && core_at(&s->place, s->cores - 1)) return s;
+        if (share_count > 1 && share_count <= s->cores && core_at(&s->place, s->cores - 1)) return s;
         place_free(&s->place);
     }
     memory_free(s);
     return NULL;
 }
 
-void core_share_bind(const struct core_shares *s, int share_number)
+void core_share_bind_calling_thread(const struct core_shares *s, int share_number)
 {
     if (!s || share_number >= s->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
@@ -320,17 +320,18 @@ static void sum_block(int64_t n, int terms, void (*block)(const void *context, i
     for (int k = 0; k < terms; k++) part[k] = own[k];
 }
 
-void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+void reproducible_sums(int64_t term_count, int sum_count,
+                       void (*add_block_of_terms)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum)
 {
-    int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
-    real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
-    INVARIANT(terms <= TERMS_MAX);
-    TEAM_LOOP(blocks > 1,
-              for (int64_t b = 0; b < blocks; b++) sum_block(n, terms, block, context, b, part + b * terms););
-    for (int k = 0; k < terms; k++) sum[k] = 0;
+    int64_t blocks = (term_count + SUM_BLOCK - 1) / SUM_BLOCK;
+    real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * sum_count, real);
+    INVARIANT(sum_count <= TERMS_MAX);
+    TEAM_LOOP(blocks > 1, for (int64_t b = 0; b < blocks; b++)
+                              sum_block(term_count, sum_count, add_block_of_terms, context, b, part + b * sum_count););
+    for (int k = 0; k < sum_count; k++) sum[k] = 0;
     for (int64_t b = 0; b < blocks; b++)
-        for (int k = 0; k < terms; k++) sum[k] += part[b * terms + k];
+        for (int k = 0; k < sum_count; k++) sum[k] += part[b * sum_count + k];
     if (part != few) memory_free(part);
 }
 
@@ -355,15 +356,15 @@ static void single_block(const void *context, int64_t first, int64_t end, real *
 /* Returns element i of the array `context` of real numbers, as a term of a sum. */
 static real stored_term(const void *context, int64_t i) { return ((const real *)context)[i]; }
 
-real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
+real reproducible_sum(int64_t term_count, real (*term)(const void *context, int64_t i), const void *context)
 {
     real sum, few[FEW_TERMS];
     struct single s = {term, context};
-    if (n <= FEW_TERMS) {
-        terms_store(n, &s, few);
+    if (term_count <= FEW_TERMS) {
+        terms_store(term_count, &s, few);
         s = (struct single){stored_term, few};
     }
-    reproducible_sums(n, 1, single_block, &s, &sum);
+    reproducible_sums(term_count, 1, single_block, &s, &sum);
     return sum;
 }
 
@@ -377,20 +378,20 @@ static double clock_read(clockid_t which)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double wall_clock(void) { return clock_read(CLOCK_MONOTONIC); }
+double wall_clock_seconds(void) { return clock_read(CLOCK_MONOTONIC); }
 
-double thread_cpu_clock(void) { return clock_read(CLOCK_THREAD_CPUTIME_ID); }
+double thread_cpu_clock_seconds(void) { return clock_read(CLOCK_THREAD_CPUTIME_ID); }
 
 const char *const timer_name[TIMERS] = {
     [TIMER_BONDS] = "bonds",     [TIMER_SCATTER] = "scatter", [TIMER_GRID] = "grid",     [TIMER_GATHER] = "gather",
     [TIMER_CONVERT] = "convert", [TIMER_SAMPLE] = "sample",   [TIMER_OUTPUT] = "output",
 };
 
-void timers_start(struct timers *timers) { *timers = (struct timers){.last = wall_clock()}; }
+void timers_start(struct timers *timers) { *timers = (struct timers){.last = wall_clock_seconds()}; }
 
-void timer_add_elapsed(struct timers *timers, enum timer which)
+void timer_add_elapsed_to_section(struct timers *timers, enum timer section)
 {
-    double now = wall_clock();
-    timers->spent[which] += now - timers->last;
+    double now = wall_clock_seconds();
+    timers->spent[section] += now - timers->last;
     timers->last = now;
 }

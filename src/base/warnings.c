@@ -9,7 +9,7 @@
 
 enum { WARNING_LONGEST = 1024 };
 
-bool warnings_add(struct warnings *w, const char *format, ...)
+bool warnings_add_if_new(struct warnings *w, const char *format, ...)
 {
     char text[WARNING_LONGEST];
     va_list arguments;
@@ -25,24 +25,24 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     return true;
 }
 
-void warnings_append_from(struct warnings *w, const struct warnings *from, int first)
+void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning)
 {
-    for (int k = first; k < from->n; k++) warnings_add(w, "%s", from->text[k]);
+    for (int k = first_warning; k < source_list->n; k++) warnings_add_if_new(w, "%s", source_list->text[k]);
 }
 
-void warnings_print(const struct warnings *w, int first, FILE *out)
+void warnings_print(const struct warnings *w, int first_warning, FILE *out)
 {
-    for (int k = first; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
+    for (int k = first_warning; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
 }
 
-void warnings_print_to_stderr(const struct warnings *w, int first)
+void warnings_print_to_stderr(const struct warnings *w, int first_warning)
 {
-    if (!w->silent) warnings_print(w, first, stderr);
+    if (!w->silent) warnings_print(w, first_warning, stderr);
 }
 
 void warnings_add_and_print(struct warnings *w, const char *text)
 {
-    if (warnings_add(w, "%s", text)) warnings_print_to_stderr(w, w->n - 1);
+    if (warnings_add_if_new(w, "%s", text)) warnings_print_to_stderr(w, w->n - 1);
 }
 
 /* Saves all warnings to the archive a as one text, each with its terminating zero, or adds the saved ones to w. Returns
@@ -59,7 +59,7 @@ status warnings_save_or_load(struct warnings *w, struct archive *a)
     for (int k = 0; k < w->n && a->saving; k++) to = stpcpy(to, w->text[k]) + 1;
     const status s = a->exchange(a, "warnings/text", text, (size_t)length);
     for (const char *from = text; s == OK && !a->saving && from < text + length; from += strlen(from) + 1)
-        warnings_add(w, "%s", from);
+        warnings_add_if_new(w, "%s", from);
     memory_free(text);
     return s;
 }

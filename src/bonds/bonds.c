@@ -37,7 +37,7 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int capacity, uint8_t *wanted, uint8_t *fresh)
 {
-    const int n = particle_find_neighbours(map, s, p, (int32_t)i, found, capacity);
+    const int n = particle_find_neighbours_within_cutoff(map, s, p, (int32_t)i, found, capacity);
     if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
     for (int k = 0; k < n; k++)
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
@@ -73,7 +73,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 /* Returns the micro-moduli c of bonds for all pairs of materials of s, divided by that of material 0: 2 c_a c_b/(c_a
  * + c_b) between materials a and b; all 1 for state-based models. Release the array `ratio` of the table with
  * memory_free. */
-struct pair_table material_pair_table_make(const struct bond_source *s)
+struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
@@ -138,7 +138,7 @@ static void rows_arrays(struct bonds *b)
     b->stencil = NEW("bonds.stencil", b->row_blocks, const struct stencil *);
     b->implicit = NEW("bonds.implicit", b->row_blocks, uint8_t);
     b->changed = NEW("bonds.changed", b->row_blocks, uint8_t);
-    active_set_make(&b->active, b->row_blocks);
+    active_set_make_with_all_blocks_active(&b->active, b->row_blocks);
 }
 
 /* Inputs and results of the two passes over the row blocks: the first one counts their columns, the second one fills
@@ -171,9 +171,9 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
 {
     const struct row_maker *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
-    return m->map->at && !pass->b->changed[g] && row_block_row_count(pass->b, g) == LANES &&
+    return m->map->at && !pass->b->changed[g] && bond_row_block_row_count(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           row_block_find_lattice_bonds(m->map, m->source, m->p, particle[0], &room->regular);
+           bond_row_block_compute_lattice_bonds(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
 /* Replaces *reach by |distance| if that is larger. */
@@ -190,7 +190,7 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
         if (particle[0] + room->regular.offset[k] < n) reach_widen(&room->reach, room->regular.offset[k]);
-    for (int l = 0; !regular && l < row_block_row_count(pass->b, g); l++)
+    for (int l = 0; !regular && l < bond_row_block_row_count(pass->b, g); l++)
         for (int k = 0; k < room->row[l].n; k++)
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
@@ -202,7 +202,7 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
 {
     struct bonds *b = pass->b;
     const struct row_maker *m = &pass->maker;
-    const int rows = row_block_row_count(b, g);
+    const int rows = bond_row_block_row_count(b, g);
     const int32_t *particle = b->particle + g * LANES;
     int64_t made = 0;
     bool by_offset;
@@ -211,21 +211,21 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
         if (pass->count)
             b->column_count[g] = regular_bonds_count_columns(&room->regular), note_reach(pass, room, g, true);
         else
-            row_block_fill_lattice_bonds(b, room, g, m);
-        return regular_bonds_count(&room->regular);
+            bond_row_block_fill_from_lattice_bonds(b, room, g, m);
+        return regular_bonds_count_directed_bonds(&room->regular);
     }
-    if (pass->found && pass->found[g]) rows_restore_found_neighbours(pass->found[g], room->row, rows);
+    if (pass->found && pass->found[g]) bond_rows_restore_found_neighbours(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
-        if (!pass->found || !pass->found[g]) row_find_neighbours(&room->row[l], m, particle[l]);
-        if (!pass->count) row_compute_weights(&room->row[l], m, particle[l]);
+        if (!pass->found || !pass->found[g]) bond_row_find_neighbours(&room->row[l], m, particle[l]);
+        if (!pass->count) bond_row_compute_lengths_and_weights(&room->row[l], m, particle[l]);
         made += room->row[l].n;
     }
-    const int columns = row_block_count_columns(room, particle, rows, &by_offset);
+    const int columns = bond_row_block_count_columns(room, particle, rows, &by_offset);
     if (pass->count)
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else
-        row_block_fill(b, room, g, rows, by_offset, m->p);
-    if (pass->count && pass->found) pass->found[g] = rows_save_found_neighbours(room->row, rows);
+        bond_row_block_fill_columns_from_rows(b, room, g, rows, by_offset, m->p);
+    if (pass->count && pass->found) pass->found[g] = bond_rows_save_found_neighbours(room->row, rows);
     return made;
 }
 
@@ -240,7 +240,7 @@ static void rows_pass_begin(struct rows_pass *pass)
     pass->list = BARE("bonds.list", b->row_blocks, int64_t);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        const int64_t from = pass->kept[g] = row_block_find_equal_previous(b, m, g);
+        const int64_t from = pass->kept[g] = bond_row_block_find_equal_previous(b, m, g);
         if (from >= 0) b->column_count[g] = m->old->column_count[from];
     }
     for (int64_t g = 0; g < b->row_blocks; g++)
@@ -257,12 +257,12 @@ static void rows_pass(const struct rows_pass *pass)
 #pragma omp parallel reduction(max : reach)
     {
         struct row_block_buffer room = {0};
-        row_block_buffer_make(&room, m->room, m->map);
+        bond_row_block_buffer_make(&room, m->room, m->map);
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < pass->n; k++)
             pass->b->made[pass->list[k]] = (int32_t)row_block_pass(pass, &room, pass->list[k]);
         reach = room.reach;
-        row_block_buffer_free(&room);
+        bond_row_block_buffer_free(&room);
     }
     const int32_t row_blocks = (reach + LANES - 1) / LANES;
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
@@ -276,7 +276,7 @@ static void rows_pass_end(const struct rows_pass *pass)
     int64_t made = 0;
 #pragma omp parallel for schedule(static) reduction(+ : made)
     for (int64_t g = 0; g < b->row_blocks; g++) {
-        if (pass->kept[g] >= 0) row_block_copy_from_previous(b, pass->maker.old, g, pass->kept[g]);
+        if (pass->kept[g] >= 0) bond_row_block_copy_from_previous_bonds(b, pass->maker.old, g, pass->kept[g]);
         made += b->made[g];
     }
     b->n = made;
@@ -287,7 +287,7 @@ static void rows_pass_end(const struct rows_pass *pass)
  * then kept for the second pass. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
-    struct pair_table pairs = material_pair_table_make(maker.source);
+    struct pair_table pairs = material_pair_table_make_of_micro_moduli(maker.source);
     maker.pairs = &pairs;
     struct rows_pass pass = {.b = b,
                              .maker = maker,
@@ -323,7 +323,7 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
 {
     memset(b, 0, sizeof *b);
     if (previous) b->reach = previous->reach; /* covers the row blocks that are kept */
-    b->stencils = stencils_share_or_make(previous ? previous->stencils : NULL);
+    b->stencils = stencils_share_or_make_table(previous ? previous->stencils : NULL);
     struct site_map *map = site_map_share_or_make(previous ? previous->site_map : NULL, s, p);
     int most = bonds_neighbour_count_bound(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
@@ -332,8 +332,8 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
     rows_list(b, previous, p, wanted);
     memory_free(wanted);
     rows_arrays(b);
-    bonds_allocate_softening(b, previous, s, p);
-    bonds_state_prepare(b, s);
+    bonds_allocate_softening_state(b, previous, s, p);
+    bonds_prepare_state_based_model(b, s);
 
     bonds_rows_make(b,
                     (struct row_maker){.old = previous, .source = s, .p = p, .fresh = fresh, .map = map, .room = most});
@@ -353,24 +353,24 @@ void bonds_make(struct bonds *b, struct bonds *previous, struct particles *p, co
         if (b->whole[r])
             p->damage[b->particle[r]] = b->family_volume[r] > 0 ? b->broken_volume[r] / b->family_volume[r] : 0;
     }
-    bonds_state_make(b, p, s);
-    clamped_bonds_make(b, p, s);
+    bonds_make_state_based_arrays(b, p, s);
+    clamped_bonds_list_at_clamped_mirrors(b, p, s);
 #ifdef CLEAVE_ASSERT
-    const char *fault = bonds_find_inconsistency(b);
+    const char *fault = bonds_describe_first_inconsistency(b);
     if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
 #endif
 }
 
-void mirror_images_copy_kinds(struct particles *p, const struct bond_source *s)
+void mirror_images_copy_particle_kinds(struct particles *p, const struct bond_source *s)
 {
     for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
 }
 
-void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *s)
+void bonds_rebuild_after_particle_kind_change(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     struct bonds old = *b;
-    mirror_images_copy_kinds(p, s);
-    particles_update_kind_lists(p);
+    mirror_images_copy_particle_kinds(p, s);
+    particles_rebuild_lists_by_kind(p);
     bonds_make(b, &old, p, s);
     for (int64_t row = 0; row < old.rows; row++) {
         const int32_t i = old.particle[row];
@@ -401,7 +401,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->implicit);
     memory_free(b->changed);
     memory_free(b->holes.hole);
-    stencils_free(b->stencils);
+    stencils_release_table(b->stencils);
     site_map_release(b->site_map);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
@@ -413,7 +413,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->soft.settled);
     memory_free(b->soft.needed), memory_free(b->soft.dilatation), memory_free(b->soft.rate),
         memory_free(b->soft.beyond);
-    bonds_state_free(b);
+    bonds_free_state_based_arrays(b);
     clamped_bonds_free(b);
     active_set_free(&b->active);
     memory_free(b->trigger);

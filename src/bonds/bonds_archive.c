@@ -48,7 +48,7 @@ status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *
     const bool whole = a->scope == ARCHIVE_ALL;
     if (whole) {
         TRY(weights_archive(b, a));
-        TRY(softening_save_or_load(b, a));
+        TRY(softening_save_or_load_bond_states(b, a));
         b->clamped.stale = true;
     }
     if (b->plastic_stretch) {

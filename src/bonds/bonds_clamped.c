@@ -40,7 +40,7 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
-    for (int l = 0; l < row_block_row_count(b, g); l++) {
+    for (int l = 0; l < bond_row_block_row_count(b, g); l++) {
         const struct bond bond = bond_read(b, g, k, l);
         if (bond.w == 0 || bond.nbr < p->n || !is[bond.nbr - p->n]) continue;
         if (c->entry) {
@@ -110,7 +110,7 @@ static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p
     memory_free(of);
 }
 
-void clamped_bonds_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     struct clamped *c = &b->clamped;
     uint8_t *is = clamped_images(s, p);

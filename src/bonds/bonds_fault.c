@@ -57,7 +57,7 @@ static const char *reach_fault(const struct bonds *b, int64_t row)
     return NULL;
 }
 
-const char *bonds_find_inconsistency(const struct bonds *b)
+const char *bonds_describe_first_inconsistency(const struct bonds *b)
 {
     const char *fault = rows_fault(b);
     for (int64_t g = 0; g < b->row_blocks && !fault; g++) {

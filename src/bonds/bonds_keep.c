@@ -4,14 +4,14 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t row_block_find_equal_previous(const struct bonds *b, const struct row_maker *m, int64_t g)
+int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *m, int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
-    const int rows = row_block_row_count(b, g);
-    if (first < 0 || first % LANES != 0 || row_block_row_count(m->old, first / LANES) != rows) return -1;
+    const int rows = bond_row_block_row_count(b, g);
+    if (first < 0 || first % LANES != 0 || bond_row_block_row_count(m->old, first / LANES) != rows) return -1;
     for (int l = 0; l < rows; l++)
-        if (m->old->row_of[particle[l]] != first + l || !row_previous_is_still_valid(m, particle[l])) return -1;
+        if (m->old->row_of[particle[l]] != first + l || !bond_row_previous_is_still_valid(m, particle[l])) return -1;
     return first / LANES;
 }
 
@@ -46,34 +46,36 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
     }
 }
 
-void row_block_copy_from_previous(struct bonds *b, const struct bonds *previous, int64_t g, int64_t previous_row_block)
+void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t g,
+                                             int64_t previous_row_block)
 {
-    b->stencil[g] = previous->stencil[previous_row_block];
-    b->implicit[g] = previous->implicit[previous_row_block], b->changed[g] = previous->changed[previous_row_block];
-    if (!b->implicit[g] && b->w != previous->w) columns_keep(b, previous, g, previous_row_block);
+    b->stencil[g] = previous_bonds->stencil[previous_row_block];
+    b->implicit[g] = previous_bonds->implicit[previous_row_block],
+    b->changed[g] = previous_bonds->changed[previous_row_block];
+    if (!b->implicit[g] && b->w != previous_bonds->w) columns_keep(b, previous_bonds, g, previous_row_block);
     if (b->soft.curve)
-        b->soft.begun[g] = previous->soft.begun[previous_row_block],
-        b->soft.due[g] = previous->soft.due[previous_row_block];
-    b->made[g] = previous->made[previous_row_block];
-    b->aligned[g] = previous->aligned[previous_row_block];
+        b->soft.begun[g] = previous_bonds->soft.begun[previous_row_block],
+        b->soft.due[g] = previous_bonds->soft.due[previous_row_block];
+    b->made[g] = previous_bonds->made[previous_row_block];
+    b->aligned[g] = previous_bonds->aligned[previous_row_block];
     if (b->state.weighted)
-        memcpy(b->state.weighted + g * LANES, previous->state.weighted + previous_row_block * LANES,
+        memcpy(b->state.weighted + g * LANES, previous_bonds->state.weighted + previous_row_block * LANES,
                LANES * sizeof(real));
-    memcpy(b->trigger + g * LANES, previous->trigger + previous_row_block * LANES, LANES * sizeof *b->trigger);
-    memcpy(b->family_volume + g * LANES, previous->family_volume + previous_row_block * LANES,
+    memcpy(b->trigger + g * LANES, previous_bonds->trigger + previous_row_block * LANES, LANES * sizeof *b->trigger);
+    memcpy(b->family_volume + g * LANES, previous_bonds->family_volume + previous_row_block * LANES,
            LANES * sizeof *b->family_volume);
-    memcpy(b->broken_volume + g * LANES, previous->broken_volume + previous_row_block * LANES,
+    memcpy(b->broken_volume + g * LANES, previous_bonds->broken_volume + previous_row_block * LANES,
            LANES * sizeof *b->broken_volume);
 }
 
-struct row_block_found *rows_save_found_neighbours(const struct row *row, int rows)
+struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count)
 {
     int64_t n = 0;
-    for (int l = 0; l < rows; l++) n += row[l].n;
+    for (int l = 0; l < row_count; l++) n += row[l].n;
     struct row_block_found *found =
         memory_new_uninitialised("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
     int32_t *to = found->nbr;
-    for (int l = 0; l < rows; l++) {
+    for (int l = 0; l < row_count; l++) {
         found->n[l] = row[l].n, found->family_volume[l] = row[l].family_volume;
         array_copy(to, row[l].nbr, row[l].n, sizeof *to);
         to += row[l].n;
@@ -81,11 +83,11 @@ struct row_block_found *rows_save_found_neighbours(const struct row *row, int ro
     return found;
 }
 
-void rows_restore_found_neighbours(const struct row_block_found *found, struct row *row, int rows)
+void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count)
 {
-    const int32_t *from = found->nbr;
-    for (int l = 0; l < rows; l++) {
-        row[l].n = found->n[l], row[l].family_volume = found->family_volume[l];
+    const int32_t *from = saved->nbr;
+    for (int l = 0; l < row_count; l++) {
+        row[l].n = saved->n[l], row[l].family_volume = saved->family_volume[l];
         array_copy(row[l].nbr, from, row[l].n, sizeof *from);
         from += row[l].n;
     }

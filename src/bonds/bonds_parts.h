@@ -27,18 +27,19 @@ struct pair_table {
 };
 
 /* Allocates the arrays of `row` (the bonds of one particle under construction) for up to `capacity` bonds. Release with
- * row_buffer_free. */
-void row_buffer_make(struct row *row, int capacity);
+ * bond_row_buffer_free. */
+void bond_row_buffer_make(struct row *row, int capacity);
 
 /* Releases the arrays of `row`. */
-void row_buffer_free(struct row *row);
+void bond_row_buffer_free(struct row *row);
 
 /* Lists the neighbours of particle or image i within the cutoff in `neighbour`, in ascending order and without those
  * behind a void, whose bond would cross it. capacity: capacity of `neighbour`; map: from lattice sites to particles,
  * used where possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds
  * `capacity`, the list is incomplete. */
-int particle_find_neighbours(const struct site_map *map, const struct bond_source *source, const struct particles *p,
-                             int32_t i, int32_t *neighbour, int capacity);
+int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
+                                           const struct particles *p, int32_t particle, int32_t *neighbour,
+                                           int capacity);
 
 /* Inputs from which rows are made; a row holds all bonds of one particle. */
 struct row_maker {
@@ -53,58 +54,59 @@ struct row_maker {
 
 /* Allocates the softening data of the bonds b of the particles p. Does nothing if all bonds are brittle. previous:
  * bonds before a rebuild, whose softening is kept, NULL if there are none; source: inputs of the bonds. */
-void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
-                              const struct particles *p);
+void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                                    const struct particles *p);
 
 /* Sets the softening state of the bonds in `row`, the row of particle i, whose neighbours have been found: copied from
  * the previous row of the particle in maker->old, or, for bonds that are not in it, that of bonds that have not begun
  * to soften. */
-void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i);
+void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns true if row number `row` (all bonds of one particle) has an intact bond that has not begun to soften. */
-bool row_has_unsoftened_bond(const struct bonds *b, int64_t row);
+bool bond_row_has_unsoftened_bond(const struct bonds *b, int64_t row);
 
 /* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
  * (bonds_strength.c). */
 #define SURFACE_NEAR 0.8
 
-/* Copies the softening state of the bonds in row `previous_row` of `previous` to row `row` of b, the row of the same
- * particle. new_index: index in p of each particle and image of `previous`, -1 if it is not in p; limit: critical
- * stretches and softening by pair of materials. */
-void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                              const struct bonds *previous, int64_t previous_row, const int32_t *new_index);
+/* Copies the softening state of the bonds in row `previous_row` of `previous_bonds` to row `row` of b, the row of the
+ * same particle. new_index: index in p of each particle and image of `previous_bonds`, -1 if it is not in p; limit:
+ * critical stretches and softening by pair of materials. */
+void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                 int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
+                                 const int32_t *new_index);
 
 /* Saves the softening state of all bonds to the archive `a` if a->saving, else restores it from there, and with it two
  * marks of each row block (bonds of eight particles): whether a bond in it has begun to soften, and whether one may
  * begin to before the next computation of forces. To be restored after the columns of changed row blocks. Returns
  * FAILED if an entry is missing or its size differs. */
-status softening_save_or_load(struct bonds *b, struct archive *a);
+status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
 /* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
  * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
  * peridynamic. */
-static inline bool row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
+static inline bool bond_row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
 {
     const int64_t before = maker->old ? maker->old->row_of[i] : -1;
     return before >= 0 && ((maker->old->whole[before] && maker->p->kind[i] == KIND_PD) || !maker->fresh[i]);
 }
 
 /* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
-void row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t i);
+void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Computes lengths and weights of the bonds from particle i to the neighbours in row->nbr and stores them in `row`.
  * Bonds that are broken in the previous bonds maker->old are broken in `row`, too; the plastic state of bonds is copied
  * from there. */
-void row_compute_weights(struct row *row, const struct row_maker *maker, int32_t i);
+void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
  * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
-int64_t row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
+int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `previous_row_block` of the bonds `previous` to row block `row_block` of b: stencil, flags, limits
- * and volumes, and the columns unless b has taken over the column arrays of `previous`. */
-void row_block_copy_from_previous(struct bonds *b, const struct bonds *previous, int64_t row_block,
-                                  int64_t previous_row_block);
+/* Copies row block `previous_row_block` of the bonds `previous_bonds` to row block `row_block` of b: stencil, flags,
+ * limits and volumes, and the columns unless b has taken over the column arrays of `previous_bonds`. */
+void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
+                                             int64_t previous_row_block);
 
 /* Neighbours of the rows of a row block (bonds of eight particles), stored between the pass that counts columns and the
  * pass that fills them. */
@@ -113,12 +115,12 @@ struct row_block_found {
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
 };
 
-/* Returns a newly allocated copy of the neighbours of the first `rows` rows in the array `row`. Release with
+/* Returns a newly allocated copy of the neighbours of the first `row_count` rows in the array `row`. Release with
  * memory_free. */
-struct row_block_found *rows_save_found_neighbours(const struct row *row, int rows);
+struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count);
 
-/* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
-void rows_restore_found_neighbours(const struct row_block_found *found, struct row *row, int rows);
+/* Copies the neighbours saved in `saved` back to the first `row_count` rows of the array `row`. */
+void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count);
 
 /* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays.
  * previous_row_block[row blocks]: number of the previous row block in maker->old whose columns are used again in place,
@@ -132,11 +134,12 @@ void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker 
 void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
-bool particle_is_near_crack_or_void(const struct bond_source *source, const struct particles *p, int64_t i);
+bool particle_is_near_precrack_or_void(const struct bond_source *source, const struct particles *p, int64_t particle);
 
 /* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
  * breaking: its critical stretch less a tolerance for round-off [1]. */
-real bond_breaking_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j);
+real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
+                                           int32_t particle, int32_t other_particle);
 
 /* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
  * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
@@ -156,23 +159,25 @@ struct regular_bonds {
     struct stencil_cache *stencil_cache;
 };
 
-/* Allocates `to` for the largest number of index distances that bonds on the lattice of the map can have. Release with
- * regular_bonds_free. */
-void regular_bonds_make(struct regular_bonds *to, const struct site_map *map);
+/* Allocates `bonds` for the largest number of index distances that bonds on the lattice of the map can have. Release
+ * with regular_bonds_free. */
+void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struct site_map *map);
 
-/* Releases the arrays of `to`. */
-void regular_bonds_free(struct regular_bonds *to);
+/* Releases the arrays of `bonds`. */
+void regular_bonds_free(struct regular_bonds *bonds);
 
-/* Lists the neighbours of the eight particles i to i + 7 in `to`, by index distance, from the map `map` of lattice
- * sites. Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
-bool regular_bonds_find_on_lattice(const struct site_map *map, const struct particles *p, int64_t i,
-                                   struct regular_bonds *to);
+/* Lists the neighbours of the eight particles i to i + 7 in `found_bonds`, by index distance, from the map `map` of
+ * lattice sites. Returns false if the map does not contain all sites needed, so that the neighbours must be searched
+ * for. */
+bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
+                                            int64_t first_particle, struct regular_bonds *found_bonds);
 
-/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find_on_lattice does, without regard to
- * pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is near
- * one of them. */
+/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find_for_eight_particles does, without regard
+ * to pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is
+ * near one of them. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
-                                        const struct particles *p, int64_t i, struct regular_bonds *to);
+                                        const struct particles *p, int64_t first_particle,
+                                        struct regular_bonds *found_bonds);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
  * quickly (bonds_stencil_cache.c). map: of the lattice sites. Release with stencil_cache_free. */
@@ -184,32 +189,34 @@ void stencil_cache_free(struct stencil_cache *t);
 /* Searches the cache for a row block whose bonds equal the bonds b of particles i to i + 7 bit by bit (lengths, weights
  * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of the row block found; -1 if
  * there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not found are added to the
- * cache. weights: inputs besides lattice sites on which weights depend; NULL if there are none. */
-int64_t stencil_cache_find_equal_row_block(const struct regular_bonds *bonds, const struct bond_source *weights,
-                                           int64_t i);
+ * cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
+int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
+                                                const struct bond_source *weight_inputs, int64_t first_particle);
 
-/* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
+/* Computes inverse length `inverse_length` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
  * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
-                                   const struct pair_table *pairs, int64_t i, int64_t j, real *inverse, real *weight);
+                                   const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
+                                   real *inverse_length, real *weight);
 
-/* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
- * is not possible, e.g. because a crack is near. */
-bool row_block_find_lattice_bonds(const struct site_map *map, const struct bond_source *source,
-                                  const struct particles *p, int64_t i, struct regular_bonds *to);
+/* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `found_bonds`. Returns false
+ * if that is not possible, e.g. because a crack is near. */
+bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *source,
+                                          const struct particles *p, int64_t first_particle,
+                                          struct regular_bonds *found_bonds);
 
 /* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
 int regular_bonds_count_columns(const struct regular_bonds *bonds);
 
 /* Returns the number of directed bonds of eight particles on a lattice. */
-int regular_bonds_count(const struct regular_bonds *bonds);
+int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
  * `ratio` with memory_free. */
-struct pair_table material_pair_table_make(const struct bond_source *s);
+struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s);
 
 /* Returns the number of rows in row block `row_block`: eight, except for the last row block. */
-static inline int row_block_row_count(const struct bonds *b, int64_t row_block)
+static inline int bond_row_block_row_count(const struct bonds *b, int64_t row_block)
 {
     return count_of_eight_indices_below(row_block * LANES, b->rows);
 }
@@ -227,88 +234,91 @@ struct row_block_buffer {
 };
 
 /* Allocates the working memory `buffer` in which one thread makes row blocks. capacity: largest number of bonds of a
- * row; map: map of lattice sites. Release with row_block_buffer_free. */
-void row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
+ * row; map: map of lattice sites. Release with bond_row_block_buffer_free. */
+void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
 
 /* Releases the working memory `buffer`. */
-void row_block_buffer_free(struct row_block_buffer *buffer);
+void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 
 /* Returns the number of columns that the bonds in buffer->row[0] to buffer->row[rows - 1] need. particle: the particles
- * of these rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without
- * gaps. */
-int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int rows, bool *by_offset);
+ * of these rows. *one_offset_per_column: set to true if each column has one index distance, to false if rows are packed
+ * without gaps. */
+int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
+                                 bool *one_offset_per_column);
 
-/* Fills the columns of row block `row_block` of b from the first `rows` rows of bonds in `buffer`, and sets breaking
- * limits, family volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
-void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block, int rows, bool by_offset,
-                    const struct particles *p);
+/* Fills the columns of row block `row_block` of b from the first `row_count` rows of bonds in `buffer`, and sets
+ * breaking limits, family volumes and alignment of the row block. one_offset_per_column: result of
+ * bond_row_block_count_columns. */
+void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
+                                           int row_count, bool one_offset_per_column, const struct particles *p);
 
 /* Fills row block `row_block` of b from the bonds in buffer->regular, which were found without a search, because its
  * eight particles are consecutive on one lattice. maker: parameters of the bonds. */
-void row_block_fill_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
-                                  const struct row_maker *maker);
+void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
+                                            const struct row_maker *maker);
 
 /* Stores the columns in `buffer` as columns of row block `row_block`, or, if their bonds equal those of a known
  * stencil, makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
-void row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
-                                        const struct particles *p);
+void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
+                                             const struct particles *p);
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
 void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
 /* Finds the lattice shell, i.e. the whole number k > 0 with bond lengths spacing sqrt(k), of eight bonds with the
- * inverse lengths `inverse` [1/m]. Stores in excess[LANES] by how many units in the last place each inverse length
- * differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the bonds have no common
- * shell. */
-int bonds_find_lattice_shell(const struct bonds *b, const real *inverse, int16_t *excess);
+ * inverse lengths `inverse_length` [1/m]. Stores in round_off_units[LANES] by how many units in the last place each
+ * inverse length differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the bonds have
+ * no common shell. */
+int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `existing` with one more user, or a new
- * table if `existing` is NULL (bonds_stencils.c). Release with stencils_free. */
-struct stencils *stencils_share_or_make(struct stencils *existing);
+ * table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
+struct stencils *stencils_share_or_make_table(struct stencils *existing);
 
 /* Removes one user of the table of stencils p; the last user releases it. */
-void stencils_free(struct stencils *stencils);
+void stencils_release_table(struct stencils *stencils);
 
-/* Allocates the stencil p for up to `columns` columns. Release with stencil_free. */
-void stencil_make(struct stencil *stencil, int columns);
+/* Allocates the stencil p for up to `max_columns` columns. Release with stencil_free. */
+void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 
 /* Releases the arrays of the stencil p. */
 void stencil_free(struct stencil *stencil);
 
-/* Appends the column `from` (eight bonds) of the row block with the consecutive particles i to i + 7 to the stencil
- * `to`. A lane of `from` with w = 0 and inverse_length = 0 has no bond. Returns false, and leaves an unusable stencil,
- * if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
-bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
-                        const struct column_copy *from);
+/* Appends the column `added_column` (eight bonds) of the row block with the consecutive particles i to i + 7 to the
+ * stencil `stencil`. A lane of `added_column` with w = 0 and inverse_length = 0 has no bond. Returns false, and leaves
+ * an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
+bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
+                        int64_t first_particle, const struct column_copy *added_column);
 
-/* Returns the stencil in the table `all` that is equal to `stencil`, after comparing with `likely` first; adds a copy
- * to the table if there is none. Returns NULL if the table is full. */
-const struct stencil *stencil_find_or_add(struct stencils *all, const struct stencil *stencil,
-                                          const struct stencil *likely);
+/* Returns the stencil in the table `table` that is equal to `stencil`, after comparing with `first_guess` first; adds a
+ * copy to the table if there is none. Returns NULL if the table is full. */
+const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
+                                          const struct stencil *first_guess);
 
-/* Makes row block `row_block` use the stencil of the row block that contains particle `cached`, so that it needs no
+/* Makes row block `row_block` use the stencil of the row block that contains particle `particle`, so that it needs no
  * stored columns; breaking limits and family volumes are copied from there, too. If cached = -1, `row_block` uses the
  * stencil that it already has. Returns false, and changes nothing, if there is no stencil. */
-bool row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t cached);
+bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
-/* Writes the eight bonds `from` to column number `column` of the bond arrays. */
-void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
+/* Writes the eight bonds `bonds` to column number `column_number` of the bond arrays. */
+void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds);
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
  * (bonds_state.c). Does nothing for bond-based models. */
-void bonds_state_prepare(struct bonds *b, const struct bond_source *source);
+void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
  * weighted volumes; call after all rows were made. Does nothing for bond-based models. */
-void bonds_state_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
+void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state. */
-void bonds_state_free(struct bonds *b);
+void bonds_free_state_based_arrays(struct bonds *b);
 
 /* Lists in b->clamped the bonds to mirror images in clamped planes, planes of symmetry along which motion is prevented,
  * too. To be called after all rows were made (bonds_clamped.c). */
-void clamped_bonds_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
+void clamped_bonds_list_at_clamped_mirrors(struct bonds *b, const struct particles *p,
+                                           const struct bond_source *source);
 
 /* Releases the lists in b->clamped. */
 void clamped_bonds_free(struct bonds *b);

@@ -10,7 +10,7 @@
  * hides no broken bond; the scalar test of the reported bonds is exact. */
 #define TRIGGER_MARGIN 1e-9
 
-void row_buffer_make(struct row *row, int capacity)
+void bond_row_buffer_make(struct row *row, int capacity)
 {
     row->nbr = BARE("bonds.row", capacity + 1, int32_t); /* room for one more: row_copy may write it */
     row->inverse_length = BARE("bonds.row", capacity + 1, real);
@@ -19,7 +19,7 @@ void row_buffer_make(struct row *row, int capacity)
     row->soft = BARE("bonds.row", capacity + 1, struct bond_softness);
 }
 
-void row_buffer_free(struct row *row)
+void bond_row_buffer_free(struct row *row)
 {
     memory_free(row->nbr);
     memory_free(row->inverse_length);
@@ -37,7 +37,7 @@ static int family_search(const struct bond_source *s, const struct particles *p,
 {
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    int n = cells_find_near(s->cells, p, X, s->family.cutoff, i, found, capacity), kept = 0;
+    int n = cells_list_particles_near_point(s->cells, p, X, s->family.cutoff, i, found, capacity), kept = 0;
     if (n > capacity) return n;
     for (int k = 0; k < n; k++)
         if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
@@ -55,12 +55,13 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
     return kept;
 }
 
-int particle_find_neighbours(const struct site_map *map, const struct bond_source *s, const struct particles *p,
-                             int32_t i, int32_t *neighbour, int capacity)
+int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *s,
+                                           const struct particles *p, int32_t particle, int32_t *neighbour,
+                                           int capacity)
 {
-    int n = map && map->at && i < p->n ? site_map_find_neighbours(map, p, i, neighbour) : -1;
-    if (n < 0) n = family_search(s, p, i, neighbour, capacity);
-    return n > capacity ? n : family_seen(s, p, i, neighbour, n);
+    int n = map && map->at && particle < p->n ? site_map_list_neighbours_of_particle(map, p, particle, neighbour) : -1;
+    if (n < 0) n = family_search(s, p, particle, neighbour, capacity);
+    return n > capacity ? n : family_seen(s, p, particle, neighbour, n);
 }
 
 int bonds_neighbour_count_bound(const struct bond_source *source)
@@ -69,28 +70,29 @@ int bonds_neighbour_count_bound(const struct bond_source *source)
     return cells_neighbour_count_bound(source->cells, source->family.cutoff);
 }
 
-bool precracks_cut_bond_between(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
+bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
+                                int64_t particle, int64_t other_particle)
 {
     real a[DIM_MAX], b[DIM_MAX];
-    particle_reference_position(p, i, a);
-    particle_reference_position(p, j, b);
-    for (int c = 0; c < cracks; c++)
-        if (crack_cuts_bond(&crack[c], a, b, p->dim)) return true;
+    particle_reference_position(p, particle, a);
+    particle_reference_position(p, other_particle, b);
+    for (int c = 0; c < precrack_count; c++)
+        if (crack_cuts_bond(&precrack[c], a, b, p->dim)) return true;
     return false;
 }
 
-bool particle_is_near_crack(const struct bond_source *source, const struct particles *p, int64_t i)
+bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle)
 {
     real X[DIM_MAX];
-    particle_reference_position(p, i, X);
+    particle_reference_position(p, particle, X);
     for (int c = 0; c < source->cracks; c++)
         if (crack_may_cut_bonds_near(&source->crack[c], X, source->family.cutoff, p->dim)) return true;
     return false;
 }
 
-bool particle_is_near_crack_or_void(const struct bond_source *source, const struct particles *p, int64_t i)
+bool particle_is_near_precrack_or_void(const struct bond_source *source, const struct particles *p, int64_t particle)
 {
-    return particle_is_beside_void(source->voids, i) || particle_is_near_crack(source, p, i);
+    return particle_is_beside_void(source->voids, particle) || particle_is_near_precrack(source, p, particle);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
@@ -116,7 +118,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int capacity)
 {
-    int n = particle_find_neighbours(map, s, p, i, row->nbr, capacity), kept = 0;
+    int n = particle_find_neighbours_within_cutoff(map, s, p, i, row->nbr, capacity), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -159,14 +161,15 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch above which the vector test reports bond i-j: the stretch at which the bond breaks or begins to
- * soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the strain rate, which is measured from there
- * on. */
-real bond_breaking_test_stretch(const struct bond_source *source, const struct particles *p, int32_t i, int32_t j)
+/* Returns the stretch above which the vector test reports bond i-other_particle: the stretch at which the bond breaks
+ * or begins to soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the strain rate, which is
+ * measured from there on. */
+real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
+                                           int32_t particle, int32_t other_particle)
 {
     const struct bond_limit *limit = &source->limit;
-    const real onset = bond_softening_range(p, limit, i, j).onset * (1 - TRIGGER_MARGIN);
-    const int pair = p->material[i] * limit->materials + p->material[j];
+    const real onset = bond_softening_range(p, limit, particle, other_particle).onset * (1 - TRIGGER_MARGIN);
+    const int pair = p->material[particle] * limit->materials + p->material[other_particle];
     return limit->softening && limit->softening[pair].rate ? RATE_FROM * onset : onset;
 }
 
@@ -176,7 +179,7 @@ real bond_breaking_test_stretch(const struct bond_source *source, const struct p
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
-    const bool near = particle_is_near_crack(s, p, i);
+    const bool near = particle_is_near_precrack(s, p, i);
     row->trigger = INFINITY, row->cut_volume = 0;
     for (int k = 0; k < row->n; k++) {
         int32_t j = row->nbr[k];
@@ -188,7 +191,7 @@ static void row_weigh(struct row *row, const struct bond_source *s, const struct
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        row->trigger = real_min(row->trigger, bond_breaking_test_stretch(s, p, i, j));
+        row->trigger = real_min(row->trigger, bond_stretch_that_triggers_exact_test(s, p, i, j));
     }
 }
 
@@ -250,22 +253,22 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
     row->cut_volume = old->broken_volume[old_row];
 }
 
-void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
+void bond_row_find_neighbours(struct row *row, const struct row_maker *m, int32_t particle)
 {
-    if (row_previous_is_still_valid(m, i))
-        row_copy_neighbours(row, m->old, m->old->row_of[i]);
+    if (bond_row_previous_is_still_valid(m, particle))
+        row_copy_neighbours(row, m->old, m->old->row_of[particle]);
     else
-        row_search(row, m->map, m->source, m->p, i, m->room);
+        row_search(row, m->map, m->source, m->p, particle, m->room);
 }
 
-void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
+void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *m, int32_t particle)
 {
-    const int64_t before = m->old ? m->old->row_of[i] : -1;
-    if (m->source->limit.softening) row_set_softening(row, m, i);
-    if (row_previous_is_still_valid(m, i)) {
+    const int64_t before = m->old ? m->old->row_of[particle] : -1;
+    if (m->source->limit.softening) bond_row_set_softening_state(row, m, particle);
+    if (bond_row_previous_is_still_valid(m, particle)) {
         row_copy(row, m->old, before);
         return;
     }
-    row_weigh(row, m->source, m->p, m->pairs, i);
+    row_weigh(row, m->source, m->p, m->pairs, particle);
     if (before >= 0) row_inherit(row, m->p, m->old, before);
 }

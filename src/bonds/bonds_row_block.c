@@ -33,18 +33,19 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Returns the number of columns of a row block (rows of eight particles). Stores in *by_offset how its bonds are
- * arranged: true if all bonds of a column have one index distance (neighbour minus particle), false if each row has
- * its bonds in the first columns, without gaps. The latter is used off a lattice, where columns by distance would be
- * mostly padding. particle[rows]: particles of the rows. */
-int row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int rows, bool *by_offset)
+/* Returns the number of columns of a row block (rows of eight particles). Stores in *one_offset_per_column how its
+ * bonds are arranged: true if all bonds of a column have one index distance (neighbour minus particle), false if each
+ * row has its bonds in the first columns, without gaps. The latter is used off a lattice, where columns by distance
+ * would be mostly padding. particle[rows]: particles of the rows. */
+int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
+                                 bool *one_offset_per_column)
 {
     int longest = 0;
-    for (int l = 0; l < rows; l++)
+    for (int l = 0; l < row_count; l++)
         if (buffer->row[l].n > longest) longest = buffer->row[l].n;
-    int offsets = row_block_offsets(buffer, particle, rows);
-    *by_offset = columns_should_use_offsets(offsets, longest);
-    return *by_offset ? offsets : longest;
+    int offsets = row_block_offsets(buffer, particle, row_count);
+    *one_offset_per_column = columns_should_use_offsets(offsets, longest);
+    return *one_offset_per_column ? offsets : longest;
 }
 
 /* Returns the index of the pair of materials of particles i and j in the table b->yield. */
@@ -90,7 +91,7 @@ static bool row_has(const struct row_block_buffer *room, const int32_t *particle
 }
 
 /* Stores the softening of the bonds of row block g (rows of eight particles, `rows` used) if one of them has begun
- * to soften, in the columns in which row_block_fill has put the bonds. */
+ * to soften, in the columns in which bond_row_block_fill_columns_from_rows has put the bonds. */
 static void row_block_fill_softness(struct bonds *b, const struct row_block_buffer *buffer, int64_t g, int rows)
 {
     bool begun = false;
@@ -105,8 +106,8 @@ static void row_block_fill_softness(struct bonds *b, const struct row_block_buff
                                                                          : buffer->row[l].soft[used[l]++]);
 }
 
-void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int rows, bool by_offset,
-                    const struct particles *p)
+void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t g, int row_count,
+                                           bool one_offset_per_column, const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
     int used[LANES] = {0}, columns = b->column_count[g];
@@ -114,11 +115,12 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
         struct column_copy *column = &buffer->column[k];
         for (int l = 0; l < LANES; l++) {
             const struct row *row = &buffer->row[l];
-            const int64_t other = by_offset ? particle[l] + (l < rows ? buffer->offset[k] : 0) : particle[l];
+            const int64_t other =
+                one_offset_per_column ? particle[l] + (l < row_count ? buffer->offset[k] : 0) : particle[l];
             /* padding may point to any particle */
             column->nbr[l] = other < 0 || other >= p->n_all ? particle[l] : (int32_t)other;
             column->inverse_length[l] = column->w[l] = 0;
-            if (l >= rows || !row_has(buffer, particle, l, used[l], by_offset, k)) continue;
+            if (l >= row_count || !row_has(buffer, particle, l, used[l], one_offset_per_column, k)) continue;
             const int n = used[l]++;
             column->nbr[l] = row->nbr[n], column->inverse_length[l] = row->inverse_length[n], column->w[l] = row->w[n];
             if (b->plastic_stretch)
@@ -129,9 +131,9 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
         for (int l = 1; l < LANES; l++) consecutive = consecutive && column->nbr[l] == column->nbr[0] + l;
         column->first = consecutive ? column->nbr[0] : -1;
     }
-    if (b->soft.curve) row_block_fill_softness(b, buffer, g, rows);
-    row_block_note(b, buffer, g, rows);
-    row_block_store_columns_or_stencil(b, buffer, g, p);
+    if (b->soft.curve) row_block_fill_softness(b, buffer, g, row_count);
+    row_block_note(b, buffer, g, row_count);
+    bond_row_block_store_columns_or_stencil(b, buffer, g, p);
 }
 
 /* Makes room->stencil for row block g (rows of eight particles) from the columns in `room`. A stencil describes each
@@ -147,15 +149,15 @@ static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int
     return true;
 }
 
-void row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
-                                        const struct particles *p)
+void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
+                                             const struct particles *p)
 {
     b->stencil[g] =
         stencil_of(b, buffer, g, p) ? stencil_find_or_add(b->stencils, &buffer->stencil, buffer->likely) : NULL;
     b->implicit[g] = b->stencil[g] != NULL;
     if (b->implicit[g]) buffer->likely = b->stencil[g];
     for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++)
-        bond_column_write(b, b->column[g] + k, &buffer->column[k]);
+        bond_column_write_eight_bonds(b, b->column[g] + k, &buffer->column[k]);
 }
 
 /* Returns which of the particles i .. i + 7 are peridynamic, as bits 0 .. 7. */
@@ -166,23 +168,26 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
     return (uint8_t)bits;
 }
 
-bool row_block_find_lattice_bonds(const struct site_map *map, const struct bond_source *s, const struct particles *p,
-                                  int64_t i, struct regular_bonds *to)
+bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *s,
+                                          const struct particles *p, int64_t first_particle,
+                                          struct regular_bonds *found_bonds)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
-    if (!regular_bonds_find_on_lattice(map, p, i, to)) return false;
+    if (!regular_bonds_find_for_eight_particles(map, p, first_particle, found_bonds)) return false;
     for (int l = 0; l < LANES; l++)
-        if (particle_is_near_crack_or_void(s, p, i + l)) return false;
-    const uint8_t own = peridynamic(p, i);
-    if (own == UINT8_MAX && to->full) {
-        array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);
-        return columns_should_use_offsets(to->n, to->n);
+        if (particle_is_near_precrack_or_void(s, p, first_particle + l)) return false;
+    const uint8_t own = peridynamic(p, first_particle);
+    if (own == UINT8_MAX && found_bonds->full) {
+        array_fill_bytes(found_bonds->bonds, UINT8_MAX, found_bonds->n, 1);
+        return columns_should_use_offsets(found_bonds->n, found_bonds->n);
     }
-    for (int k = 0; k < to->n; k++) {
-        const unsigned family = (2u << to->to[k]) - (1u << to->from[k]);
-        to->bonds[k] = (uint8_t)(family & (own == UINT8_MAX ? own : own | peridynamic(p, i + to->offset[k])));
-        for (int l = 0; l < LANES; l++) bonds[l] += to->bonds[k] >> l & 1;
-        columns += to->bonds[k] != 0;
+    for (int k = 0; k < found_bonds->n; k++) {
+        const unsigned family = (2u << found_bonds->to[k]) - (1u << found_bonds->from[k]);
+        found_bonds->bonds[k] =
+            (uint8_t)(family &
+                      (own == UINT8_MAX ? own : own | peridynamic(p, first_particle + found_bonds->offset[k])));
+        for (int l = 0; l < LANES; l++) bonds[l] += found_bonds->bonds[k] >> l & 1;
+        columns += found_bonds->bonds[k] != 0;
     }
     for (int l = 0; l < LANES; l++) longest = bonds[l] > longest ? bonds[l] : longest;
     return columns_should_use_offsets(columns, longest);
@@ -195,7 +200,7 @@ int regular_bonds_count_columns(const struct regular_bonds *bonds)
     return columns;
 }
 
-int regular_bonds_count(const struct regular_bonds *bonds)
+int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds)
 {
     int sum = 0;
     for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
@@ -226,8 +231,8 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
         trigger[l] = INFINITY;
         for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
             if (bonds->bonds[k] >> l & 1)
-                trigger[l] =
-                    real_min(trigger[l], bond_breaking_test_stretch(m->source, m->p, i + l, i + bonds->offset[k] + l));
+                trigger[l] = real_min(trigger[l], bond_stretch_that_triggers_exact_test(m->source, m->p, i + l,
+                                                                                        i + bonds->offset[k] + l));
     }
 }
 
@@ -244,14 +249,15 @@ static bool whole_families(const struct regular_bonds *bonds)
 /* Fills row block g (rows of eight particles) from the bonds in buffer->regular, which follow from the map of
  * lattice sites. If the particles have bonds to all their neighbours, and a recent row block had equal bonds, its
  * stencil and its sums over bonds are used again. */
-void row_block_fill_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
-                                  const struct row_maker *m)
+void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t g,
+                                            const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &buffer->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
-    const bool follows = whole_families(bonds) && row_block_use_stencil_of_particle(
-                                                      b, g, stencil_cache_find_equal_row_block(bonds, m->source, i));
+    const bool follows =
+        whole_families(bonds) &&
+        bond_row_block_use_stencil_of_particle(b, g, stencil_cache_particle_with_equal_bonds(bonds, m->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
     if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
@@ -263,25 +269,25 @@ void row_block_fill_lattice_bonds(struct bonds *b, struct row_block_buffer *buff
     }
     for (int l = 0; l < LANES; l++) b->family_volume[g * LANES + l] = (float)family_volume[l];
     b->aligned[g] = true;
-    row_block_store_columns_or_stencil(b, buffer, g, m->p);
+    bond_row_block_store_columns_or_stencil(b, buffer, g, m->p);
 }
 
 /* Allocates working memory for row blocks (rows of eight particles each) whose rows have up to `capacity` bonds, for
  * the worst case. Little of it is ever touched, as the arrays are not cleared. map: map of lattice sites. Release it
- * with row_block_buffer_free. */
-void row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
+ * with bond_row_block_buffer_free. */
+void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map)
 {
     buffer->room = capacity;
-    for (int l = 0; l < LANES; l++) row_buffer_make(&buffer->row[l], capacity);
+    for (int l = 0; l < LANES; l++) bond_row_buffer_make(&buffer->row[l], capacity);
     buffer->offset = BARE("bonds.offset", (int64_t)LANES * capacity + 1, int32_t);
-    regular_bonds_make(&buffer->regular, map);
-    stencil_make(&buffer->stencil, LANES * capacity + 1);
+    regular_bonds_allocate_for_lattice(&buffer->regular, map);
+    stencil_allocate_columns(&buffer->stencil, LANES * capacity + 1);
     buffer->column = BARE("bonds.column_copy", (int64_t)LANES * capacity + 1, struct column_copy);
 }
 
-void row_block_buffer_free(struct row_block_buffer *buffer)
+void bond_row_block_buffer_free(struct row_block_buffer *buffer)
 {
-    for (int l = 0; l < LANES; l++) row_buffer_free(&buffer->row[l]);
+    for (int l = 0; l < LANES; l++) bond_row_buffer_free(&buffer->row[l]);
     memory_free(buffer->offset);
     regular_bonds_free(&buffer->regular);
     stencil_free(&buffer->stencil);

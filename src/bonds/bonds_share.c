@@ -21,29 +21,30 @@ void lattice_shell_lengths_make(struct bonds *b, real spacing)
         b->shell_length[k] = (struct bond_length){1 / (spacing * sqrt(k)), spacing * sqrt(k), square(spacing) * k};
 }
 
-int bonds_find_lattice_shell(const struct bonds *b, const real *inverse, int16_t *excess)
+int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, int16_t *round_off_units)
 {
     int one = 0;
-    while (one < LANES - 1 && inverse[one] == 0) one++;
-    const real squares = square(b->shell_length[1].inverse / inverse[one]);
+    while (one < LANES - 1 && inverse_length[one] == 0) one++;
+    const real squares = square(b->shell_length[1].inverse / inverse_length[one]);
     if (!(squares >= 0.5 && squares < BOND_SHELLS - 0.5)) return 0;
     const int lattice = (int)(squares + 0.5);
     const int64_t zero = bits_of(b->shell_length[lattice].inverse);
     int64_t outside = 0;
     for (int l = 0; l < LANES; l++) {
-        const int64_t units = inverse[l] == 0 ? 0 : bits_of(fabs(inverse[l])) - zero;
+        const int64_t units = inverse_length[l] == 0 ? 0 : bits_of(fabs(inverse_length[l])) - zero;
         outside |= units != (int16_t)units;
-        excess[l] = (int16_t)units;
+        round_off_units[l] = (int16_t)units;
     }
     return outside ? 0 : lattice;
 }
 
-void bond_column_update_common_properties(const struct bonds *b, int64_t column)
+void bond_column_update_common_properties(const struct bonds *b, int64_t column_number)
 {
-    const real *w = b->w + column * LANES;
-    struct bond_column *c = &b->common[column];
-    *c = (struct bond_column){.first = b->first[column], .begun = b->soft.curve ? c->begun : 0};
-    if (c->first >= 0) c->shell = (uint8_t)bonds_find_lattice_shell(b, b->inverse_length + column * LANES, c->excess);
+    const real *w = b->w + column_number * LANES;
+    struct bond_column *c = &b->common[column_number];
+    *c = (struct bond_column){.first = b->first[column_number], .begun = b->soft.curve ? c->begun : 0};
+    if (c->first >= 0)
+        c->shell = (uint8_t)bonds_find_lattice_shell(b, b->inverse_length + column_number * LANES, c->excess);
     c->alike = c->shell != 0;
     bool same = w[0] != 0;
     for (int l = 1; l < LANES; l++) same &= w[l] == w[0];

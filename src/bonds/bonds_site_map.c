@@ -21,12 +21,12 @@ enum { HALF_MOST = 16 };
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
 /* Returns the index in `map` of the lattice site at which particle i is; -1 if its position is not a lattice site. */
-int64_t site_map_find_site(const struct site_map *map, const struct particles *p, int64_t i)
+int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
         real k;
-        if (!lattice_contains_coordinate(p->X[d][i], map->low[d], map->spacing, &k)) return -1;
+        if (!lattice_contains_coordinate(p->X[d][particle], map->low[d], map->spacing, &k)) return -1;
         site += map->stride[d] * (map->reach + (int64_t)k);
     }
     return site;
@@ -77,13 +77,13 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = site_map_find_site(l, p, i);
-        regular =
-            regular && site >= 0 && (i == 0 || site_map_find_site(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        const int64_t site = site_map_lattice_site_of_particle(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || site_map_lattice_site_of_particle(l, p, i - 1) < site) &&
+                  p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = site_map_find_site(l, p, k);
+        const int64_t site = site_map_lattice_site_of_particle(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -124,7 +124,7 @@ static bool is_uniform(const struct site_map *l, const struct particles *p)
     return same;
 }
 
-bool site_map_make(struct site_map *map, const struct bond_source *s, const struct particles *p)
+bool site_map_make_if_on_lattice(struct site_map *map, const struct bond_source *s, const struct particles *p)
 {
     const struct family *f = &s->family;
     *map = (struct site_map){.spacing = f->spacing, .reach = (int)floor(f->cutoff / f->spacing)};
@@ -152,7 +152,7 @@ struct site_map *site_map_share_or_make(struct site_map *existing, const struct 
                                         const struct particles *p)
 {
     struct site_map *l = existing ? existing : NEW("bonds.sites", 1, struct site_map);
-    if (!existing) site_map_make(l, s, p);
+    if (!existing) site_map_make_if_on_lattice(l, s, p);
     l->users++;
     return l;
 }
@@ -164,14 +164,15 @@ void site_map_release(struct site_map *map)
     memory_free(map);
 }
 
-int site_map_find_neighbours(const struct site_map *map, const struct particles *p, int32_t i, int32_t *neighbour)
+int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
+                                         int32_t *neighbour)
 {
-    const int32_t *own = map->at + site_map_find_site(map, p, i);
+    const int32_t *own = map->at + site_map_lattice_site_of_particle(map, p, particle);
     int n = 0;
     for (int k = 0; k < map->rows; k++)
         for (int a = -map->row[k].half; a <= map->row[k].half; a++) {
             const int32_t j = own[map->row[k].site + a] - 1;
-            if (j < 0 || j == i) continue;
+            if (j < 0 || j == particle) continue;
             if (j >= p->n) return -1;
             neighbour[n++] = j;
         }
@@ -214,53 +215,57 @@ static bool is_full(const struct regular_bonds *b)
     return other == 0;
 }
 
-bool regular_bonds_find_on_lattice(const struct site_map *map, const struct particles *p, int64_t i,
-                                   struct regular_bonds *to)
+bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
+                                            int64_t first_particle, struct regular_bonds *found_bonds)
 {
-    const int64_t site = site_map_find_site(map, p, i);
+    const int64_t site = site_map_lattice_site_of_particle(map, p, first_particle);
     int number = 0;
-    to->n = 0;
+    found_bonds->n = 0;
     if (map->at[site + LANES - 1] - map->at[site] != LANES - 1) return false;
     for (int k = 0; k < map->rows; k++) {
-        if (!row_bonds(map, p, site, &map->row[k], i, number, to)) return false;
+        if (!row_bonds(map, p, site, &map->row[k], first_particle, number, found_bonds)) return false;
         number += 2 * map->row[k].half + (map->row[k].site != 0);
     }
-    to->full = is_full(to);
-    if (to->full) return columns_should_use_offsets(to->n, to->n);
+    found_bonds->full = is_full(found_bonds);
+    if (found_bonds->full) return columns_should_use_offsets(found_bonds->n, found_bonds->n);
     int bonds[LANES] = {0}, longest = 0;
-    for (int k = 0; k < to->n; k++)
-        for (int lane = 0; lane < LANES; lane++) bonds[lane] += lane >= to->from[k] && lane <= to->to[k];
+    for (int k = 0; k < found_bonds->n; k++)
+        for (int lane = 0; lane < LANES; lane++)
+            bonds[lane] += lane >= found_bonds->from[k] && lane <= found_bonds->to[k];
     for (int lane = 0; lane < LANES; lane++) longest = bonds[lane] > longest ? bonds[lane] : longest;
-    return columns_should_use_offsets(to->n, longest);
+    return columns_should_use_offsets(found_bonds->n, longest);
 }
 
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
-                                        const struct particles *p, int64_t i, struct regular_bonds *to)
+                                        const struct particles *p, int64_t first_particle,
+                                        struct regular_bonds *found_bonds)
 {
-    if (!map->at || i + LANES > p->n || !regular_bonds_find_on_lattice(map, p, i, to)) return false;
+    if (!map->at || first_particle + LANES > p->n ||
+        !regular_bonds_find_for_eight_particles(map, p, first_particle, found_bonds))
+        return false;
     for (int lane = 0; lane < LANES; lane++)
-        if (particle_is_beside_void(source->voids, i + lane)) return false;
+        if (particle_is_beside_void(source->voids, first_particle + lane)) return false;
     return true;
 }
 
-void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
+void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struct site_map *l)
 {
-    to->offset = NEW("site_map.offset", l->most, int32_t);
-    to->number = NEW("site_map.number", l->most, int16_t);
-    to->from = NEW("site_map.from", l->most, uint8_t);
-    to->to = NEW("site_map.to", l->most, uint8_t);
-    to->bonds = NEW("site_map.bonds", l->most, uint8_t);
-    to->stencil_cache = stencil_cache_make_for_thread(l);
+    bonds->offset = NEW("site_map.offset", l->most, int32_t);
+    bonds->number = NEW("site_map.number", l->most, int16_t);
+    bonds->from = NEW("site_map.from", l->most, uint8_t);
+    bonds->to = NEW("site_map.to", l->most, uint8_t);
+    bonds->bonds = NEW("site_map.bonds", l->most, uint8_t);
+    bonds->stencil_cache = stencil_cache_make_for_thread(l);
 }
 
-void regular_bonds_free(struct regular_bonds *to)
+void regular_bonds_free(struct regular_bonds *bonds)
 {
-    memory_free(to->offset);
-    memory_free(to->number);
-    memory_free(to->from);
-    memory_free(to->to);
-    memory_free(to->bonds);
-    stencil_cache_free(to->stencil_cache);
+    memory_free(bonds->offset);
+    memory_free(bonds->number);
+    memory_free(bonds->from);
+    memory_free(bonds->to);
+    memory_free(bonds->bonds);
+    stencil_cache_free(bonds->stencil_cache);
 }
 
 /* Computes inverse length [1/m] and weight [1] of the bonds from particle i + l to j + l for l = 0 .. 7, in
@@ -304,17 +309,18 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
 }
 
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
-                                   const struct pair_table *pairs, int64_t i, int64_t j, real *inverse, real *w)
+                                   const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
+                                   real *inverse_length, real *w)
 {
     switch (p->dim) {
     case 1:
-        weigh(source, p, pairs, i, j, inverse, w, 1);
+        weigh(source, p, pairs, first_particle, first_neighbour, inverse_length, w, 1);
         break;
     case 2:
-        weigh(source, p, pairs, i, j, inverse, w, 2);
+        weigh(source, p, pairs, first_particle, first_neighbour, inverse_length, w, 2);
         break;
     default:
-        weigh(source, p, pairs, i, j, inverse, w, 3);
+        weigh(source, p, pairs, first_particle, first_neighbour, inverse_length, w, 3);
         break;
     }
 }

@@ -44,8 +44,8 @@ static void rates_make(struct bonds *b, const struct bonds *previous, const stru
     b->soft.rates_kept = previous && previous->soft.rates_kept;
 }
 
-void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
-                              const struct particles *p)
+void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
+                                    const struct particles *p)
 {
     if (!source->limit.softening) return;
     b->soft.curve = source->limit.curve, b->soft.image = source->image;
@@ -64,8 +64,8 @@ void bonds_allocate_softening(struct bonds *b, const struct bonds *previous, con
     rates_make(b, previous, &source->limit);
 }
 
-void row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                                    int64_t g)
+void bond_row_block_initialise_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                         int64_t g)
 {
     const int64_t first = bond_index_for_writing(b, g, 0, 0);
     for (int64_t q = first; q < first + b->column_count[g] * LANES; q++) {
@@ -80,14 +80,14 @@ void row_block_initialise_softening(struct bonds *b, const struct particles *p, 
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED);
 }
 
-void row_set_softening(struct row *row, const struct row_maker *maker, int32_t i)
+void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle)
 {
     const struct bonds *old = maker->old;
-    const int64_t before = old ? old->row_of[i] : -1;
+    const int64_t before = old ? old->row_of[particle] : -1;
     for (int k = 0; k < row->n; k++)
         row->soft[k] =
-            bond_softness_before_onset(bond_softening_range(maker->p, &maker->source->limit, i, row->nbr[k]));
-    if (before < 0 || !row_block_has_softening(old, before / LANES)) return;
+            bond_softness_before_onset(bond_softening_range(maker->p, &maker->source->limit, particle, row->nbr[k]));
+    if (before < 0 || !bond_row_block_has_begun_softening(old, before / LANES)) return;
     int n = 0; /* neighbours ascend in both rows */
     for (struct bond_iterator it = bond_iterator_of_row(old, before); bond_next(&it);) {
         const int64_t q = it.bond.entry;
@@ -111,13 +111,14 @@ static void softness_take(struct bonds *b, int64_t row, int32_t nbr, const struc
     }
 }
 
-void bonds_copy_row_softening(struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t row,
-                              const struct bonds *previous, int64_t previous_row, const int32_t *new_index)
+void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                 int64_t row, const struct bonds *previous_bonds, int64_t previous_row,
+                                 const int32_t *new_index)
 {
-    if (!row_block_has_softening(previous, previous_row / LANES)) return;
-    if (!b->soft.begun[row / LANES]) row_block_initialise_softening(b, p, limit, row / LANES);
-    for (struct bond_iterator it = bond_iterator_of_row(previous, previous_row); bond_next(&it);)
-        if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous, it.bond.entry);
+    if (!bond_row_block_has_begun_softening(previous_bonds, previous_row / LANES)) return;
+    if (!b->soft.begun[row / LANES]) bond_row_block_initialise_softening(b, p, limit, row / LANES);
+    for (struct bond_iterator it = bond_iterator_of_row(previous_bonds, previous_row); bond_next(&it);)
+        if (new_index[it.bond.nbr] >= 0) softness_take(b, row, new_index[it.bond.nbr], previous_bonds, it.bond.entry);
 }
 
 /* Copies the softening of all bonds in row blocks (rows of eight particles each) where softening has begun: to
@@ -134,7 +135,7 @@ static void pack_softness(struct bonds *b, struct bond_softness *packed, bool sa
         }
 }
 
-status softening_save_or_load(struct bonds *b, struct archive *a)
+status softening_save_or_load_bond_states(struct bonds *b, struct archive *a)
 {
     int64_t columns = 0;
     if (!b->soft.curve) return OK;
@@ -184,18 +185,18 @@ static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
     return false;
 }
 
-bool row_has_unsoftened_bond(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
+bool bond_row_has_unsoftened_bond(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
 
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row)
 {
-    return row >= 0 && row_block_has_softening(b, row / LANES) && row_has_bond(b, row, true);
+    return row >= 0 && bond_row_block_has_begun_softening(b, row / LANES) && row_has_bond(b, row, true);
 }
 
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t g = row / LANES;
     real sum = 0;
-    if (row < 0 || !row_block_has_softening(b, g) || !(b->family_volume[row] > 0)) return 0;
+    if (row < 0 || !bond_row_block_has_begun_softening(b, g) || !(b->family_volume[row] > 0)) return 0;
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
         if (it.bond.w == 0 || !bond_is_softening(b, g, it.bond.entry)) continue;
         const int64_t q = it.bond.entry;

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-real state_row_intact_weighted_volume(const struct bonds *b, int64_t row)
+real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row)
 {
     real Q = 0;
     for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
@@ -24,7 +24,7 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     struct column_copy column;
     for (int l = 0; l < LANES; l++) Q[l] = 0;
     for (int64_t k = 0; b->state.local && k < b->column_count[g]; k++) {
-        bond_column_read(&column, b, g, k);
+        bond_column_read_eight_bonds(&column, b, g, k);
         for (int l = 0; l < LANES; l++) {
             const real w = bond_weight_before_softening(b, g, (b->column[g] + k) * LANES + l, column.w[l]);
             if (w != 0) Q[l] += w / square(column.inverse_length[l]);
@@ -39,7 +39,7 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     }
 }
 
-void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!b->state.modulus) return;
 #pragma omp parallel for schedule(static)
@@ -55,7 +55,7 @@ static void state_weigh_new(struct bonds *b, const struct particles *p, const st
         if (b->state.weighted[g * LANES] == 0) row_block_weigh(b, p, s, g);
 }
 
-void bonds_state_prepare(struct bonds *b, const struct bond_source *s)
+void bonds_prepare_state_based_model(struct bonds *b, const struct bond_source *s)
 {
     if (!s->modulus) return;
     b->state.modulus = s->modulus;
@@ -64,7 +64,7 @@ void bonds_state_prepare(struct bonds *b, const struct bond_source *s)
     b->state.weighted = NEW("state.weighted", b->row_blocks * LANES, real);
 }
 
-void bonds_state_make(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void bonds_make_state_based_arrays(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!s->modulus) return;
     const int64_t room = p->n_all + LANES;
@@ -80,7 +80,7 @@ void bonds_state_make(struct bonds *b, const struct particles *p, const struct b
     state_weigh_new(b, p, s);
 }
 
-void bonds_state_free(struct bonds *b)
+void bonds_free_state_based_arrays(struct bonds *b)
 {
     memory_free(b->state.weighted);
     memory_free(b->state.past);

@@ -85,8 +85,8 @@ static bool same_weights(const struct bond_source *s, const struct regular_bonds
                   eight_bytes_as_word(w->mirrors + i) == eight_bytes_as_word(w->mirrors + j));
 }
 
-int64_t stencil_cache_find_equal_row_block(const struct regular_bonds *bonds, const struct bond_source *weights,
-                                           int64_t i)
+int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
+                                                const struct bond_source *weight_inputs, int64_t first_particle)
 {
     struct stencil_cache *t = bonds->stencil_cache;
     if (!t->map->uniform) return -1;
@@ -94,10 +94,10 @@ int64_t stencil_cache_find_equal_row_block(const struct regular_bonds *bonds, co
         const int at = (t->last + k) % t->n;
         const struct cached *other = &t->cached[at];
         if (!same_sites(&other->bonds, bonds)) continue;
-        if (weights && !same_weights(weights, bonds, i, other->i)) continue;
+        if (weight_inputs && !same_weights(weight_inputs, bonds, first_particle, other->i)) continue;
         t->last = at;
         return other->i;
     }
-    remember(t, bonds, i);
+    remember(t, bonds, first_particle);
     return -1;
 }

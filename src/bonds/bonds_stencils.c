@@ -12,25 +12,25 @@ struct stencils {
     int32_t first[HASHES]; /* first stencil with this hash, + 1; 0: none */
 };
 
-struct stencils *stencils_share_or_make(struct stencils *existing)
+struct stencils *stencils_share_or_make_table(struct stencils *existing)
 {
     struct stencils *p = existing ? existing : NEW("bonds.stencils", 1, struct stencils);
     p->users++;
     return p;
 }
 
-void stencils_free(struct stencils *stencils)
+void stencils_release_table(struct stencils *stencils)
 {
     if (!stencils || --stencils->users > 0) return;
     for (int k = 0; k < stencils->n; k++) memory_free(stencils->stencil[k].column), memory_free(stencils->stencil[k].w);
     memory_free(stencils);
 }
 
-void stencil_make(struct stencil *stencil, int columns)
+void stencil_allocate_columns(struct stencil *stencil, int max_columns)
 {
     *stencil = (struct stencil){0};
-    stencil->column = BARE("bonds.stencil_column", columns, struct stencil_column);
-    stencil->w = (real(*)[LANES])BARE("bonds.stencil_w", (int64_t)columns * LANES, real);
+    stencil->column = BARE("bonds.stencil_column", max_columns, struct stencil_column);
+    stencil->w = (real(*)[LANES])BARE("bonds.stencil_w", (int64_t)max_columns * LANES, real);
 }
 
 void stencil_free(struct stencil *stencil)
@@ -55,31 +55,32 @@ static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct
     return same;
 }
 
-bool stencil_add_column(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
-                        const struct column_copy *from)
+bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
+                        int64_t first_particle, const struct column_copy *added_column)
 {
-    struct stencil_column *column = &to->column[to->columns];
-    const real *inverse = from->inverse_length, *w = from->w;
+    struct stencil_column *column = &stencil->column[stencil->columns];
+    const real *inverse = added_column->inverse_length, *w = added_column->w;
     int16_t excess[LANES];
-    int alone = from->first < 0, alike = 1, bonds = 0;
-    *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
+    int alone = added_column->first < 0, alike = 1, bonds = 0;
+    *column = (struct stencil_column){.offset = (int32_t)(added_column->first - first_particle),
                                       .shell = (uint8_t)bonds_find_lattice_shell(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
-        to->w[to->columns][l] = w[l];
+        stencil->w[stencil->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
         if (w[l] == 0) continue;
         alone |= bonds > 0 && inverse[l] != column->inverse_length;
         alike &= bonds == 0 || w[l] == column->w;
         column->inverse_length = inverse[l], column->w = w[l], column->intact |= (uint8_t)(1 << l), bonds++;
     }
-    if (alone || bonds == 0 || column->shell == 0 || !reference_of(p, i, from->first, column)) return false;
+    if (alone || bonds == 0 || column->shell == 0 || !reference_of(p, first_particle, added_column->first, column))
+        return false;
     const struct bond_length *length = &b->shell_length[column->shell];
     column->length = 1 / column->inverse_length;
     column->weighted = column->w * length->length, column->squared = column->w * length->square;
     for (int d = 0; d < p->dim; d++) column->w_xi[d] = column->w * column->xi[d];
-    to->whole = (to->columns == 0 || to->whole) && alike && bonds == LANES;
-    to->unit = to->whole && (to->columns == 0 || to->unit) && column->w == 1;
-    to->columns++;
+    stencil->whole = (stencil->columns == 0 || stencil->whole) && alike && bonds == LANES;
+    stencil->unit = stencil->whole && (stencil->columns == 0 || stencil->unit) && column->w == 1;
+    stencil->columns++;
     return true;
 }
 
@@ -117,7 +118,7 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
         if (stencils_equal(&all->stencil[k], stencil)) return &all->stencil[k];
     if (all->n == STENCILS_MOST) return NULL;
     struct stencil *stored = &all->stencil[all->n];
-    stencil_make(stored, stencil->columns);
+    stencil_allocate_columns(stored, stencil->columns);
     array_copy(stored->column, stencil->column, stencil->columns, sizeof *stored->column);
     array_copy(stored->w, stencil->w, stencil->columns, sizeof *stored->w);
     stored->columns = stencil->columns, stored->whole = stencil->whole, stored->unit = stencil->unit;
@@ -126,19 +127,19 @@ static const struct stencil *stencil_store(struct stencils *all, const struct st
     return stored;
 }
 
-const struct stencil *stencil_find_or_add(struct stencils *all, const struct stencil *stencil,
-                                          const struct stencil *likely)
+const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
+                                          const struct stencil *first_guess)
 {
     const struct stencil *known;
-    if (likely && stencils_equal(likely, stencil)) return likely;
+    if (first_guess && stencils_equal(first_guess, stencil)) return first_guess;
 #pragma omp critical(bonds_stencils)
-    known = stencil_store(all, stencil);
+    known = stencil_store(table, stencil);
     return known;
 }
 
-bool row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t cached)
+bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t particle)
 {
-    const int64_t from = cached >= 0 ? b->row_of[cached] / LANES : g;
+    const int64_t from = particle >= 0 ? b->row_of[particle] / LANES : g;
     if (!b->stencil[from]) return false;
     b->stencil[g] = b->stencil[from];
     b->implicit[g] = b->aligned[g] = true;
@@ -150,35 +151,35 @@ bool row_block_use_stencil_of_particle(struct bonds *b, int64_t g, int64_t cache
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
 /* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
- * *to, from the stencil if the row block stores no columns. */
-void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k)
+ * *copy, from the stencil if the row block stores no columns. */
+void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
     if (!__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) {
-        to->first = b->first[column];
-        memcpy(to->nbr, b->nbr + column * LANES, sizeof to->nbr);
-        memcpy(to->inverse_length, b->inverse_length + column * LANES, sizeof to->inverse_length);
-        memcpy(to->w, b->w + column * LANES, sizeof to->w);
+        copy->first = b->first[column];
+        memcpy(copy->nbr, b->nbr + column * LANES, sizeof copy->nbr);
+        memcpy(copy->inverse_length, b->inverse_length + column * LANES, sizeof copy->inverse_length);
+        memcpy(copy->w, b->w + column * LANES, sizeof copy->w);
         return;
     }
     const struct stencil_column *of = &b->stencil[row_block]->column[k];
-    to->first = b->particle[row_block * LANES] + of->offset;
-    memcpy(to->w, b->stencil[row_block]->w[k], sizeof to->w);
+    copy->first = b->particle[row_block * LANES] + of->offset;
+    memcpy(copy->w, b->stencil[row_block]->w[k], sizeof copy->w);
     for (int l = 0; l < LANES; l++)
-        to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
+        copy->nbr[l] = copy->first + l, copy->inverse_length[l] = copy->w[l] == 0 ? 0 : of->inverse_length;
 }
 
 /* Returns false only if no bond of the row block leads to an image. Images follow all particles, and the columns of a
  * stencil ascend by their neighbours, up to the padding of less than eight lanes: no column leads to an image if the
  * last one ends two row blocks before the images. */
-bool row_block_may_meet_images(const struct bonds *b, const struct particles *p, int64_t row_block)
+bool bond_row_block_may_have_bonds_to_images(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
-    const int64_t columns = row_block_column_count(b, row_block);
+    const int64_t columns = bond_row_block_column_count(b, row_block);
     if (p->n_all == p->n || columns == 0) return false;
     return !b->stencil[row_block] || column_first_consecutive_neighbour(b, row_block, columns - 1) + 3 * LANES > p->n;
 }
 
-void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks)
+void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits)
 {
     if (row < 0) return;
     const int64_t row_block = row / LANES, from = b->column[row_block];
@@ -186,20 +187,21 @@ void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *m
     const struct stencil *stencil = b->stencil[row_block];
     const int32_t first = b->particle[row_block * LANES] + lane;
     for (int k = 0; stencil && k < stencil->columns; k++)
-        if (stencil->column[k].intact >> lane & 1) bit_clear(marks, first + stencil->column[k].offset);
+        if (stencil->column[k].intact >> lane & 1) bit_clear(particle_bits, first + stencil->column[k].offset);
     for (int64_t column = from; !stencil && column < from + b->column_count[row_block]; column++) {
         const struct bond_column *c = &b->common[column];
-        if (c->intact >> lane & 1) bit_clear(marks, c->first >= 0 ? c->first + lane : b->nbr[column * LANES + lane]);
+        if (c->intact >> lane & 1)
+            bit_clear(particle_bits, c->first >= 0 ? c->first + lane : b->nbr[column * LANES + lane]);
     }
 }
 
-void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from)
+void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds)
 {
-    b->first[column] = from->first;
-    memcpy(b->nbr + column * LANES, from->nbr, sizeof from->nbr);
-    memcpy(b->inverse_length + column * LANES, from->inverse_length, sizeof from->inverse_length);
-    memcpy(b->w + column * LANES, from->w, sizeof from->w);
-    bond_column_update_common_properties(b, column);
+    b->first[column_number] = bonds->first;
+    memcpy(b->nbr + column_number * LANES, bonds->nbr, sizeof bonds->nbr);
+    memcpy(b->inverse_length + column_number * LANES, bonds->inverse_length, sizeof bonds->inverse_length);
+    memcpy(b->w + column_number * LANES, bonds->w, sizeof bonds->w);
+    bond_column_update_common_properties(b, column_number);
 }
 
 /* Writes the columns of a row block (rows of eight particles), which its stencil defines, to the column arrays. */
@@ -207,12 +209,12 @@ static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;
     for (int64_t column = b->column[row_block]; column < b->column[row_block] + b->column_count[row_block]; column++) {
-        bond_column_read(&copy, b, row_block, column - b->column[row_block]);
-        bond_column_write(b, column, &copy);
+        bond_column_read_eight_bonds(&copy, b, row_block, column - b->column[row_block]);
+        bond_column_write_eight_bonds(b, column, &copy);
     }
 }
 
-void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block)
+void bond_row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block)
 {
 #pragma omp critical(bonds_unfold)
     if (b->implicit[row_block]) {
@@ -221,10 +223,10 @@ void row_block_write_columns_from_stencil(struct bonds *b, int64_t row_block)
     }
 }
 
-void bond_column_update_after_bond_change(struct bonds *b, int64_t row, int64_t q)
+void bond_column_update_after_bond_change(struct bonds *b, int64_t row_number, int64_t q)
 {
-    b->stencil[row / LANES] = NULL;
-    b->changed[row / LANES] = 1;
+    b->stencil[row_number / LANES] = NULL;
+    b->changed[row_number / LANES] = 1;
     bond_column_update_common_properties(b, q / LANES);
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

@@ -302,7 +302,7 @@ static bool row_block_find(struct evaluation *e, int64_t g)
     const struct bonds *b = e->b;
     bool wanted[LANES] = {false}, any = false;
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
-        wanted[row % LANES] = b->whole[row] && row_material(e, row) && row_has_unsoftened_bond(b, row);
+        wanted[row % LANES] = b->whole[row] && row_material(e, row) && bond_row_has_unsoftened_bond(b, row);
     row_block_strain(e, g, wanted);
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
         if (!wanted[row % LANES] || !(row_share(e, row) >= row_strength(e, row))) continue;
@@ -413,7 +413,7 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
             if (bond.w == 0 || bond_is_softening(b, g, bond.entry)) continue;
             const real least = real_min(own, start_of(e, bond.nbr));
             if (isinf(least) || isinf(bond_breaking_stretch(p, &e->source->limit, i, bond.nbr))) continue;
-            if (!b->soft.begun[g]) row_block_initialise_softening(b, p, &e->source->limit, g);
+            if (!b->soft.begun[g]) bond_row_block_initialise_softening(b, p, &e->source->limit, g);
             bond_softness_store(b, bond.entry, bond_started(e, &bond, i, least));
             softening_mark_point_for_conversion(b, p, i);
         }

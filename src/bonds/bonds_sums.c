@@ -17,7 +17,7 @@
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int capacity)
 {
-    const int n = particle_find_neighbours(map, s, p, (int32_t)i, found, capacity);
+    const int n = particle_find_neighbours_within_cutoff(map, s, p, (int32_t)i, found, capacity);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
@@ -55,16 +55,16 @@ void bonds_compute_family_volumes(real *volume, const struct particles *p, const
     struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
     plain.influence = INFLUENCE_ONE;
-    if (family_has_equal_weights(&plain)) site_map_make(&map, s, p);
+    if (family_has_equal_weights(&plain)) site_map_make_if_on_lattice(&map, s, p);
 #pragma omp parallel
     {
         int32_t *found = NEW("bonds.found", most, int32_t);
         struct regular_bonds bonds;
-        regular_bonds_make(&bonds, &map);
+        regular_bonds_allocate_for_lattice(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             if (regular_bonds_find_ignoring_cracks(&map, s, p, first, &bonds)) {
-                const int64_t cached = stencil_cache_find_equal_row_block(&bonds, NULL, first);
+                const int64_t cached = stencil_cache_particle_with_equal_bonds(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);
                 else
@@ -96,7 +96,7 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
     return spring_bound_largest_eigenvalue(&bound, p->dim);
 }
 
-real bonds_row_largest_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row)
+real bonds_row_stiffness_eigenvalue_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
@@ -192,14 +192,14 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     real largest = 0;
     for (int64_t k = 0; k < columns && regular && !b->stencil[g]; k++) regular = b->first[b->column[g] + k] >= 0;
     if (!regular) {
-        for (int64_t r = g * LANES; r < g * LANES + row_block_row_count(b, g); r++)
-            largest = real_max(largest, bonds_row_largest_eigenvalue_bound(b, p, r) / p->mass[b->particle[r]]);
+        for (int64_t r = g * LANES; r < g * LANES + bond_row_block_row_count(b, g); r++)
+            largest = real_max(largest, bonds_row_stiffness_eigenvalue_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
     struct column_copy column;
     for (int64_t k = 0; k < columns; k++) {
-        bond_column_read(&column, b, g, k);
+        bond_column_read_eight_bonds(&column, b, g, k);
         bounds_add_any(&bounds, p, b->particle[g * LANES], column.first, column.inverse_length, column.w, b->stiffness);
     }
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
@@ -218,7 +218,7 @@ real bonds_critical_time_step_of_existing_bonds(const struct bonds *b, const str
  * with its own modulus. Release the array `ratio` of the table with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
-    struct pair_table pairs = material_pair_table_make(s);
+    struct pair_table pairs = material_pair_table_make_of_micro_moduli(s);
     const real first = family_micro_modulus(&s->family, &s->material[0]);
     for (int a = 0; a < s->materials && s->modulus; a++)
         for (int b = 0; b < s->materials; b++)
@@ -251,34 +251,35 @@ real bonds_critical_time_step_if_all_peridynamic(const struct particles *p, cons
     struct site_map map;
     const struct row_maker maker = {
         .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_neighbour_count_bound(s)};
-    site_map_make(&map, s, p);
+    site_map_make_if_on_lattice(&map, s, p);
     uint8_t *needed = first_of_classes(s->surface, &map, p->n);
 #pragma omp parallel reduction(max : largest)
     {
         struct row row = {0};
         struct regular_bonds regular;
-        row_buffer_make(&row, maker.room);
-        regular_bonds_make(&regular, &map);
+        bond_row_buffer_make(&row, maker.room);
+        regular_bonds_allocate_for_lattice(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             bool any = !needed;
             for (int64_t i = first; i < first + LANES && i < p->n && !any; i++) any = needed[i];
             if (!any) continue;
-            if (map.at && first + LANES <= p->n && row_block_find_lattice_bonds(&map, s, &all, first, &regular)) {
+            if (map.at && first + LANES <= p->n &&
+                bond_row_block_compute_lattice_bonds(&map, s, &all, first, &regular)) {
                 /* an equal row block is already in `largest` */
-                if (stencil_cache_find_equal_row_block(&regular, s, first) < 0)
+                if (stencil_cache_particle_with_equal_bonds(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
                 if (needed && !needed[i]) continue;
-                row_find_neighbours(&row, &maker, (int32_t)i);
-                row_compute_weights(&row, &maker, (int32_t)i);
+                bond_row_find_neighbours(&row, &maker, (int32_t)i);
+                bond_row_compute_lengths_and_weights(&row, &maker, (int32_t)i);
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }
         regular_bonds_free(&regular);
-        row_buffer_free(&row);
+        bond_row_buffer_free(&row);
     }
     site_map_free(&map);
     memory_free(needed);

@@ -47,16 +47,16 @@ static real true_length(const struct family *f, real r)
     return fabs(squares - whole) < 1e-9 * whole ? f->spacing * sqrt(whole) : r;
 }
 
-real family_bond_weight(const struct family *f, const real *bond_vector, real length)
+real family_bond_weight(const struct family *f, const real *bond_vector, real bond_length)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
     if (family_has_equal_weights(f)) return f->shell_weight[0];
-    length = true_length(f, length);
-    for (int d = 0; d < dim; d++) fourth += square(square(bond_vector[d] / length));
+    bond_length = true_length(f, bond_length);
+    for (int d = 0; d < dim; d++) fourth += square(square(bond_vector[d] / bond_length));
     /* mean of n1^4 + n2^4 + n3^4 over all directions: 1, 3/4, 3/5 */
     bool axial = fourth > 3.0 / (dim + 2) + 1e-9;
-    return family_beta(f, length) * influence(f, length) * f->shell_weight[axial ? 0 : 1];
+    return family_beta(f, bond_length) * influence(f, bond_length) * f->shell_weight[axial ? 0 : 1];
 }
 
 /* Sums over all neighbours of a particle inside a lattice. r: distance [m]; V: volume of a lattice cell; beta: share
@@ -116,7 +116,7 @@ static void shells_isotropic(struct family *f)
     f->shell_weight[0] *= scale, f->shell_weight[1] *= scale;
 }
 
-void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section)
+void family_make_on_lattice(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section)
 {
     f->space = space;
     f->spacing = spacing;
@@ -135,8 +135,9 @@ void family_make(struct family *f, enum space space, real spacing, real horizon_
 
 real family_micro_modulus(const struct family *f, const struct material *m)
 {
-    if (f->calibration == CALIBRATION_LATTICE) return material_micro_modulus(m, f->space, lattice_sums(f).sigma);
-    return material_micro_modulus_continuum(m, f->space, f->horizon, f->section);
+    if (f->calibration == CALIBRATION_LATTICE)
+        return material_micro_modulus_of_discrete_family(m, f->space, lattice_sums(f).sigma);
+    return material_micro_modulus_of_continuum(m, f->space, f->horizon, f->section);
 }
 
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12)

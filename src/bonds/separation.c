@@ -68,14 +68,15 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-real family_separation_work_over_stretch_squared(const struct family *f, const struct state_modulus *m,
-                                                 bool present_family)
+real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *m,
+                                                 bool intact_bonds_only)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
     struct crossing *c = NEW("separation.crossing", room, struct crossing);
     real work = 0;
-    for (int layer = 0; layer < reach; layer++) work += layer_work(m, f, (layer + 0.5) * f->spacing, present_family, c);
+    for (int layer = 0; layer < reach; layer++)
+        work += layer_work(m, f, (layer + 0.5) * f->spacing, intact_bonds_only, c);
     memory_free(c);
     return 2 * f->spacing * work;
 }
@@ -112,15 +113,16 @@ static real layer_softening_work(const struct family *f, real height, const stru
     return work;
 }
 
-real family_softening_work_per_area(const struct family *f, const struct state_modulus *m, bool rotates,
-                                    const struct softening_curve *curve, struct softening_range range)
+real family_fracture_energy_of_softening_bonds(const struct family *f, const struct state_modulus *m,
+                                               bool particles_rotate, const struct softening_curve *curve,
+                                               struct softening_range softening_stretches)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
     struct crossing *c = NEW("separation.crossing", room, struct crossing);
     real work = 0;
     for (int layer = 0; layer < reach; layer++)
-        work += layer_softening_work(f, (layer + 0.5) * f->spacing, m, rotates, curve, range, c);
+        work += layer_softening_work(f, (layer + 0.5) * f->spacing, m, particles_rotate, curve, softening_stretches, c);
     memory_free(c);
     return 2 * f->spacing * work;
 }

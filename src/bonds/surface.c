@@ -27,17 +27,17 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
         }
 }
 
-status surface_weights_make(struct surface_weights *weights, const struct particles *p, const struct bond_source *s,
-                            bool with_rotations)
+status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
+                                               const struct bond_source *s, bool with_rotations)
 {
     struct near_faces b;
     struct surface_fit_targets f;
     struct bond_classes a;
-    TRY(near_faces_make(&b, p, s, weights->apart));
-    surface_fit_targets_make(&f, &b, with_rotations);
-    bond_classes_make_near_faces(&a, &b);
+    TRY(near_faces_list_particles_and_neighbours(&b, p, s, weights->apart));
+    surface_fit_targets_compute_moments(&f, &b, with_rotations);
+    bond_classes_group_bonds_near_faces(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
-    const real left = surface_fit_factors(factor, &b, &f, &a, with_rotations, SURFACE_PRODUCTS);
+    const real left = surface_fit_compute_bond_weight_factors(factor, &b, &f, &a, with_rotations, SURFACE_PRODUCTS);
     *weights = (struct surface_weights){.spacing = s->family.spacing,
                                         .residual = left,
                                         .reach = b.offset.reach,

@@ -229,7 +229,8 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
             const int32_t j = near_faces_neighbour_at_offset(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && particle_family_is_complete(b, j))) continue;
             const struct seen seen = near_faces_source_of_entry(b, j);
-            const int64_t other = entry_of(a, b, b->place[seen.particle], near_faces_reverse_offset(b, &seen, k));
+            const int64_t other =
+                entry_of(a, b, b->place[seen.particle], near_faces_offset_seen_from_neighbour(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);
         }
 }
@@ -247,7 +248,7 @@ static void twins_join(const struct bond_classes *a, const struct near_faces *b,
             }
 }
 
-void bond_classes_make_near_faces(struct bond_classes *classes, const struct near_faces *b)
+void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *b)
 {
     struct kinds kinds;
     *classes = (struct bond_classes){0};

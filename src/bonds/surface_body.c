@@ -84,7 +84,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-struct seen near_faces_source_of_image(const struct near_faces *b, int64_t j)
+struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_source_particle(b->p, b->source->image, j), 0};
     for (int d = 0; d < b->p->dim; d++)
@@ -92,7 +92,7 @@ struct seen near_faces_source_of_image(const struct near_faces *b, int64_t j)
     return to;
 }
 
-int near_faces_reverse_offset(const struct near_faces *b, const struct seen *other_particle, int k)
+int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int k)
 {
     return b->offset.n - 1 - b->offset.mirrored[other_particle->mirrors * b->offset.n + k];
 }
@@ -112,7 +112,7 @@ static void search_make(struct search *search, const struct near_faces *b, const
 {
     const int room = bonds_neighbour_count_bound(b->source);
     *search = (struct search){.map = map, .found = NEW("surface.found", room, int32_t), .room = room};
-    regular_bonds_make(&search->regular, map);
+    regular_bonds_allocate_for_lattice(&search->regular, map);
 }
 
 /* Releases the working memory of a neighbour search. */
@@ -158,11 +158,11 @@ static int regular_neighbours(const struct near_faces *b, const struct search *s
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
-    const bool near = particle_is_near_crack(s, b->p, i);
+    const bool near = particle_is_near_precrack(s, b->p, i);
     int kept = 0;
     for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
     if (search->eight) return regular_neighbours(b, search, i, near, to);
-    const int n = particle_find_neighbours(search->map, s, b->p, (int32_t)i, search->found, search->room);
+    const int n = particle_find_neighbours_within_cutoff(search->map, s, b->p, (int32_t)i, search->found, search->room);
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
         if (near && precracks_cut_bond_between(s->crack, s->cracks, b->p, i, j)) continue;
@@ -227,9 +227,9 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
                 near_put(b, near, i);
                 for (int k = 0; search.eight && k < regular->n; k++)
                     if (l >= regular->from[k] && l <= regular->to[k]) near_put(b, near, i + regular->offset[k]);
-                const int n = search.eight
-                                  ? 0
-                                  : particle_find_neighbours(map, b->source, p, (int32_t)i, search.found, search.room);
+                const int n = search.eight ? 0
+                                           : particle_find_neighbours_within_cutoff(map, b->source, p, (int32_t)i,
+                                                                                    search.found, search.room);
                 for (int k = 0; k < n; k++) near_put(b, near, search.found[k]);
             }
         }
@@ -291,26 +291,26 @@ static void apart_find(const struct near_faces *b, const struct site_map *map, i
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
     for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
-        const int n = particle_find_neighbours(map, s, b->p, (int32_t)i, found, room);
+        const int n = particle_find_neighbours_within_cutoff(map, s, b->p, (int32_t)i, found, room);
         for (int k = 0; k < n && apart[0] < 0; k++)
             if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
-                !(particle_is_near_crack(s, b->p, i) &&
+                !(particle_is_near_precrack(s, b->p, i) &&
                   precracks_cut_bond_between(s->crack, s->cracks, b->p, i, found[k])))
                 apart[0] = i, apart[1] = found[k];
     }
     memory_free(found);
 }
 
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s,
-                       int64_t unfitting[2])
+status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
+                                                const struct bond_source *s, int64_t unfitting_pair[2])
 {
     struct site_map map = {0};
     *b = (struct near_faces){.p = p, .source = s};
     offsets_make(&b->offset, &s->family, s->modulus != NULL);
     b->whole = NEW("surface.whole", p->n, uint8_t);
-    site_map_make(&map, s, p);
+    site_map_make_if_on_lattice(&map, s, p);
     const bool lattice = whole_mark(b, &map) && near_list(b, &map);
-    if (!lattice) apart_find(b, &map, unfitting);
+    if (!lattice) apart_find(b, &map, unfitting_pair);
     site_map_free(&map);
     if (lattice) return OK;
     near_faces_free(b);

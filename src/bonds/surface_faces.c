@@ -240,7 +240,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     return n;
 }
 
-void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *b, bool with_rotations)
+void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *b, bool with_rotations)
 {
     const int dim = b->p->dim, most = with_rotations ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};

@@ -340,7 +340,7 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const struct particles *p = b->p;
     const int32_t i = b->particle[t];
     const bool across = particle_is_beside_void(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
-    if (!across && !particle_is_near_crack(b->source, p, i)) return false;
+    if (!across && !particle_is_near_precrack(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
         const int32_t j = near_faces_neighbour_at_offset(b, t, k);
         if (j < 0) continue;
@@ -419,8 +419,9 @@ static void bounds_make(struct surface_fit_problem *q, const struct near_faces *
     plain_parts(q, b, f, rotates);
 }
 
-real surface_fit_factors(real *factor, const struct near_faces *b, const struct surface_fit_targets *f,
-                         const struct bond_classes *a, bool with_rotations, int products)
+real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *b,
+                                             const struct surface_fit_targets *f, const struct bond_classes *a,
+                                             bool with_rotations, int max_matrix_products)
 {
     struct moments m;
     moments_make(&m, &b->offset);
@@ -436,7 +437,7 @@ real surface_fit_factors(real *factor, const struct near_faces *b, const struct 
     memory_free(goal);
     prior_make(&q, &m);
     bounds_make(&q, b, f, with_rotations);
-    const real left = surface_fit_solve(&q, factor, products);
+    const real left = surface_fit_solve_least_squares(&q, factor, max_matrix_products);
     memory_free(m.of);
     memory_free(q.class);
     memory_free(q.first);

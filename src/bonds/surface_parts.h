@@ -42,13 +42,13 @@ struct seen {
 
 /* Returns the particle of the body of which image `entry` of the particle arrays is an image, and the mirrors in
  * between as one bit per reversed axis. */
-struct seen near_faces_source_of_image(const struct near_faces *b, int64_t entry);
+struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
 /* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
  * an image), and the mirrors in between as one bit per reversed axis. */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
-    return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_of_image(b, entry);
+    return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
 }
 
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
@@ -84,13 +84,13 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
 /* Returns the number of the offset (relative position of a neighbour) of a bond as seen from its other particle.
  * offset: offset number of the bond at its first particle; other_particle: other particle of the bond, at which the
  * reverse offset is listed; if it is seen through mirrors, the reverse offset is reflected in them. */
-int near_faces_reverse_offset(const struct near_faces *b, const struct seen *other_particle, int offset);
+int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
 /* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
- * message, if the particles are not on a lattice; unfitting[0] is then the first particle with a neighbour that is not
- * a whole number of spacings away, unfitting[1] this neighbour. Release with near_faces_free. */
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *source,
-                       int64_t unfitting[2]);
+ * message, if the particles are not on a lattice; unfitting_pair[0] is then the first particle with a neighbour that is
+ * not a whole number of spacings away, unfitting_pair[1] this neighbour. Release with near_faces_free. */
+status near_faces_list_particles_and_neighbours(struct near_faces *b, const struct particles *p,
+                                                const struct bond_source *source, int64_t unfitting_pair[2]);
 
 /* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
@@ -110,7 +110,8 @@ enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes, for the particles `near` near faces, the outward areas, moments and normals to which bond weights are
  * fitted, into f. with_rotations: true for the model with particle rotations. Release with surface_fit_targets_free. */
-void surface_fit_targets_make(struct surface_fit_targets *f, const struct near_faces *near, bool with_rotations);
+void surface_fit_targets_compute_moments(struct surface_fit_targets *f, const struct near_faces *near,
+                                         bool with_rotations);
 
 /* Releases all arrays of f. */
 void surface_fit_targets_free(struct surface_fit_targets *f);
@@ -130,7 +131,7 @@ struct bond_classes {
 
 /* Sorts the particles `near` near faces into classes with equal surroundings up to mirrors, and their bonds into groups
  * with one factor each. Release with bond_classes_free. */
-void bond_classes_make_near_faces(struct bond_classes *classes, const struct near_faces *near);
+void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *near);
 
 /* Returns the particle or image at offset number k from the first member of a class of particles with equal
  * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
@@ -167,19 +168,22 @@ struct surface_fit_problem {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
-/* Largest number of matrix products in the solution of the least-squares problem (surface_fit_solve). Most bodies need
- * 60 to 250, thin bodies with cracks in 3D 700. */
+/* Largest number of matrix products in the solution of the least-squares problem (surface_fit_solve_least_squares).
+ * Most bodies need 60 to 250, thin bodies with cracks in 3D 700. */
 enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
- * the factors [groups]. products: largest number of products with the matrix of the dual problem, fewer in large
- * bodies. Returns the remaining residual over the residual with all factors 1 [1]. */
-real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products);
+ * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem, fewer in
+ * large bodies. Returns the remaining residual over the residual with all factors 1 [1]. */
+real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [classes->groups] [1]; targets: targets of the fit; with_rotations: true for the model with particle
- * rotations. products: as in surface_fit_solve. Returns the residual that is left, over the first one [1]. */
-real surface_fit_factors(real *factor, const struct near_faces *near, const struct surface_fit_targets *targets,
-                         const struct bond_classes *classes, bool with_rotations, int products);
+ * rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the residual that is left, over the
+ * first one [1]. */
+real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *near,
+                                             const struct surface_fit_targets *targets,
+                                             const struct bond_classes *classes, bool with_rotations,
+                                             int max_matrix_products);
 
 #endif

@@ -410,7 +410,7 @@ static real descend(struct descent *d)
     return left;
 }
 
-real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int products)
+real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products)
 {
     const int width = q->thirds + q->fourths;
     const int64_t classes = q->alike->classes, n = classes * width;
@@ -429,7 +429,7 @@ real surface_fit_solve(const struct surface_fit_problem *q, real *factor, int pr
     d.turned = NEW("surface.turned", q->alike->groups, uint8_t);
     d.changes = NEW("surface.changes", classes * (q->offsets / 2), uint8_t);
     d.value = NEW("surface.value", classes * q->offsets, real);
-    d.most = (int)fmin(products, WORK / work);
+    d.most = (int)fmin(max_matrix_products, WORK / work);
     const real left = q->alike->groups > 0 ? descend(&d) : 0;
     memory_free(all);
     memory_free(d.block);

@@ -13,11 +13,11 @@
 
 /* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form,
  * contact distance and friction. The stiffness k of a contact follows from the materials of `source` times
- * `stiffness_factor` [1]. shape[bodies]: shapes of the bodies, which give the surface above their particles. `shape`
- * and rigid[rigids] are kept by reference and must outlive c. Release with contact_free. */
+ * `stiffness_factor` [1]. body_shapes[bodies]: shapes of the bodies, which give the surface above their particles.
+ * `body_shapes` and rigid[rigids] are kept by reference and must outlive c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
-                  const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
-                  int rigids)
+                  const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
+                  int rigid_body_count)
 {
     struct family family = source->family;
     const int n = source->materials;
@@ -34,12 +34,12 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
                                   .image = source->image,
                                   .crack = source->crack,
                                   .cracks = source->cracks,
-                                  .shape = shape};
-    c->rigid = rigid, c->rigids = rigids;
+                                  .shape = body_shapes};
+    c->rigid = rigid, c->rigids = rigid_body_count;
     if (!contact_is_possible(c)) return;
     contact_density_profile_make(&c->law.profile, space_dim(family.space));
     if (law.distance == DISTANCE_SPACING)
-        family_make(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
+        family_make_on_lattice(&family, family.space, family.spacing, REFERENCE_HORIZON, family.section);
     c->law.stiffness = NEW("contact.stiffness", n * n, real);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
@@ -65,7 +65,7 @@ void contact_free(struct contact *c)
     memory_free(c->followed);
     memory_free(c->touch);
     memory_free(c->balance);
-    contact_rigid_free(c);
+    contact_rigid_free_particle_lists(c);
     for (int d = 0; d < DIM_MAX; d++) memory_free(c->at[d]), memory_free(c->push[d]);
     memset(c, 0, sizeof *c);
 }
@@ -88,7 +88,7 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
 }
 
 /* Returns the critical time step of bodies in contact [s]. Returns INFINITY if contact is not possible.
- * bonds_time_step: critical time step of the bonds of these bodies alone [s]; material: the materials.
+ * bonds_time_step: critical time step of the bonds of these bodies alone [s]; materials: the materials.
  * The step is 2/omega_max for a particle on a flat face, whose squared frequencies by bonds and by contact are added.
  * Bonds: such a particle has half of the bonds of an inner one, so that the square of 2/bonds_time_step counts half.
  * Contact: two particles in contact with stiffness k have the squared frequency 2 k/mass. The normal stiffness of all
@@ -96,7 +96,7 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
  * 60 degrees to the face). With the contact distance of LAMMPS, full families and contact with all 2, 8 or 26
  * neighbours are assumed instead. Rubble has up to eight contacts per particle and needs 0.61 of the bonds' critical
  * step in 2D, which the safety factor 0.5 for breaking bonds covers. */
-real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *material,
+real contact_critical_time_step(const struct contact *c, const struct particles *p, const struct material *materials,
                                 real bonds_time_step)
 {
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
@@ -106,12 +106,12 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
     for (int64_t i = 0; i < p->n; i++) volume = real_max(volume, p->volume0[i]);
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
-            most = real_max(most,
-                            c->law.stiffness[a * n + b] * volume * (1 / material[a].density + 1 / material[b].density));
+            most = real_max(most, c->law.stiffness[a * n + b] * volume *
+                                      (1 / materials[a].density + 1 / materials[b].density));
     real across = opposite[p->dim] * most;
     if (c->law.distance == DISTANCE_LAMMPS) return 2 / sqrt(square(2 / bonds_time_step) + squeezed[p->dim] * most);
     for (int a = 0; a < n; a++)
-        across = real_max(across, rigid_swing(c, p, &material[a], c->law.stiffness[a * n + a], volume));
+        across = real_max(across, rigid_swing(c, p, &materials[a], c->law.stiffness[a * n + a], volume));
     return 2 / sqrt(0.5 * square(2 / bonds_time_step) + across);
 }
 
@@ -141,9 +141,9 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_may_act_on_row(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
             if (faces)
-                contact_face_compute_gap(c, p, row, dt, &own);
+                contact_face_compute_gap_of_particle(c, p, row, dt, &own);
             else
-                contact_pair_add_force(c, p, row, &own);
+                contact_pair_add_forces_on_particle(c, p, row, &own);
         }
 #pragma omp critical
         found_join(all, &own);
@@ -160,12 +160,12 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_may_act_on_row(c, row)) continue;
-            contact_face_add_force(c, p, row);
+            contact_face_add_force_on_particle(c, p, row);
             if (c->spring) contact_face_advance_friction_spring(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
-            if (contact_may_act_on_row(c, row)) contact_face_add_friction(c, p, row);
+            if (contact_may_act_on_row(c, row)) contact_face_add_friction_on_particle(c, p, row);
     }
 }
 
@@ -196,7 +196,7 @@ void contact_compute_forces(struct contact *c, struct particles *p, real dt)
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
 }
 
-void contact_record_first_and_last_time(struct contact *c, real t)
+void contact_record_first_and_last_contact_time(struct contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;
@@ -213,11 +213,11 @@ struct contact_sum {
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
-    return s->c->law.form == CONTACT_SURFACE ? contact_face_energy(s->c, s->p, row)
-                                             : contact_pair_energy(s->c, s->p, row);
+    return s->c->law.form == CONTACT_SURFACE ? contact_face_energy_of_particle(s->c, s->p, row)
+                                             : contact_pair_half_energy_of_particle(s->c, s->p, row);
 }
 
-real contact_energy(const struct contact *c, const struct particles *p)
+real contact_elastic_energy(const struct contact *c, const struct particles *p)
 {
     const real pairs = c->pairs > 0 ? reproducible_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
     return pairs + contact_rigid_energy(c, p) + contact_friction_stored_energy(c);
@@ -268,7 +268,7 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
     TRY(contact_array_save_or_load(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
-    archive_renumber_particles(a, c->particle, c->n);
+    archive_update_restored_particle_indices(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);
@@ -292,6 +292,6 @@ status contact_save_or_load(struct contact *c, const struct particles *p, struct
     if (a->saving) return OK;
     TRY(contact_check(c, p));
     contact_list_compute_entry_data(c, p);
-    if (c->touch) contact_selection_activate_all(c);
+    if (c->touch) contact_activate_all_listed_particles(c);
     return OK;
 }

@@ -14,9 +14,9 @@
 /* Largest force against the rate of the gap, relative to the change of the contact force in a step [1]; empirical. */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
-real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance)
+real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made)
 {
-    if (!advance) return balance->drag;
+    if (!step_was_made) return balance->drag;
     const real was = balance->gap;
     balance->account -= 0.5 * balance->drag * (gap - balance->older);
     if ((was < 0) != (gap < 0)) balance->account += (was < 0 ? -0.25 : 0.25) * stiffness * was * gap;
@@ -26,7 +26,7 @@ real contact_energy_correction_force(struct contact_balance *balance, real stiff
     return balance->drag;
 }
 
-struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap)
+struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap)
 {
     struct contact_balance to = {.gap = gap, .older = gap};
     if (!previous) return to;

@@ -41,12 +41,12 @@ static void layer_density(int dim, real s, real *density, real *slope)
 #define DEPTH_LEAST 0.2 /* range of the table [spacings] */
 #define DEPTH_MOST 1.9
 
-void contact_density_profile_make(struct contact_profile *profile, int dim)
+void contact_density_profile_make(struct contact_profile *table, int dim)
 {
     for (int k = 0; k < PROFILE_NODES; k++) {
-        profile->depth[k] = DEPTH_LEAST + (DEPTH_MOST - DEPTH_LEAST) * k / (PROFILE_NODES - 1);
-        layer_density(dim, profile->depth[k], &profile->density[k], &profile->slope[k]);
-        profile->slope[k] = 1 / profile->slope[k];
+        table->depth[k] = DEPTH_LEAST + (DEPTH_MOST - DEPTH_LEAST) * k / (PROFILE_NODES - 1);
+        layer_density(dim, table->depth[k], &table->density[k], &table->slope[k]);
+        table->slope[k] = 1 / table->slope[k];
     }
 }
 
@@ -137,8 +137,8 @@ static struct face_gap face_gap(const struct contact *c, const struct face_field
     return at;
 }
 
-void contact_face_compute_gap(struct contact *c, const struct particles *p, int64_t row, real dt,
-                              struct contact_found *found)
+void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
+                                          struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
     face->push = face->lift = 0;
@@ -155,15 +155,15 @@ void contact_face_compute_gap(struct contact *c, const struct particles *p, int6
     contact_found_add_overlap(found, -at.gap * c->size[row], c->particle[row]);
 }
 
-real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row)
+real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row)
 {
     const struct face_field field = face_field_at(c, p, p->x, row);
     return face_gap(c, &field, c->face[row].zero).gap;
 }
 
-real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
+real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row)
 {
-    const real gap = contact_face_gap(c, p, row);
+    const real gap = contact_face_gap_of_particle(c, p, row);
     return contact_is_active(contact_selection_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap)
                                                                        : 0;
 }
@@ -177,14 +177,14 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
 }
 
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p, int64_t k,
-                                                        int64_t l, real lag)
+                                                        int64_t l, real time_before_present)
 {
     struct contact_weight w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
     real reach, r2 = 0;
     const real share = field_share(c, p->dim, k, l, &reach);
     for (int d = 0; d < p->dim; d++) {
-        w.apart[d] = p->x[d][i] - p->x[d][j] - lag * (p->v[d][i] - p->v[d][j]);
+        w.apart[d] = p->x[d][i] - p->x[d][j] - time_before_present * (p->v[d][i] - p->v[d][j]);
         r2 += square(w.apart[d]);
     }
     const real r = sqrt(r2);
@@ -197,7 +197,7 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
 /* Adds the contact force on the particle of row `row` of the contact list to p->f. The energy of a particle near a face
  * depends on the density of the opposite face, a weighted sum over its particles. So the force has two parts: the
  * derivative of the particle's own energy, and those of the energies of all particles in whose densities it counts. */
-void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
+void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
@@ -263,7 +263,7 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
         real reach, r2 = 0;
         field_share(c, p->dim, row, c->other[q], &reach);
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
-        if (r2 < square(reach)) widest = real_max(widest, contact_notch_width(c, p, row, c->other[q]));
+        if (r2 < square(reach)) widest = real_max(widest, contact_notch_width_between_entries(c, p, row, c->other[q]));
     }
     return widest / c->size[row];
 }
@@ -316,6 +316,6 @@ void contact_face_set_onset_height(struct contact *c, const struct contact *prev
     const real zero = real_min(1 + c->rise[row], least) - face_notch(c, p, row);
     face->zero = overlap > 0 ? height + overlap : real_min(zero, height);
     face->far = real_max(0, least_gap(c, &now, row));
-    c->balance[row] = contact_energy_correction_begin(previous_entry < 0 ? NULL : &previous->balance[previous_entry],
-                                                      face_gap(c, &now, face->zero).gap);
+    c->balance[row] = contact_energy_correction_start_account(
+        previous_entry < 0 ? NULL : &previous->balance[previous_entry], face_gap(c, &now, face->zero).gap);
 }

@@ -87,11 +87,12 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     for (int64_t row = 0; row < c->rows; row++)
         if (contact_may_act_on_row(c, row)) list[n++] = c->particle[row];
     loads_set_contact_particles(l, p, list, n);
-    active_rows_activate_particles(b, p, l, list, n);
+    active_rows_activate_rows_of_particles(b, p, l, list, n);
     memory_free(list);
 }
 
-void contact_activate_newly_moving(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
+                                             struct loads *l)
 {
     if (c->waiting > 0 && rows_follow(c, p)) rows_touch(c, p, b, l);
 }

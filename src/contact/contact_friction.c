@@ -113,7 +113,7 @@ static real quadratic_form(const real *tensor, const real *e)
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
-    tensor_principal_values(inertia, value, axis);
+    tensor_compute_principal_values(inertia, value, axis);
     const real widest = real_max(value[0], dot(to->arm, to->arm, DIM_MAX));
     for (int k = 0; k < 3; k++) {
         const real *e = axis + 3 * k, forces = dot(to->arm, to->arm, 3) * quadratic_form(squares, e);
@@ -201,7 +201,7 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
 /* Adds the friction forces on the particle of row `row` of the contact list to p->f: the force of its own spring, and
  * the reactions to the springs of other rows. Mirror images need no reactions, since scenes with mirrors have no
  * friction. */
-void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row)
+void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX];
@@ -231,7 +231,7 @@ static real springs_sum(const struct contact *c, real (*term)(const void *contex
 }
 
 real contact_friction_stored_energy(const struct contact *c) { return springs_sum(c, stored_in); }
-real contact_friction_work(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
+real contact_friction_dissipated_energy(const struct contact *c) { return c->friction_work + springs_sum(c, lost_by); }
 
 void contact_friction_reactions_make(struct contact *c)
 {
@@ -241,26 +241,27 @@ void contact_friction_reactions_make(struct contact *c)
 
 /* Allocates the friction springs of a new contact list c. Springs of particles that were in the list `previous` are
  * copied from it. The elastic energy of springs that are not copied is lost. Does nothing without friction. */
-void contact_friction_springs_copy(struct contact *c, const struct contact *previous)
+void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
     contact_friction_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
-        contact_friction_spring_copy(&c->spring[row], previous->spring,
-                                     previous->made ? contact_list_find_particle(previous, c->particle[row]) : -1);
+        contact_friction_spring_copy_previous(
+            &c->spring[row], previous->spring,
+            previous->made ? contact_list_entry_of_particle(previous, c->particle[row]) : -1);
 }
 
-void contact_friction_spring_copy(struct contact_spring *to, const struct contact_spring *previous,
-                                  int64_t previous_entry)
+void contact_friction_spring_copy_previous(struct contact_spring *spring, const struct contact_spring *previous,
+                                           int64_t previous_entry)
 {
     if (!previous || previous_entry < 0) return;
-    *to = previous[previous_entry];
-    to->lost = 0;
+    *spring = previous[previous_entry];
+    spring->lost = 0;
 }
 
-void contact_friction_transfer_work(struct contact *c, const struct contact *previous)
+void contact_friction_update_work_of_new_list(struct contact *c, const struct contact *previous)
 {
-    c->friction_work =
-        contact_friction_work(previous) + contact_friction_stored_energy(previous) - contact_friction_stored_energy(c);
+    c->friction_work = contact_friction_dissipated_energy(previous) + contact_friction_stored_energy(previous) -
+                       contact_friction_stored_energy(c);
 }

@@ -71,8 +71,8 @@ static inline bool contact_is_possible(const struct contact *c)
 }
 
 /* Returns true if contact forces may act on the particle of row `row` of the contact list in this step.
- * contact_activate_newly_moving and contact_activate_particles_after_restart determine on which they may: particles at
- * rest, or far from all faces, are left out. */
+ * contact_activate_newly_moving_particles and contact_activate_particles_after_restart determine on which they may:
+ * particles at rest, or far from all faces, are left out. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
@@ -80,18 +80,20 @@ static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 
 /* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
  * as loaded in `loads` and their bonds as active in b. To be called in steps without a search for pairs. */
-void contact_activate_newly_moving(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
+void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
+                                             struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_for_equilibrium): one per particle of the contact list for the form `surface`, one per pair for the
- * form `pair`. Returns NULL if overlapping contacts act. */
+ * (contact_select_active_and_count_changes): one per particle of the contact list for the form `surface`, one per pair
+ * for the form `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
 }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_select_for_equilibrium), one per particle listed near this body. Returns NULL if overlapping contacts act.
+ * (contact_select_active_and_count_changes), one per particle listed near this body. Returns NULL if overlapping
+ * contacts act.
  */
 static inline const uint8_t *contact_rigid_selection_marks(const struct contact *c, int body)
 {
@@ -107,17 +109,18 @@ static inline bool contact_is_active(const uint8_t *marks, int64_t contact_numbe
 
 /* Returns the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
  * faces beside it [spacings], negative if they overlap. Only for laws of the form `surface`. */
-real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
+real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance of the two particles of pair number `pair`, minus the distance at which their contact begins
  * [m]; negative if they overlap. row: row of the contact list (particles that may come into contact) to which the pair
  * belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
-/* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m].
- * entry: entry of the particle in the list near this body; normal: receives the outward unit vector normal to the
+/* Returns the distance of a particle from rigid body number `body_number` minus the distance at which contact begins
+ * [m]. entry: entry of the particle in the list near this body; normal: receives the outward unit vector normal to the
  * surface. */
-real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t entry, real *normal);
+real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
+                                   real *normal);
 
 /* Describes the contact of the particle of row `row` of the contact list with the faces beside it as a linear spring:
  * stiffness, and derivatives of the gap by the positions of the particles, in *term. Its arrays must have a capacity of
@@ -126,10 +129,10 @@ void contact_face_linearise_as_spring(const struct contact *c, const struct part
                                       struct contact_term *term);
 
 /* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
-void contact_selection_activate_all(struct contact *c);
+void contact_activate_all_listed_particles(struct contact *c);
 
-/* Saves the selection of contacts for equilibria (contact_select_for_equilibrium) to the archive if a->saving, else
- * restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the selection of contacts for equilibria (contact_select_active_and_count_changes) to the archive if a->saving,
+ * else restores it. Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_selection_save_or_load(struct contact *c, struct archive *a);
 
 /* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
@@ -141,11 +144,12 @@ static inline real contact_list_margin(const struct contact *c)
 
 /* Returns the entry of particle i in the contact list (particles that may come into contact), by bisection, or -1 if i
  * is not in it. */
-int64_t contact_list_find_particle(const struct contact *c, int64_t i);
+int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 
 /* Returns the width of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other` of
  * the contact list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
-real contact_notch_width(const struct contact *c, const struct particles *p, int64_t entry, int64_t other);
+real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t entry,
+                                         int64_t other);
 
 /* Computes three arrays for all entries of the contact list: c->root, the entry of the particle that a mirror image
  * mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise, the height of the surface of the
@@ -154,11 +158,12 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
  * contact law of form `pair`. found: receives largest overlap and number of contacts. */
-void contact_pair_add_force(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
+void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
+                                         struct contact_found *found);
 
 /* Returns half the elastic energy of all pairs of particle number `row` of the contact list [J], by the contact law of
  * form `pair`; each pair belongs to two particles. */
-real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
+real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance at which contact of the entries `entry` and `other` of the contact list begins [m]: the contact
  * distance, reduced if they are closer in the reference configuration or at present. previous_distance: contact
@@ -168,22 +173,22 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
 
 /* Computes the table of the height of a position above the particles of a face as a function of the density of the face
  * there, for a face that is a layer of a square or cubic lattice. dim: dimensions of space. */
-void contact_density_profile_make(struct contact_profile *profile, int dim);
+void contact_density_profile_make(struct contact_profile *table, int dim);
 
 /* Computes the gap between the particle of row `row` of the contact list and the faces beside it, and the derivatives
- * of its contact energy, into c->face[row]. It is the first of two passes over the rows; contact_face_add_force adds
- * the forces. Only for laws of the form `surface`. dt: time since the last call [s]; found: receives largest overlap
- * and number of contacts. */
-void contact_face_compute_gap(struct contact *c, const struct particles *p, int64_t row, real dt,
-                              struct contact_found *found);
+ * of its contact energy, into c->face[row]. It is the first of two passes over the rows;
+ * contact_face_add_force_on_particle adds the forces. Only for laws of the form `surface`. dt: time since the last call
+ * [s]; found: receives largest overlap and number of contacts. */
+void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
+                                          struct contact_found *found);
 
 /* Adds the contact force on particle number `row` of the contact list to p->f, by the contact law of form `surface`.
- * Second of two passes: contact_face_compute_gap must have been called for all particles of the list. */
-void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row);
+ * Second of two passes: contact_face_compute_gap_of_particle must have been called for all particles of the list. */
+void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic contact energy of particle number `row` of the contact list [J], by the contact law of form
  * `surface`. */
-real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
+real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Computes the height above the face at which contact of particle number `row` of the contact list begins, after a
  * search, by the contact law of form `surface`. previous_entry: entry of the particle on the previous list `previous`,
@@ -194,14 +199,14 @@ void contact_face_set_onset_height(struct contact *c, const struct contact *prev
 
 /* Returns a force on the gap of a contact that removes the energy which leap-frog integration adds when contact begins
  * or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4 stiffness
- * gap^2. balance: account of this contact, updated if `advance` is true, i.e. if a time step was made since the last
- * call; if it is false, the last force is returned again. */
-real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool advance);
+ * gap^2. balance: account of this contact, updated if `step_was_made` is true, i.e. if a time step was made since the
+ * last call; if it is false, the last force is returned again. */
+real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
 /* Returns the initial account of the energy errors of a contact on a new list of pairs
  * (contact_energy_correction_force). gap: present gap; previous: account of the contact on the previous list, which is
  * continued; NULL if the contact was not listed. */
-struct contact_balance contact_energy_correction_begin(const struct contact_balance *previous, real gap);
+struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
  * derivative of the contact energy of k by their distance, divided by the distance [N/m]; vector from l to k [m]. */
@@ -210,9 +215,10 @@ struct contact_weight {
 };
 
 /* Computes the contribution of entry `other` of the contact list to the density of the face at entry `entry`, at the
- * positions x - lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
+ * positions x - lag v. time_before_present: time [s]. The energy derivative in the result is that at the present
+ * positions. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
-                                                        int64_t entry, int64_t other, real lag);
+                                                        int64_t entry, int64_t other, real time_before_present);
 
 /* Advances the friction spring *s by a step. dim: dimensions; normal[dim]: outward unit normal of the face, 0 if
  * contact has ended; slip[dim]: displacement of the particle relative to the face in the step [m]; stiffness: stiffness
@@ -221,13 +227,13 @@ void contact_friction_spring_advance(struct contact_spring *s, int dim, const re
                                      real stiffness, real slip_force);
 
 /* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
- * of form `surface`. First of two passes over the particles; contact_face_add_friction adds the forces. */
+ * of form `surface`. First of two passes over the particles; contact_face_add_friction_on_particle adds the forces. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
 /* Adds friction forces on particle number `row` of the contact list to p->f: the force of its own spring, and the
  * reactions to springs of particles that slide on a face to which it belongs. Second of two passes, after
  * contact_face_advance_friction_spring for all particles. */
-void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row);
+void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
 real contact_friction_stored_energy(const struct contact *c);
@@ -238,28 +244,28 @@ void contact_friction_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
  * previous list `previous`. */
-void contact_friction_springs_copy(struct contact *c, const struct contact *previous);
+void contact_friction_springs_copy_from_previous(struct contact *c, const struct contact *previous);
 
-/* Copies friction spring number `previous_entry` of the previous list `previous` to *to. Leaves *to unchanged if
- * `previous` is NULL or `previous_entry` is -1, i.e. if the particle was not listed. */
-void contact_friction_spring_copy(struct contact_spring *to, const struct contact_spring *previous,
-                                  int64_t previous_entry);
+/* Copies friction spring number `previous_entry` of the previous list `previous` to *spring. Leaves *spring unchanged
+ * if `previous` is NULL or `previous_entry` is -1, i.e. if the particle was not listed. */
+void contact_friction_spring_copy_previous(struct contact_spring *spring, const struct contact_spring *previous,
+                                           int64_t previous_entry);
 
 /* Sets the friction work of a new list of particles to that of the previous list `previous` plus the elastic energy of
  * springs that are not on the new list. */
-void contact_friction_transfer_work(struct contact *c, const struct contact *previous);
+void contact_friction_update_work_of_new_list(struct contact *c, const struct contact *previous);
 
-/* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
- * the friction springs. previous: the previous list, from which known particles keep gap and spring. */
-void contact_rigid_list_particles(struct contact *c, const struct contact *previous, const struct particles *p,
-                                  real skin);
+/* Lists for each rigid body the particles within `max_distance` [m] of its surface, with the gaps at which contact
+ * begins and the friction springs. previous: the previous list, from which known particles keep gap and spring. */
+void contact_rigid_list_nearby_particles(struct contact *c, const struct contact *previous, const struct particles *p,
+                                         real max_distance);
 
 /* Frees the lists of particles near rigid bodies, c->near. */
-void contact_rigid_free(struct contact *c);
+void contact_rigid_free_particle_lists(struct contact *c);
 
-/* Returns true if some point of a rigid body has been displaced by `distance` [m] or more since the last search for
+/* Returns true if some point of a rigid body has been displaced by `min_distance` [m] or more since the last search for
  * pairs. */
-bool contact_rigid_has_moved(const struct contact *c, real distance);
+bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance);
 
 /* Adds the contact forces of all rigid bodies on particles to p->f, and stores the opposite forces and moments in the
  * rigid bodies. dt: time since the last call [s], by which friction springs are stretched; found: receives largest

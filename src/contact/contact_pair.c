@@ -22,7 +22,8 @@ static struct contact_pair contact_pair(const struct contact *c, const struct pa
     return pair;
 }
 
-void contact_pair_add_force(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found)
+void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
+                                         struct contact_found *found)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX] = {0};
@@ -35,7 +36,7 @@ void contact_pair_add_force(const struct contact *c, struct particles *p, int64_
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
-real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row)
+real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row)
 {
     real energy = 0;
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
@@ -64,7 +65,7 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
     for (int d = 0; d < p->dim; d++) reference2 += square(p->X[d][i] - p->X[d][j]);
     const real mean = 0.5 * (c->size[k] + c->size[l]);
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
-    const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width(c, p, k, l);
+    const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width_between_entries(c, p, k, l);
     const real r = sqrt(contact_pair_vector(c, p, k, l, apart));
     return real_min(nominal, isnan(previous_distance) ? r : real_max(previous_distance, r));
 }

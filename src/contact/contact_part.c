@@ -27,7 +27,7 @@ static void put_contact(const struct contact *c, const struct grid_method *mpm, 
         return;
     }
     json_write_integer(j, "pairs_max", c->pairs_most);
-    json_write_real(j, "friction_work", contact_friction_work(c));
+    json_write_real(j, "friction_work", contact_friction_dissipated_energy(c));
     json_write_real(j, "overlap_max", c->overlap_most / c->law.spacing);
     json_close(j, '}');
 }

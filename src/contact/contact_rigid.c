@@ -8,7 +8,7 @@
 #include "base/team.h"
 #include "contact_internal.h"
 
-void contact_rigid_free(struct contact *c)
+void contact_rigid_free_particle_lists(struct contact *c)
 {
     for (int b = 0; b < c->rigids && c->near; b++) {
         memory_free(c->near[b].row);
@@ -32,7 +32,7 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
     const int32_t i = c->particle[row];
     real x[DIM_MAX] = {0};
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-    return rigid_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
+    return rigid_signed_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
 /* Returns true if the particle of row `row` may come into contact with rigid body r before the next search, i.e. if
@@ -49,7 +49,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
  * present search. Returns -1 if the particle was not in it. before: contact before the search. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
-    const int64_t row = before->made ? contact_list_find_particle(before, particle) : -1;
+    const int64_t row = before->made ? contact_list_entry_of_particle(before, particle) : -1;
     int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
@@ -86,30 +86,31 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         const int64_t was = near_before(before, body, c->particle[row]);
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
         if (near->spring)
-            contact_friction_spring_copy(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
+            contact_friction_spring_copy_previous(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL,
+                                                  was);
         near->row[near->n] = (int32_t)row;
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
-        near->balance[near->n] = contact_energy_correction_begin(was >= 0 ? &before->near[body].balance[was] : NULL,
-                                                                 gap - near->zero[near->n]);
+        near->balance[near->n] = contact_energy_correction_start_account(
+            was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
         near->n++;
     }
     memory_free(found);
 }
 
-void contact_rigid_list_particles(struct contact *c, const struct contact *previous, const struct particles *p,
-                                  real skin)
+void contact_rigid_list_nearby_particles(struct contact *c, const struct contact *previous, const struct particles *p,
+                                         real max_distance)
 {
     c->near = c->rigids > 0 ? NEW("contact.bodies", c->rigids, struct contact_near) : NULL;
     for (int b = 0; b < c->rigids; b++) {
-        near_find_body(c, previous, p, b, skin);
+        near_find_body(c, previous, p, b, max_distance);
         for (int d = 0; d < DIM_MAX; d++) c->near[b].x[d] = c->rigid[b].x[d];
         for (int k = 0; k < DIM_MAX * DIM_MAX; k++) c->near[b].turn[k] = c->rigid[b].turn[k / DIM_MAX][k % DIM_MAX];
     }
 }
 
-bool contact_rigid_has_moved(const struct contact *c, real distance)
+bool contact_rigid_has_moved_by_distance(const struct contact *c, real min_distance)
 {
     for (int b = 0; b < c->rigids && c->near; b++) {
         const struct rigid_body *r = &c->rigid[b];
@@ -117,19 +118,21 @@ bool contact_rigid_has_moved(const struct contact *c, real distance)
         for (int d = 0; d < DIM_MAX; d++) moved2 += square(r->x[d] - c->near[b].x[d]);
         for (int k = 0; k < DIM_MAX * DIM_MAX; k++)
             turned2 += square(r->turn[k / DIM_MAX][k % DIM_MAX] - c->near[b].turn[k]);
-        if (!(sqrt(moved2) + sqrt(turned2) * r->radius < distance)) return true;
+        if (!(sqrt(moved2) + sqrt(turned2) * r->radius < min_distance)) return true;
     }
     return false;
 }
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Returns the gap between rigid body `body` and the particle of entry q in the list of particles near it, minus the gap
- * at which contact begins [m]; negative if they overlap. normal: receives the outward unit normal of the body. */
-real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
+/* Returns the gap between rigid body `body_number` and the particle of entry q in the list of particles near it, minus
+ * the gap at which contact begins [m]; negative if they overlap. normal: receives the outward unit normal of the body.
+ */
+real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t q,
+                                   real *normal)
 {
-    const struct contact_near *near = &c->near[body];
-    return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
+    const struct contact_near *near = &c->near[body_number];
+    return gap_of(c, p, &c->rigid[body_number], near->row[q], normal) - near->zero[q];
 }
 
 /* Returns the overlap [m] of rigid body `body` with a particle, entry q in the list of particles near the body; 0 if
@@ -139,7 +142,7 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
 {
     const uint8_t *marks = contact_rigid_selection_marks(c, body);
     if (marks && !marks[q]) return 0;
-    const real overlap = -contact_rigid_gap(c, p, body, q, normal);
+    const real overlap = -contact_rigid_gap_of_particle(c, p, body, q, normal);
     return marks ? overlap : real_max(0, overlap);
 }
 
@@ -164,7 +167,7 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
     const real k = 4 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
-    contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
+    contact_energy_correction_force(&near->balance[q], k, contact_rigid_gap_of_particle(c, p, body, q, normal), true);
 }
 
 /* Computes the force of rigid body `body` on the particle of entry q in the list of particles near it, force[DIM_MAX]
@@ -191,7 +194,7 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     const real k = 2 * contact_pair_stiffness(c, p, near->row[q], near->row[q]);
     if (overlap == 0 && near->spring[q].stored == 0) return;
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-    rigid_velocity_at_point(&c->rigid[body], x, v);
+    rigid_compute_velocity_at_point(&c->rigid[body], x, v);
     for (int d = 0; d < p->dim; d++) slid[d] = (p->v[d][i] - v[d]) * dt;
     contact_friction_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
@@ -281,7 +284,7 @@ real contact_rigid_energy(const struct contact *c, const struct particles *p)
 status contact_rigid_save_or_load(struct contact *c, struct archive *a)
 {
     if (c->rigids > 0 && !a->saving) {
-        contact_rigid_free(c);
+        contact_rigid_free_particle_lists(c);
         c->near = NEW("contact.bodies", c->rigids, struct contact_near);
     }
     for (int b = 0; b < c->rigids; b++) {

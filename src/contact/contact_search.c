@@ -36,7 +36,7 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     return everywhere || p->damage[i] > 0 || lacks_family(b, row, 0, least_volume);
 }
 
-int64_t contact_list_find_particle(const struct contact *c, int64_t i)
+int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i)
 {
     int64_t low = 0, high = c->rows;
     while (low < high) {
@@ -49,7 +49,7 @@ int64_t contact_list_find_particle(const struct contact *c, int64_t i)
     return low < c->rows && c->particle[low] == i ? low : -1;
 }
 
-real contact_notch_width(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real widest = 0, a[DIM_MAX], b[DIM_MAX];
@@ -81,7 +81,7 @@ static real contact_rise(const struct contact_law *law, const struct particles *
     real X[DIM_MAX] = {0}, normal[DIM_MAX];
     if (!shape || shape->n == 0) return 0;
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
-    const real rise = -region_distance(shape, X, p->dim, normal) / size - 0.5;
+    const real rise = -region_signed_distance(shape, X, p->dim, normal) / size - 0.5;
     return fabs(rise) < ROUND_OFF || rise > RISE_MOST ? 0 : real_max(rise, -RISE_MOST);
 }
 
@@ -100,7 +100,7 @@ void contact_list_compute_entry_data(struct contact *c, const struct particles *
         c->root[k] =
             (int32_t)(k < c->rows
                           ? k
-                          : contact_list_find_particle(c, image_source_particle(p, c->law.image, c->particle[k])));
+                          : contact_list_entry_of_particle(c, image_source_particle(p, c->law.image, c->particle[k])));
     }
 }
 
@@ -167,10 +167,10 @@ static void row_pairs(const struct contact_search *s, struct neighbour_list *nea
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
     if (s->law->between == CONTACT_NONE) return;
-    particles_find_near(near, &s->cells, &s->places, k, s->reach, false);
+    particles_list_neighbours_within_radius(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
     for (int q = 0; q < near->n; q++) bit_set(marks, s->particle[near->at[q]]);
-    if (s->law->distance == DISTANCE_SPACING) bonds_clear_neighbour_marks(s->b, s->b->row_of[i], marks);
+    if (s->law->distance == DISTANCE_SPACING) bonds_clear_marks_of_intact_neighbours(s->b, s->b->row_of[i], marks);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
         if (!bit_is_set(marks, j)) continue;
@@ -242,7 +242,7 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
         c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
-        const int64_t was = before->made ? contact_list_find_particle(before, c->particle[row]) : -1;
+        const int64_t was = before->made ? contact_list_entry_of_particle(before, c->particle[row]) : -1;
         if (c->law.form == CONTACT_SURFACE)
             contact_face_set_onset_height(c, before, was, p, row);
         else
@@ -276,13 +276,13 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     struct contact_search s = {&c->law, p, b, {.n = c->n, .n_all = c->n, .dim = p->dim}, {0}, c->particle, 0};
     for (int d = 0; d < p->dim; d++) s.places.X[d] = c->at[d];
     s.reach = search_reach(c);
-    if (c->n > 0) cells_make(&s.cells, &s.places, s.reach);
+    if (c->n > 0) cells_make_for_neighbour_search(&s.cells, &s.places, s.reach);
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
-    contact_friction_springs_copy(c, &before);
-    contact_rigid_list_particles(c, &before, p, contact_list_margin(c));
-    contact_friction_transfer_work(c, &before);
+    contact_friction_springs_copy_from_previous(c, &before);
+    contact_rigid_list_nearby_particles(c, &before, p, contact_list_margin(c));
+    contact_friction_update_work_of_new_list(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
@@ -309,44 +309,45 @@ static real largest_displacement(const struct contact *c, const struct particles
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_list_margin(c);
-    return !(c->moved < far) || contact_rigid_has_moved(c, far);
+    return !(c->moved < far) || contact_rigid_has_moved_by_distance(c, far);
 }
 
-/* Requests a search for contact if one of the particles list[0 .. n - 1], which have just become peridynamic, is in the
- * first layer at a face. A particle elsewhere with a few broken bonds does not require a search at once; the next
- * search lists it. With the contact distance of LAMMPS, any particle requests a search. */
+/* Requests a search for contact if one of the particles particle_list[0 .. n - 1], which have just become peridynamic,
+ * is in the first layer at a face. A particle elsewhere with a few broken bonds does not require a search at once; the
+ * next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
-                                          const int32_t *list, int64_t n)
+                                          const int32_t *particle_list, int64_t particle_count)
 {
     const real least_volume = first_layer_share(family) * family->full;
     if (!contact_is_possible(c)) return;
-    for (int64_t k = 0; k < n && !c->due; k++) {
-        const int64_t row = b->row_of[list[k]];
+    for (int64_t k = 0; k < particle_count && !c->due; k++) {
+        const int64_t row = b->row_of[particle_list[k]];
         c->due = c->law.distance == DISTANCE_LAMMPS ||
                  lacks_family(b, row, row < 0 ? 0 : b->broken_volume[row], least_volume);
     }
 }
 
-bool contact_search_needed(struct contact *c, const struct particles *p)
+bool contact_search_is_needed(struct contact *c, const struct particles *p)
 {
     if (c->made) c->moved = largest_displacement(c, p);
     return !c->made || has_come_far(c);
 }
 
-void contact_update_pair_list(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
-                              const struct family *family, int64_t step, int64_t broken_bonds, int64_t conversions)
+void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
+                                          struct loads *l, const struct family *family, int64_t step_number,
+                                          int64_t broken_bond_count, int64_t conversion_count)
 {
     if (!contact_is_possible(c)) return;
-    const bool new_faces = broken_bonds != c->broken && step - c->searched >= BREAKS_WAIT;
-    const bool come = contact_search_needed(c, p);
+    const bool new_faces = broken_bond_count != c->broken && step_number - c->searched >= BREAKS_WAIT;
+    const bool come = contact_search_is_needed(c, p);
     if (c->due || new_faces || come) {
         search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->moved = 0;
-        c->searched = step, c->broken = broken_bonds;
-    } else if (conversions == c->changed) {
-        contact_activate_newly_moving(c, p, b, l);
+        c->searched = step_number, c->broken = broken_bond_count;
+    } else if (conversion_count == c->changed) {
+        contact_activate_newly_moving_particles(c, p, b, l);
         return;
     }
-    c->changed = conversions;
+    c->changed = conversion_count;
     contact_activate_particles_after_restart(c, p, b, l); /* also after conversions, which rebuild row blocks */
 }

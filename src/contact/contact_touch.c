@@ -22,7 +22,7 @@ static void marks_room(struct contact *c)
     }
 }
 
-void contact_selection_activate_all(struct contact *c)
+void contact_activate_all_listed_particles(struct contact *c)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);
@@ -62,7 +62,7 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
             changed += mark_set(&c->touch[q], contact_pair_gap(c, p, row, q) / c->law.spacing, apart);
     }
     if (c->law.form == CONTACT_SURFACE && c->first[row + 1] > c->first[row])
-        changed += mark_set(&c->touch[row], contact_face_gap(c, p, row), most);
+        changed += mark_set(&c->touch[row], contact_face_gap_of_particle(c, p, row), most);
     return changed;
 }
 
@@ -75,35 +75,35 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_select_for_equilibrium(struct contact *c, const struct particles *p, real gap_limit)
+int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
 #pragma omp parallel for schedule(static) reduction(+ : changed)
-    for (int64_t row = 0; row < c->rows; row++) changed += mark_row(c, p, row, gap_limit);
+    for (int64_t row = 0; row < c->rows; row++) changed += mark_row(c, p, row, max_gap);
     for (int b = 0; b < c->rigids; b++)
         for (int64_t q = 0; q < c->near[b].n; q++)
-            changed +=
-                mark_set(&c->near[b].touch[q], contact_rigid_gap(c, p, b, q, normal) / c->law.spacing, gap_limit);
+            changed += mark_set(&c->near[b].touch[q],
+                                contact_rigid_gap_of_particle(c, p, b, q, normal) / c->law.spacing, max_gap);
     return changed;
 }
 
-int64_t contact_search_and_select_for_equilibrium(struct contact *c, const struct particles *p, struct bonds *b,
-                                                  struct loads *l, const struct family *family, real gap_limit)
+int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
+                                                struct loads *l, const struct family *family, real max_gap)
 {
     c->due = true;
-    contact_update_pair_list(c, p, b, l, family, c->searched, c->broken, c->changed);
+    contact_update_pair_list_if_outdated(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
-    contact_selection_activate_all(c);
+    contact_activate_all_listed_particles(c);
     balances_rest(c);
-    return contact_select_for_equilibrium(c, p, gap_limit);
+    return contact_select_active_and_count_changes(c, p, max_gap);
 }
 
 real contact_pair_list_safe_displacement(const struct contact *c) { return 0.5 * contact_list_margin(c); }
 
-void contact_use_equilibrium_selection(struct contact *c, bool use) { c->by_overlap = !use; }
+void contact_restrict_forces_to_selection(struct contact *c, bool selected_only) { c->by_overlap = !selected_only; }
 
-void contact_end_equilibrium_selection(struct contact *c)
+void contact_discard_equilibrium_selection(struct contact *c)
 {
     memory_free(c->touch);
     c->touch = NULL;
@@ -153,13 +153,13 @@ static void rigid_terms(struct visit *v, int body)
         if (!near->touch[q]) continue;
         v->term.n = 1, v->term.stiffness = 2 * contact_pair_stiffness(c, v->p, near->row[q], near->row[q]);
         v->term.particle[0] = c->particle[near->row[q]];
-        contact_rigid_gap(c, v->p, body, q, v->term.along[0]);
+        contact_rigid_gap_of_particle(c, v->p, body, q, v->term.along[0]);
         v->visit(v->context, &v->term);
     }
 }
 
-void contact_visit_springs(const struct contact *c, const struct particles *p,
-                           void (*visit)(void *context, const struct contact_term *term), void *context)
+void contact_visit_selected_as_springs(const struct contact *c, const struct particles *p,
+                                       void (*visit)(void *context, const struct contact_term *term), void *context)
 {
     int64_t most = 1;
     if (!c->touch) return;
@@ -181,8 +181,9 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* Saves the marks of the contacts that act in the equilibrium (contact_select_for_equilibrium) to the archive if
- * a->saving, else restores them. Returns FAILED if the archive cannot be read or written or a stored size differs. */
+/* Saves the marks of the contacts that act in the equilibrium (contact_select_active_and_count_changes) to the archive
+ * if a->saving, else restores them. Returns FAILED if the archive cannot be read or written or a stored size differs.
+ */
 status contact_selection_save_or_load(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;

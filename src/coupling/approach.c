@@ -61,7 +61,8 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     for (int k = 0; k < rigids; k++)
-        if (rigid_may_be_within_reach(&rigid[k], x, reach) && rigid_distance(&rigid[k], x, normal) < reach) return true;
+        if (rigid_may_be_within_reach(&rigid[k], x, reach) && rigid_signed_distance(&rigid[k], x, normal) < reach)
+            return true;
     return false;
 }
 
@@ -85,14 +86,14 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
         places.X[d] = BARE("approach.place", n, real);
         for (int64_t k = 0; k < n; k++) places.X[d][k] = p->x[d][list[k]];
     }
-    cells_make(&cells, &places, reach);
+    cells_make_for_neighbour_search(&cells, &places, reach);
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < n; k++) {
             bool foreign = false;
-            particles_find_near(&near, &cells, &places, k, reach, false);
+            particles_list_neighbours_within_radius(&near, &cells, &places, k, reach, false);
             for (int q = 0; q < near.n && !foreign; q++) foreign = p->body[list[near.at[q]]] != p->body[list[k]];
             if (foreign) mark(p, list[k]);
         }
@@ -102,15 +103,16 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
     for (int d = 0; d < p->dim; d++) memory_free(places.X[d]);
 }
 
-void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach)
+void flag_points_near_other_bodies_to_convert(struct particles *p, int body_count, const struct rigid_body *rigid,
+                                              int rigid_body_count, real max_distance)
 {
-    struct body_box *box = bodies > 1 ? body_boxes(p, bodies) : NULL;
+    struct body_box *box = body_count > 1 ? body_boxes(p, body_count) : NULL;
     uint8_t *close = NEW("approach.close", p->n, uint8_t);
     int64_t n = 0;
 #pragma omp parallel for schedule(static) reduction(+ : n)
     for (int64_t i = 0; i < p->n; i++) {
-        if (rigids > 0 && near_rigid(p, rigid, rigids, i, reach)) mark(p, i);
-        close[i] = box && in_foreign_box(p, box, bodies, i, reach);
+        if (rigid_body_count > 0 && near_rigid(p, rigid, rigid_body_count, i, max_distance)) mark(p, i);
+        close[i] = box && in_foreign_box(p, box, body_count, i, max_distance);
         n += close[i];
     }
     if (n > 0) {
@@ -118,7 +120,7 @@ void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid
         int64_t k = 0;
         for (int64_t i = 0; i < p->n; i++)
             if (close[i]) list[k++] = (int32_t)i;
-        mark_listed(p, list, n, reach);
+        mark_listed(p, list, n, max_distance);
         memory_free(list);
     }
     memory_free(close);

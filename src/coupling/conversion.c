@@ -43,14 +43,14 @@ void convert_to_peridynamic_at_precracks(struct particles *p, const struct bond_
             real X[DIM_MAX];
             particle_reference_position(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
-            if (!particle_is_near_crack(source, p, i)) continue;
-            particle_find_family(&near, source, NULL, p, i);
+            if (!particle_is_near_precrack(source, p, i)) continue;
+            particle_find_family_members(&near, source, NULL, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
         memory_free(near.at);
     }
-    mirror_images_copy_kinds(p, source);
-    particles_update_kind_lists(p);
+    mirror_images_copy_particle_kinds(p, source);
+    particles_rebuild_lists_by_kind(p);
 }
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
@@ -125,7 +125,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
         }
         become_peridynamic(p, changed, i);
         if (!rule->block) continue;
-        particle_find_family(&near, source, map, p, i);
+        particle_find_family_members(&near, source, map, p, i);
         for (int m = 0; m < near.n; m++) {
             const int64_t j = image_source_particle(p, source->image, near.at[m]);
             if (p->body[j] == p->body[i]) become_peridynamic(p, changed, j);
@@ -154,7 +154,7 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     struct neighbour_list near = {0};
     if (!sync) return;
     for (int64_t k = 0; k < changed->n; k++) {
-        particle_find_family(&near, source, map, p, changed->at[k]);
+        particle_find_family_members(&near, source, map, p, changed->at[k]);
         list_once(&exposed, p, changed->at[k]);
         for (int m = 0; m < near.n; m++) list_once(&exposed, p, image_source_particle(p, source->image, near.at[m]));
     }
@@ -174,7 +174,7 @@ int64_t convert_flagged_points(struct conversion *c, const struct conversion_rul
     convert_marked(c, rule, p, source, b->site_map, &changed, t);
     if (changed.n > 0) {
         sync_near(sync, p, source, b->site_map, &changed);
-        bonds_rebuild(b, p, source);
+        bonds_rebuild_after_particle_kind_change(b, p, source);
         if (sync && sync->converted) sync->converted(sync->context, changed.at, changed.n);
     }
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);

@@ -40,46 +40,48 @@ static void meet_others(void *context, const int32_t *list, int64_t n)
     contact_request_search_if_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
-bool conversion_flag_points(struct run *e)
+bool conversion_flag_points_near_bodies_or_faces(struct run *e)
 {
-    if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
+    if (e->scene->active_set) active_rows_update_after_step(&e->bonds, &e->part, &e->loads);
     if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) {
         reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-        flag_points_near_bodies(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
-                                APPROACH_REACH * e->scene->spacing);
+        flag_points_near_other_bodies_to_convert(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
+                                                 APPROACH_REACH * e->scene->spacing);
     }
-    return flag_points_at_closing_slits(e);
+    return flag_points_at_closing_slits_if_due(e);
 }
 
-void conversion_update_mesh(struct run *e, int64_t converted)
+void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count)
 {
     struct partial_stress *partial = &e->coupling->partial;
-    const bool due = converted > 0 || partial->touches > 0;
+    const bool due = converted_count > 0 || partial->touches > 0;
     const bool anew =
-        due && reference_frame_update_after_conversion(e->frame, &e->part, converted, partial, &e->damped);
-    if (anew) reference_frame_find_exposed_points(e->frame, &e->part, &e->bonds, &e->loads);
-    if (converted > 0 || (due && !anew)) bonded_points_update_strain(partial, e->frame, &e->part, e->scene->material);
+        due && reference_frame_update_after_conversion(e->frame, &e->part, converted_count, partial, &e->damped);
+    if (anew) reference_frame_list_bonded_or_loaded_points(e->frame, &e->part, &e->bonds, &e->loads);
+    if (converted_count > 0 || (due && !anew))
+        bonded_points_update_strain(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
-int64_t conversion_convert_and_update_run(struct run *e, int64_t broken_bonds, bool faces_examined, bool bonds_fade)
+int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
+                                                 bool bonds_fade)
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
-    if (!faces_examined && broken_bonds == 0 && !c->approaches && !e->bonds.soft.at_points &&
+    if (!faces_examined && broken_bond_count == 0 && !c->approaches && !e->bonds.soft.at_points &&
         !may_convert(e->scene, &e->part, e->frame))
         return 0;
     e->bonds.soft.at_points = false;
-    mesh_levels_postpone_conversion(&e->frame->levels, &e->part);
+    mesh_levels_delay_conversion_at_coarse_cells(&e->frame->levels, &e->part);
     const int64_t converted =
         convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
     if (converted > 0)
-        interface_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
+        interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
     /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
-    if (c->uses_partial && e->scene->growths > 0 && (broken_bonds > 0 || converted > 0 || bonds_fade))
+    if (c->uses_partial && e->scene->growths > 0 && (broken_bond_count > 0 || converted > 0 || bonds_fade))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    conversion_update_mesh(e, converted);
+    conversion_update_mesh_after_conversion(e, converted);
     return converted;
 }
 
@@ -98,15 +100,16 @@ static void bonded_make(struct coupling_state *c, const struct particles *p, con
     for (int64_t i = 0; i < p->n; i++) c->bonded[i] = p->kind[i] == KIND_MPM && particle_has_intact_bond(b, i);
 }
 
-void interface_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p, const struct bonds *b,
-                                         const struct bond_source *source)
+void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
+                                              const struct bonds *b, const struct bond_source *source)
 {
     bonded_make(c, p, b);
     if (p->n_free == 0) interface_zone_free(&c->zone);
-    if (!c->partial.gives_all && c->flip && p->n_free > 0) interface_zone_make(&c->zone, p, source);
+    if (!c->partial.gives_all && c->flip && p->n_free > 0)
+        interface_zone_find_points_and_neighbours(&c->zone, p, source);
 }
 
-void coupling_compute_partial_stress(struct run *e)
+void coupling_choose_and_compute_partial_stress(struct run *e)
 {
     struct coupling_state *c = e->coupling;
     e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
@@ -114,15 +117,15 @@ void coupling_compute_partial_stress(struct run *e)
     c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
     c->uses_partial = !c->partial.gives_all || e->part.end_strain;
     if (c->uses_partial) partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    interface_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source);
+    interface_zone_rebuild_after_bond_change(c, &e->part, &e->bonds, &e->source);
 }
 
-status coupling_make_mesh(struct run *e, bool motion_set_later)
+status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion)
 {
     struct coupling_state *c = e->coupling;
     const struct mesh_source cuts = {
         .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
-    TRY(reference_frame_make(e, &cuts, motion_set_later));
+    TRY(reference_frame_make_mesh(e, &cuts, caller_sets_motion));
     c->partial.touches = 0; /* the mesh includes the present partial stresses */
     return OK;
 }

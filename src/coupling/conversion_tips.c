@@ -17,7 +17,7 @@ static void region_add(struct region *r, const struct solid *s)
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !crack_end_is_continued_by_mirrors(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
-           cells_find_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
+           cells_list_particles_near_point(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
 /* Adds a ball of `radius` [m] around end k of pre-crack c to region r, if this end is inside the body. In 3D adds a

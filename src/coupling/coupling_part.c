@@ -27,7 +27,7 @@ static void put_notches(struct json *j, const struct notches *n, real spacing)
     if (n->n == 0) return;
     json_open(j, "notches", '[');
     for (int k = 0; k < n->n && k < SAID; k++) {
-        notch_describe_representation(n, k, spacing, text, sizeof text);
+        notch_describe_as_slit_or_cut_bonds(n, k, spacing, text, sizeof text);
         json_write_text(j, NULL, text);
     }
     json_close(j, ']');

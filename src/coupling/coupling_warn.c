@@ -35,10 +35,11 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
     if (names.all == 0) return;
     for (int b = 0; b < s->bodies; b++)
         if (reference->choice[b].reference) name_add(&names, s->body[b].name);
-    warnings_add(to,
-                 "%s %s in the reference frame (mpm.frame), where material points have no contact and pass through "
-                 "other bodies; with mpm.frame: current they have contact; if this is meant: accept: [contact]",
-                 names.text, names.all > 1 ? "are" : "is");
+    warnings_add_if_new(
+        to,
+        "%s %s in the reference frame (mpm.frame), where material points have no contact and pass through "
+        "other bodies; with mpm.frame: current they have contact; if this is meant: accept: [contact]",
+        names.text, names.all > 1 ? "are" : "is");
 }
 
 /* Warns that several bodies have no contact with each other, with the consequence for the method of the scene.
@@ -51,20 +52,21 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (!scene_bodies_can_meet(s) || approaches || scene_silences_warning(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_is_single_equilibrium(s))) return;
     if (s->method == METHOD_PD)
-        warnings_add(to,
-                     "contact.between: none: peridynamic bodies have no contact and pass through each other%s; "
-                     "contact.between: bodies or all gives them contact; if this is meant: accept: [contact]",
-                     s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
+        warnings_add_if_new(to,
+                            "contact.between: none: peridynamic bodies have no contact and pass through each other%s; "
+                            "contact.between: bodies or all gives them contact; if this is meant: accept: [contact]",
+                            s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
-        warnings_add(to,
-                     "particles that become peridynamic pass through the material points of other bodies; contact with "
-                     "them requires contact.between: bodies or all, contact.convert: true and coupling: partial stress "
-                     "or handshake; here %s; if this is meant: accept: [contact]",
-                     s->contact_between == CONTACT_NONE ? "contact.between is none"
-                     : !s->contact_convert              ? "contact.convert is false"
-                                                        : "the coupling is a different one");
+        warnings_add_if_new(
+            to,
+            "particles that become peridynamic pass through the material points of other bodies; contact with "
+            "them requires contact.between: bodies or all, contact.convert: true and coupling: partial stress "
+            "or handshake; here %s; if this is meant: accept: [contact]",
+            s->contact_between == CONTACT_NONE ? "contact.between is none"
+            : !s->contact_convert              ? "contact.convert is false"
+                                               : "the coupling is a different one");
 }
 
 /* Returns true if particles i and j start with nearly the same velocity: parts of bodies that are meant to be joined
@@ -86,7 +88,7 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     struct neighbour_list near = {0};
     int pairs = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        particles_find_near(&near, cells, p, i, reach, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, reach, false);
         for (int k = 0; k < near.n; k++) {
             const int32_t j = near.at[k];
             if (j >= p->n || p->body[j] <= p->body[i] || !start_as_one(p, i, j)) continue;
@@ -115,16 +117,17 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
     }
     memory_free(touch);
     if (names.all > 0)
-        warnings_add(to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
-                     names.text,
-                     s->method == METHOD_PD || e->grid->fields > 1
-                         ? ""
-                         : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
+        warnings_add_if_new(
+            to, "bodies touch at the start (%s) and are not joined: no bond goes from one body to another%s",
+            names.text,
+            s->method == METHOD_PD || e->grid->fields > 1
+                ? ""
+                : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
 }
 
-void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *to)
+void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)
 {
-    warn_of_contact(e->scene, e->frame, e->coupling->approaches, to);
-    warn_of_touch(e, to);
-    warn_of_voids_treated_as_closed(e, to);
+    warn_of_contact(e->scene, e->frame, e->coupling->approaches, warning_list);
+    warn_of_touch(e, warning_list);
+    warn_of_voids_treated_as_closed(e, warning_list);
 }

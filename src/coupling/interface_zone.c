@@ -32,7 +32,7 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
         struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 64)
         for (int64_t k = 0; k < n; k++) {
-            particles_find_near_unordered(&near, s->cells, p, list[k], radius, false);
+            particles_list_neighbours_unordered(&near, s->cells, p, list[k], radius, false);
             for (int q = 0; q < near.n; q++) {
                 const int32_t j = near.at[q];
                 if (!interface_zone_is_free(p, j) || p->body[j] != p->body[list[k]] ||
@@ -80,7 +80,7 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
 {
     const int32_t i = r->particle[k];
     int64_t n = 0;
-    particles_find_near(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
+    particles_list_neighbours_within_radius(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT))
@@ -127,7 +127,8 @@ static void interface_zone_pairs_make(struct interface_zone *r, const struct par
     r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));
 }
 
-void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source)
+void interface_zone_find_points_and_neighbours(struct interface_zone *r, const struct particles *p,
+                                               const struct bond_source *source)
 {
     interface_zone_free(r);
     uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);
@@ -207,7 +208,7 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
 /* Returns the second half of the energy that damping has removed [J]: -1/2 sum dp . v over the members, with their
  * change of momentum dp and their present velocity v. The first half is this sum with the velocities before the
  * step. */
-real interface_zone_damped_energy_second_half(const struct interface_zone *r, const struct particles *p)
+real interface_zone_second_half_of_damped_energy(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < r->n; k++)
@@ -215,7 +216,7 @@ real interface_zone_damped_energy_second_half(const struct interface_zone *r, co
     return lost;
 }
 
-real interface_zone_damp_velocities(struct interface_zone *r, struct particles *p, real strength)
+real interface_zone_damp_and_return_half_energy(struct interface_zone *r, struct particles *p, real viscosity)
 {
 #pragma omp parallel
     {
@@ -223,9 +224,9 @@ real interface_zone_damp_velocities(struct interface_zone *r, struct particles *
         /* 0 for members outside the interface zone */
         for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
 #pragma omp for schedule(static)
-        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, strength);
+        for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, viscosity);
     }
-    const real lost = interface_zone_damped_energy_second_half(r, p);
+    const real lost = interface_zone_second_half_of_damped_energy(r, p);
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) p->v[d][r->particle[k]] += r->change[k * p->dim + d] / p->mass[r->particle[k]];
     return lost;

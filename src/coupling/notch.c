@@ -42,7 +42,8 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
         }
         if (crack_end_is_continued_by_mirrors(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
-        if (cells_find_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
+        if (cells_list_particles_near_point(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2)
+            return true;
     }
     return false;
 }
@@ -75,7 +76,7 @@ static bool in_zone(const struct crack_edges *zone, const struct particles *p, i
     for (int e = 0; e < zone->crack->n && e < EDGES_MAX; e++) {
         const real *from, *to;
         crack_end_of(zone->crack, e, p->dim, &from, &to);
-        if (zone->edges >> e & 1 && segment_distance(from, to, X, p->dim) <= zone->radius) return true;
+        if (zone->edges >> e & 1 && segment_distance_from_point(from, to, X, p->dim) <= zone->radius) return true;
     }
     return false;
 }
@@ -132,7 +133,7 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             if (!near_crack(zone->crack, p, s, i) || in_zone(zone, p, i)) continue;
-            particles_find_near(&near, s->cells, p, i, s->family.cutoff, false);
+            particles_list_neighbours_within_radius(&near, s->cells, p, i, s->family.cutoff, false);
             if (!loses_by(zone->crack, p, i, &near)) continue;
             particles++;
             elsewhere += !(p->flag[i] & FLAG_MESHED);
@@ -173,7 +174,7 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
 {
     real all = 0, lost = 0;
     bool faces = false;
-    particles_find_near(near, source->cells, p, i, source->family.cutoff, false);
+    particles_list_neighbours_within_radius(near, source->cells, p, i, source->family.cutoff, false);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (p->body[j] != p->body[i]) continue;
@@ -212,14 +213,14 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     n->faces = 0;
     for (int64_t i = 0; i < p->n; i++) {
         if (!faces[i]) continue;
-        n->depth[n->faces] = beside_void(source, i) ? voids_surface_distance_bound(source->voids, p, i) : 0;
+        n->depth[n->faces] = beside_void(source, i) ? voids_lower_bound_of_surface_distance(source->voids, p, i) : 0;
         n->face[n->faces++] = (int32_t)i;
     }
     memory_free(faces);
 }
 
-void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real tip_radius,
-                  const char *reason_against_slits)
+void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
+                                       real tip_radius, const char *reason_against_slits)
 {
     *n = (struct notches){.n = source->givens, .radius = tip_radius, .voids = source->voids};
     n->notch = NEW("notch.notch", n->n, struct notch);
@@ -239,8 +240,7 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
     if (n->slits > 0 || n->voids) faces_find(n, p, source);
 }
 
-void notches_convert_particles_at_slit_ends(const struct notches *n, struct particles *p,
-                                            const struct bond_source *source)
+void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source)
 {
     for (int k = 0; k < n->slits; k++) {
         const struct crack_edges zone = crack_edges_of(&n->slit[k], p, source, n->radius);
@@ -320,7 +320,7 @@ static real meeting_reach(const struct notches *n, const struct particles *p, re
     return real_min(MEET_REACH * spacing, (most + 2 * sqrt(speed2) * ahead) * (1 + REACH_SLACK));
 }
 
-void notches_flag_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead)
+void notches_flag_points_at_closing_faces(const struct notches *n, struct particles *p, real spacing, real time_ahead)
 {
     struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
     struct cells cells;
@@ -330,7 +330,7 @@ void notches_flag_closing_faces(const struct notches *n, struct particles *p, re
         places.X[d] = BARE("notch.place", n->faces, real);
         for (int64_t k = 0; k < n->faces; k++) places.X[d][k] = p->x[d][n->face[k]];
     }
-    cells_make(&cells, &places, MEET_REACH * spacing);
+    cells_make_for_neighbour_search(&cells, &places, MEET_REACH * spacing);
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
@@ -338,7 +338,7 @@ void notches_flag_closing_faces(const struct notches *n, struct particles *p, re
         for (int64_t k = 0; k < n->faces; k++) {
             const int32_t i = n->face[k];
             if (p->kind[i] != KIND_MPM) continue;
-            particles_find_near_unordered(&near, &cells, &places, k, reach, false);
+            particles_list_neighbours_unordered(&near, &cells, &places, k, reach, false);
             for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
                 const int32_t j = n->face[near.at[q]];
                 const real after = distance_ahead(p, i, j, time_ahead);

@@ -26,8 +26,8 @@ static const char *scene_obstacle(const struct scene *s)
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !reference_frame_in_use(r)) why = "there are no material points in the reference frame";
-    if (!why && grid_has_mirror_off_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
+    if (!why && !reference_frame_is_in_use(r)) why = "there are no material points in the reference frame";
+    if (!why && grid_has_mirror_plane_between_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
 
@@ -51,36 +51,37 @@ status precracks_apply_as_slits_or_cut_bonds(struct run *e)
     struct notches *n = &e->coupling->notches;
     const real tips = s->conversion.tips * e->source.family.horizon;
     const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
-    notches_make(n, &e->part, &e->source, radius, obstacle_of(s, e->frame, g));
+    notches_choose_slits_or_cut_bonds(n, &e->part, &e->source, radius, obstacle_of(s, e->frame, g));
     TRY(notches_check(s, n));
     struct bond_source cut = e->source;
     cut.crack = n->cut, cut.cracks = n->cuts;
     initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
                            tips);
-    notches_convert_particles_at_slit_ends(n, &e->part, &e->source);
+    notches_make_slit_ends_peridynamic(n, &e->part, &e->source);
     convert_to_peridynamic_beside_voids(&e->part, e->source.voids, mesh_cannot_double_nodes_at_voids(g, s));
     convert_to_peridynamic_at_precracks(&e->part, &cut,
                                         e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void notch_describe_representation(const struct notches *n, int crack, real spacing, char *text, size_t capacity)
+void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_number, real spacing, char *text,
+                                         size_t capacity)
 {
-    if (n->notch[crack].slit)
+    if (n->notch[crack_number].slit)
         snprintf(text, capacity, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
     else
-        snprintf(text, capacity, "cut bonds: %s", n->notch[crack].reason);
+        snprintf(text, capacity, "cut bonds: %s", n->notch[crack_number].reason);
 }
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Flags material points beside slits and narrow voids whose faces approach each other for conversion (FLAG_NEAR), once
  * in APPROACH_STEPS steps. Returns true if faces were examined in this step. */
-bool flag_points_at_closing_slits(struct run *e)
+bool flag_points_at_closing_slits_if_due(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
     reference_frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
-    notches_flag_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    notches_flag_points_at_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;
 }

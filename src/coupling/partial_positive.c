@@ -113,15 +113,15 @@ static void stay_below(real *T, const struct material *m, int dim, real V, real 
                             (partial_positive_root_of(c, dim) * partial_positive_root_of(d, dim));
 }
 
-bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative, const struct particles *p,
-                                      const struct bonds *b, const struct bond_source *s, int64_t i)
+bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
+                                                const struct bonds *b, const struct bond_source *s, int64_t point)
 {
     const int dim = p->dim, n = symmetric_component_count(dim);
-    const struct state_modulus *m = &s->modulus[p->material[i]];
-    const struct material *material = &s->material[p->material[i]];
-    const real V = p->volume0[i];
+    const struct state_modulus *m = &s->modulus[p->material[point]];
+    const struct material *material = &s->material[p->material[point]];
+    const real V = p->volume0[point];
     real zeta[SYM_MAX] = {0}, trace = 0;
-    const bool end = own_bonds(zeta, p, b, i);
+    const bool end = own_bonds(zeta, p, b, point);
     for (int d = 0; d < dim; d++) trace += zeta[d];
     const real kappa = end ? m->B / trace : 0, q = end ? V * m->A * kappa / (m->A + kappa) : 0;
     for (int c = 0; c < n; c++) mean_strain_derivative[c] = end ? (c < dim ? 1.0 / dim : 0) - zeta[c] : 0;
@@ -137,8 +137,9 @@ bool partial_tensor_limit_state_based(real *tensor, real *mean_strain_derivative
     return end;
 }
 
-void partial_tensor_limit_bond_based(real *tensor, const struct particles *p, const struct bond_source *s, int64_t i)
+void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p, const struct bond_source *s,
+                                               int64_t point)
 {
     const real none[SYM_MAX] = {0};
-    stay_below(tensor, &s->material[p->material[i]], p->dim, p->volume0[i], 0, none);
+    stay_below(tensor, &s->material[p->material[point]], p->dim, p->volume0[point], 0, none);
 }

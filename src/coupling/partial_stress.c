@@ -25,14 +25,14 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the fraction of the segment from segment_start[dim] to segment_end[dim] that is inside a cube [1]. X[dim]:
- * centre of the cube; half_edge: half of its edge; all positions and lengths in [m]. */
-real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *X, real half_edge,
-                              int dim)
+/* Returns the fraction of the segment from segment_start[dim] to segment_end[dim] that is inside a cube [1].
+ * cube_centre[dim]: centre of the cube; half_edge: half of its edge; all positions and lengths in [m]. */
+real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *cube_centre,
+                              real half_edge, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
-        real from = segment_start[d] - X[d], along = segment_end[d] - segment_start[d];
+        real from = segment_start[d] - cube_centre[d], along = segment_end[d] - segment_start[d];
         if (fabs(along) < 1e-14 * half_edge) {
             if (fabs(from) >= half_edge) return 0;
             continue;
@@ -44,9 +44,9 @@ real segment_fraction_in_cube(const real *segment_start, const real *segment_end
     return out > in ? out - in : 0;
 }
 
-struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t i)
+struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image)
 {
-    struct reflection r = {.sign = {1, 1, 1}, .root = i};
+    struct reflection r = {.sign = {1, 1, 1}, .root = image};
     while (r.root >= p->n) { /* X of this image: reflection of X of its source along one axis */
         int64_t source = s->image[r.root - p->n].source;
         for (int d = 0; d < p->dim; d++) {
@@ -64,8 +64,8 @@ struct reflection mirror_image_reflection(const struct bond_source *s, const str
 /* Returns 1 for equal indices a and b, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
-void partial_tensor_add_bond(real *tensor, const real *point_position, const real *other_position, const real *centre,
-                             real half_edge, struct response k, int dim)
+void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
+                                          const real *centre, real half_edge, struct response k, int dim)
 {
     real share = segment_fraction_in_cube(point_position, other_position, centre, half_edge, dim), e[DIM_MAX],
          length = 0;
@@ -94,8 +94,8 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response bond_strain_response(const struct particles *p, const struct bonds *b, const struct bond_source *s,
-                                     int32_t i, const struct bond *bond)
+struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
+                                                const struct bond_source *s, int32_t i, const struct bond *bond)
 {
     const int32_t j = bond->nbr;
     const real r = fabs(1 / bond->inverse_length), D = p->dim;
@@ -161,7 +161,8 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        partial_tensor_add_bond(T, xp, xm, X, half, bond_strain_response(p, b, s, b->particle[row], &bond), p->dim);
+        partial_tensor_add_bond_contribution(T, xp, xm, X, half,
+                                             bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 
@@ -179,7 +180,7 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
     const real half = particle_cell_half_edge(p, s, i);
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    particles_find_near(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
+    particles_list_neighbours_within_radius(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++)
         if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
@@ -222,7 +223,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int n = symmetric_component_count(p->dim);
-    const bool end = partial_tensor_limit_state_based(T, entry + n * n, p, b, s, i);
+    const bool end = partial_tensor_limit_for_state_based_bonds(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
@@ -233,7 +234,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
  * be unstable. Returns false if no bond crosses the cell. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    partial_tensor_limit_bond_based(T, p, s, i);
+    partial_tensor_limit_for_bond_based_model(T, p, s, i);
     return partial_matrix(entry, T, p, s, i);
 }
 
@@ -263,9 +264,9 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
         const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
         if (reach == 0)
-            particle_find_family(&near, s, map, p, i);
+            particle_find_family_members(&near, s, map, p, i);
         else
-            particles_find_near_unordered(&near, s->cells, p, i, radius + reach, true);
+            particles_list_neighbours_unordered(&near, s->cells, p, i, radius + reach, true);
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
             for (int d = 0; d < p->dim && reach > 0; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
@@ -303,7 +304,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
 {
     /* a changed bond ends within a cutoff plus half the diagonal of a cell of every cell it crosses; on a lattice,
      * within its own length, since the middle of the cell is inside the box that the bond spans */
-    const bool strange = !partial_table_covers_all(table);
+    const bool strange = !partial_table_covers_all_particles(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
     mark_dirty(mark, p, s, b->site_map, radius, strange ? radius : 0, changed, n);
@@ -316,7 +317,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
     for (int64_t k = 0; k < most; k++) {
         const int32_t i = list[k], row = b->row_of[i];
         if (strange && row >= 0 && mark[i] & OTHERS_ROW && p->kind[i] == KIND_MPM &&
-            row_block_bond_count(b, row / LANES) > 0)
+            bond_row_block_bond_count(b, row / LANES) > 0)
             r->row[r->rows++] = row;
         if (!(mark[i] & DIRTY)) continue;
         r->own[r->n] = !changed || mark[i] & OWN;
@@ -408,8 +409,8 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             const int64_t i = r->list[k];
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_applies_to(p, s, i))
-                partial_table_sum_tensor(partial->table, p, b, s, i, &near, T);
+            if (served && partial_table_applies_to_particle(p, s, i))
+                partial_table_sum_stiffness_tensor(partial->table, p, b, s, i, &near, T);
             else
                 tensor_sum(T, p, b, s, box, i, &near);
             crossed[k] = s->modulus ? state_entry(entry + k * each, T, partial, p, b, s, i)
@@ -430,11 +431,11 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     if (!partial->index) {
         partial->index = NEW("partial.index", p->n, int32_t);
         for (int64_t i = 0; i < p->n; i++) partial->index[i] = -1;
-        partial->table = partial_table_make(p, source, size);
+        partial->table = partial_table_make_of_bond_shares_in_cells(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
     if (partial_table_is_filled(partial->table))
-        partial_table_update_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
+        partial_table_update_strain_responses(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = BARE("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
     entries_make(M, crossed, partial, &r, p, b, source);

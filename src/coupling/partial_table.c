@@ -187,9 +187,9 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Computes t->tensor: the stiffness T of a cell (see partial_tensor_add_bond) that a single bond from its centre gives
- * it if the whole bond is inside the cell. There is one T for each direction of bonds and each part of a bond's
- * response to strain (struct response), with this part equal to 1 and the others to 0. */
+/* Computes t->tensor: the stiffness T of a cell (see partial_tensor_add_bond_contribution) that a single bond from its
+ * centre gives it if the whole bond is inside the cell. There is one T for each direction of bonds and each part of a
+ * bond's response to strain (struct response), with this part equal to 1 and the others to 0. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -203,8 +203,8 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
         for (int part = 0; part < t->parts; part++) {
             const struct response one = {
                 .central = part == 0 && !s->rotates, .vector = part == 0 && s->rotates, .pressure = part == 1};
-            partial_tensor_add_bond(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from,
-                                    2 * t->reach + 1, one, t->dim);
+            partial_tensor_add_bond_contribution(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from,
+                                                 to, from, 2 * t->reach + 1, one, t->dim);
         }
     }
 }
@@ -231,11 +231,12 @@ static bool all_known(const struct particles *p, const struct bond_source *s)
 {
     bool known = true;
 #pragma omp parallel for schedule(static) reduction(&& : known)
-    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_applies_to(p, s, i);
+    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_applies_to_particle(p, s, i);
     return known;
 }
 
-struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int tensor_size)
+struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p, const struct bond_source *s,
+                                                                 int tensor_size)
 {
     const struct family *f = &s->family;
     struct partial_table *t = NEW("partial.table", 1, struct partial_table);
@@ -276,7 +277,7 @@ void partial_table_free(struct partial_table *t)
 
 /* Returns true if the table can be used, i.e. if the particles are on a lattice and have few enough bond vectors. */
 bool partial_table_is_filled(const struct partial_table *t) { return t->vectors > 0; }
-bool partial_table_covers_all(const struct partial_table *t) { return t->uniform; }
+bool partial_table_covers_all_particles(const struct partial_table *t) { return t->uniform; }
 
 static real *response_at(const struct partial_table *t, int64_t k)
 {
@@ -331,7 +332,7 @@ static void response_make(const struct partial_table *t, const struct particles 
         particle_reference_position(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         INVARIANT(place >= 0 && t->vector[place] >= 0);
-        const struct response r = bond_strain_response(p, b, s, b->particle[row], &bond);
+        const struct response r = bond_force_derivative_by_strain(p, b, s, b->particle[row], &bond);
         real *part = response + t->vector[place] * t->parts;
         part[0] = s->rotates ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
@@ -352,35 +353,35 @@ static bool partial_table_has_bonds(struct row_block_intact *last, const struct 
     const int64_t row = b->row_of[i], row_block = row / LANES;
     if (p->kind[i] != KIND_MPM || row < 0) return false;
     if (last->row_block != row_block)
-        *last = (struct row_block_intact){row_block, row_block_lanes_with_intact_bonds(b, row_block)};
+        *last = (struct row_block_intact){row_block, bond_row_block_lanes_with_intact_bonds(b, row_block)};
     return last->rows >> row % LANES & 1;
 }
 
-void partial_table_update_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                                    const struct bond_source *s, const int32_t *list, int64_t n)
+void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
+                                           const struct bond_source *s, const int32_t *point_list, int64_t point_count)
 {
     struct responses *a = &t->responses;
     struct row_block_intact last = {.row_block = -1};
-    if (!list) {
+    if (!point_list) {
         a->n = a->frees = 0;
         for (int64_t i = 0; i < p->n; i++) a->of[i] = -1;
-        list = p->list[KIND_MPM], n = p->n_of[KIND_MPM];
+        point_list = p->list[KIND_MPM], point_count = p->n_of[KIND_MPM];
     }
     int64_t more = 0;
-    bool *has = NEW("partial.has", n, bool);
-    for (int64_t k = 0; k < n; k++) {
-        has[k] = partial_table_has_bonds(&last, p, b, list[k]);
+    bool *has = NEW("partial.has", point_count, bool);
+    for (int64_t k = 0; k < point_count; k++) {
+        has[k] = partial_table_has_bonds(&last, p, b, point_list[k]);
         if (!has[k])
-            response_close(t, list[k]);
+            response_close(t, point_list[k]);
         else
-            more += a->of[list[k]] < 0;
+            more += a->of[point_list[k]] < 0;
     }
     responses_room(t, a->n - a->frees + more);
-    for (int64_t k = 0; k < n; k++)
-        if (has[k]) response_open(t, list[k]);
+    for (int64_t k = 0; k < point_count; k++)
+        if (has[k]) response_open(t, point_list[k]);
 #pragma omp parallel for schedule(dynamic, 16)
-    for (int64_t k = 0; k < n; k++)
-        if (has[k]) response_make(t, p, b, s, b->row_of[list[k]], response_at(t, a->of[list[k]]));
+    for (int64_t k = 0; k < point_count; k++)
+        if (has[k]) response_make(t, p, b, s, b->row_of[point_list[k]], response_at(t, a->of[point_list[k]]));
     memory_free(has);
 }
 
@@ -427,9 +428,9 @@ static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
     }
 }
 
-bool partial_table_applies_to(const struct particles *p, const struct bond_source *s, int64_t i)
+bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *s, int64_t particle)
 {
-    return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
+    return fabs(p->volume0[particle] / s->family.cell_volume - 1) <= WHOLE;
 }
 
 /* Inserts particle or mirror image j into the list to[n], in ascending order, if its bonds may cross the cell of a
@@ -452,7 +453,7 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
-    const int32_t *own = l->at + site_map_find_site(l, p, i);
+    const int32_t *own = l->at + site_map_lattice_site_of_particle(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
@@ -472,7 +473,7 @@ static int crossing_rows_by_search(const struct partial_table *t, const struct p
     real X[DIM_MAX], Y[DIM_MAX];
     int n = 0;
     particle_reference_position(p, i, X);
-    particles_find_near(near, s->cells, p, i, s->family.cutoff, true);
+    particles_list_neighbours_within_radius(near, s->cells, p, i, s->family.cutoff, true);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
         if (p->body[j] != p->body[i]) continue;
@@ -482,14 +483,15 @@ static int crossing_rows_by_search(const struct partial_table *t, const struct p
     return n;
 }
 
-void partial_table_sum_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                              const struct bond_source *s, int64_t i, struct neighbour_list *near, real *tensor)
+void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
+                                        const struct bond_source *s, int64_t point, struct neighbour_list *near,
+                                        real *tensor)
 {
     real sum[VECTORS_MOST];
     struct crossing_row row[VECTORS_MOST + 1];
     const bool mapped = b->site_map && b->site_map->at;
-    const int rows =
-        mapped ? crossing_rows_by_site(t, b->site_map, p, s, i, row) : crossing_rows_by_search(t, p, s, i, near, row);
+    const int rows = mapped ? crossing_rows_by_site(t, b->site_map, p, s, point, row)
+                            : crossing_rows_by_search(t, p, s, point, near, row);
     array_fill_bytes(sum, 0, t->directions * t->parts, sizeof *sum);
     for (int k = 0; k < rows; k++) {
         const real *response = response_at(t, row[k].response);

@@ -25,7 +25,7 @@ struct search {
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
-    particles_find_near(&s->near, s->source->cells, s->p, i, radius, true);
+    particles_list_neighbours_within_radius(&s->near, s->source->cells, s->p, i, radius, true);
     for (int k = 0; k < s->near.n; k++) {
         const int64_t j = image_source_particle(s->p, s->source->image, s->near.at[k]);
         if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
@@ -127,22 +127,22 @@ static void mark_meeting(const struct reversion_rule *rule, const struct particl
     }
 }
 
-int64_t reversion_select_particles(const struct reversion_rule *rule, struct particles *p, const struct bonds *b,
-                                   real t, int32_t **list)
+int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
+                                                 const struct bonds *b, real t, int32_t **selected)
 {
     enum { HELD, CUT, BOUND, NEAR, OPEN, FREE, GOES, MARKS };
     uint8_t *mark[MARKS];
     int64_t n = 0;
     for (int k = 0; k < MARKS; k++) mark[k] = NEW("return.mark", p->n, uint8_t);
-    *list = NULL;
+    *selected = NULL;
     if (mark_constrained(rule, p, b, t, mark[HELD], mark[CUT]) > 0) {
         mark_bound(rule, p, mark[HELD], mark[CUT], mark[BOUND], mark[NEAR]);
         mark_meeting(rule, p, mark[NEAR], mark[BOUND], false, mark[OPEN]);
         for (int64_t i = 0; i < p->n; i++) mark[FREE][i] = p->kind[i] == KIND_PD && !mark[BOUND][i];
         mark_meeting(rule, p, mark[FREE], mark[OPEN], true, mark[GOES]);
-        *list = NEW("return.list", p->n_of[KIND_PD], int32_t);
+        *selected = NEW("return.list", p->n_of[KIND_PD], int32_t);
         for (int64_t i = 0; i < p->n; i++)
-            if (mark[GOES][i]) (*list)[n++] = (int32_t)i;
+            if (mark[GOES][i]) (*selected)[n++] = (int32_t)i;
     }
     for (int k = 0; k < MARKS; k++) memory_free(mark[k]);
     return n;
@@ -256,7 +256,8 @@ static void crossing_of(struct crossing *to, const struct particles *p, const st
 {
     *to = (struct crossing){.half = particle_cell_half_edge(p, source, i)};
     particle_reference_position(p, i, to->X);
-    particles_find_near(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
+    particles_list_neighbours_within_radius(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim),
+                                            true);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const struct reflection r = mirror_image_reflection(source, p, j);
@@ -321,24 +322,24 @@ static void point_from_family(struct particles *p, const struct bonds *b, const 
     for (int d = 0; d < dim && p->stretch[d]; d++) p->stretch[d][i] = known ? G[d * dim + d] : 1;
 }
 
-void reversion_revert_listed_particles(struct conversion *c, struct particles *p, struct bonds *b,
-                                       const struct bond_source *source, struct partial_stress *partial,
-                                       const int32_t *list, int64_t n)
+void reversion_convert_listed_particles_to_mpm(struct conversion *c, struct particles *p, struct bonds *b,
+                                               const struct bond_source *source, struct partial_stress *partial,
+                                               const int32_t *particle_list, int64_t particle_count)
 {
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 8)
-        for (int64_t k = 0; k < n; k++) point_from_family(p, b, source, list[k], &near);
+        for (int64_t k = 0; k < particle_count; k++) point_from_family(p, b, source, particle_list[k], &near);
         memory_free(near.at);
     }
-    for (int64_t k = 0; k < n; k++) {
-        p->kind[list[k]] = KIND_MPM;
-        p->low_since[list[k]] = INFINITY;
-        p->reversions[list[k]] += p->reversions[list[k]] < UINT8_MAX;
+    for (int64_t k = 0; k < particle_count; k++) {
+        p->kind[particle_list[k]] = KIND_MPM;
+        p->low_since[particle_list[k]] = INFINITY;
+        p->reversions[particle_list[k]] += p->reversions[particle_list[k]] < UINT8_MAX;
     }
-    bonds_rebuild(b, p, source);
-    if (partial) partial_stress_make(partial, p, b, source, list, n);
-    c->reverted += n;
+    bonds_rebuild_after_particle_kind_change(b, p, source);
+    if (partial) partial_stress_make(partial, p, b, source, particle_list, particle_count);
+    c->reverted += particle_count;
     c->reversions++;
 }

@@ -19,7 +19,7 @@ static int64_t period(const struct run_clock *clock, const struct material_table
     return steps > 1 ? steps : 1;
 }
 
-status reversion_check_scene(const struct scene *s)
+status reversion_check_scene_allows_reversion(const struct scene *s)
 {
     const char *why = NULL;
     if (!s->conversion.reverts || s->method != METHOD_ADAPTIVE) return OK;
@@ -48,17 +48,17 @@ static real energy_now(struct run *e)
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);
-    reversion_revert_listed_particles(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
-                                      e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
+    reversion_convert_listed_particles_to_mpm(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
+                                              e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
     reference_frame_insert_points(e->frame, &e->part, list, n, &e->damped);
-    conversion_update_mesh(e, n);
+    conversion_update_mesh_after_conversion(e, n);
     reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-    interface_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
+    interface_zone_rebuild_after_bond_change(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
 
-void reversion_revert_relaxed_particles(struct run *e)
+void reversion_convert_relaxed_particles_to_mpm(struct run *e)
 {
     const struct scene *s = e->scene;
     int32_t *list;
@@ -66,7 +66,7 @@ void reversion_revert_relaxed_particles(struct run *e)
         e->part.n_of[KIND_PD] == 0)
         return;
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    const int64_t n = reversion_select_particles(
+    const int64_t n = reversion_select_particles_to_become_mpm(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,
                                  .kept = e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL,

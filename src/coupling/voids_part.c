@@ -11,7 +11,7 @@
 
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s)
 {
-    return s->dim == 1 || grid_has_mirror_off_nodes(g, s);
+    return s->dim == 1 || grid_has_mirror_plane_between_nodes(g, s);
 }
 
 void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed)
@@ -75,7 +75,7 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
         real next[2 * DIM_MAX];
         int beside = 0, across = 0;
         if (s->body[p->body[i]].joined != b) continue;
-        particles_find_near(&near, cells, p, i, reach, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, reach, false);
         next_along(p, i, &near, next);
         for (int d = 0; d < p->dim; d++) beside += real_min(next[2 * d], next[2 * d + 1]) < 1.01 * spacing;
         for (int a = 0; a < 2 * p->dim; a++) across += next[a] > 1.5 * spacing && next[a] <= reach;
@@ -86,31 +86,32 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *to)
+void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
     const bool uncut = mesh_cannot_double_nodes_at_voids(&e->grid->field[0].grid, s);
     const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
     if (grid.n > 0)
-        warnings_add(
-            to,
+        warnings_add_if_new(
+            warning_list,
             "body %s has a void too narrow for its grid, at (%s) m: %lld material points share grid nodes with "
             "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
             "smaller particles.spacing",
             s->body[e->part.body[grid.first]].name, particle_position_text(&e->part, grid.first, 4).text,
             (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
-        if (s->body[b].joined != b || joined_bodies_have_exact_surface(s, b)) continue;
+        if (s->body[b].joined != b || joined_bodies_are_all_defined_by_solids(s, b)) continue;
         const struct closed gap =
             closed_in_lattice(s, &e->part, &e->cells, b, voids_interaction_distance(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
-        warnings_add(to,
-                     "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a list or "
-                     "image defines no faces, so that %s join both sides of the void; define its faces by the key "
-                     "cracks, or use a smaller particles.spacing",
-                     s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
-                     s->method == METHOD_MPM  ? "cells"
-                     : s->method == METHOD_PD ? "bonds"
-                                              : "bonds and cells");
+        warnings_add_if_new(
+            warning_list,
+            "body %s has a void one or two particles wide at (%s) m, beside %lld particles in all: a list or "
+            "image defines no faces, so that %s join both sides of the void; define its faces by the key "
+            "cracks, or use a smaller particles.spacing",
+            s->body[b].name, particle_position_text(&e->part, gap.first, 4).text, (long long)gap.n,
+            s->method == METHOD_MPM  ? "cells"
+            : s->method == METHOD_PD ? "bonds"
+                                     : "bonds and cells");
     }
 }

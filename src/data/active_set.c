@@ -7,14 +7,14 @@
 #include "base/memory.h"
 #include "data/particles.h"
 
-void active_set_make(struct active_set *r, int64_t blocks)
+void active_set_make_with_all_blocks_active(struct active_set *r, int64_t block_count)
 {
-    *r = (struct active_set){.blocks = blocks};
-    r->level = NEW("active_set.level", blocks + LANES, uint8_t);
-    r->moved = NEW("active_set.moved", blocks, uint8_t);
-    r->list = NEW("active_set.list", blocks, int32_t);
-    array_fill_bytes(r->level, 1, blocks, 1);
-    active_set_rebuild_list(r);
+    *r = (struct active_set){.blocks = block_count};
+    r->level = NEW("active_set.level", block_count + LANES, uint8_t);
+    r->moved = NEW("active_set.moved", block_count, uint8_t);
+    r->list = NEW("active_set.list", block_count, int32_t);
+    array_fill_bytes(r->level, 1, block_count, 1);
+    active_set_rebuild_active_block_list(r);
 }
 
 void active_set_free(struct active_set *r)
@@ -24,7 +24,7 @@ void active_set_free(struct active_set *r)
     memory_free(r->list);
 }
 
-void active_set_rebuild_list(struct active_set *r)
+void active_set_rebuild_active_block_list(struct active_set *r)
 {
     r->active = 0;
     for (int64_t k = 0; k < r->blocks; k++)

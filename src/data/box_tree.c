@@ -68,13 +68,13 @@ static void boxes_halve(struct box_tree *t, int32_t at, int32_t *nodes, struct b
     boxes_halve(t, left + 1, nodes, list + n / 2, n - n / 2, box, dim);
 }
 
-void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim)
+void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count, int dim)
 {
-    struct boxed *list = NEW("boxes.list", n, struct boxed);
+    struct boxed *list = NEW("boxes.list", box_count, struct boxed);
     int32_t nodes = 1;
-    *t = (struct box_tree){n, NEW("boxes.node", 2 * (int64_t)n - 1, struct box_node)};
-    for (int k = 0; k < n; k++) list[k].item = k;
-    boxes_halve(t, 0, &nodes, list, n, box, dim);
+    *t = (struct box_tree){box_count, NEW("boxes.node", 2 * (int64_t)box_count - 1, struct box_node)};
+    for (int k = 0; k < box_count; k++) list[k].item = k;
+    boxes_halve(t, 0, &nodes, list, box_count, boxes, dim);
     memory_free(list);
 }
 
@@ -102,12 +102,12 @@ void box_search_start(struct box_search *search, const struct box_tree *tree, co
     if (tree->n > 0) box_wait(search, 0);
 }
 
-int box_search_find_next_box_within(struct box_search *search, real reach)
+int box_search_find_next_box_within(struct box_search *search, real max_distance)
 {
     while (search->waiting > 0) {
         const struct box_waiting next = search->wait[--search->waiting];
         const struct box_node *node = &search->tree->node[next.node];
-        if (next.least > reach) continue;
+        if (next.least > max_distance) continue;
         if (node->left == 0) return node->item;
         box_wait(search, node->left);
         box_wait(search, node->left + 1);

@@ -49,9 +49,9 @@ static void cells_shape(struct cells *c, const struct particles *p, real edge)
     for (int d = 0; d < c->dim; d++) c->n *= c->count[d];
 }
 
-void cells_make(struct cells *c, const struct particles *p, real edge)
+void cells_make_for_neighbour_search(struct cells *c, const struct particles *p, real cell_edge)
 {
-    cells_shape(c, p, edge);
+    cells_shape(c, p, cell_edge);
     c->start = NEW("cells.start", c->n + 2, int32_t);
     c->order = NEW("cells.order", p->n_all, int32_t);
     int32_t *cell = NEW("cells.cell", p->n_all, int32_t);
@@ -177,11 +177,16 @@ static int search(struct search *s, const struct particles *p)
     }
 }
 
-int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-                    int32_t *found, int capacity)
+int cells_list_particles_near_point(const struct cells *c, const struct particles *p, const real *X, real radius,
+                                    int32_t excluded_particle, int32_t *found, int capacity)
 {
-    struct search s = {
-        .c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = capacity, .ascending = true};
+    struct search s = {.c = c,
+                       .X = X,
+                       .radius = radius,
+                       .skip = excluded_particle,
+                       .found = found,
+                       .room = capacity,
+                       .ascending = true};
     return search(&s, p);
 }
 
@@ -242,14 +247,15 @@ static void cells_find(struct neighbour_list *near, const struct cells *c, const
     }
 }
 
-void particles_find_near(struct neighbour_list *near, const struct cells *c, const struct particles *p, int64_t i,
-                         real radius, bool include_itself)
+void particles_list_neighbours_within_radius(struct neighbour_list *near, const struct cells *c,
+                                             const struct particles *p, int64_t particle, real radius,
+                                             bool include_itself)
 {
-    cells_find(near, c, p, i, radius, include_itself, false);
+    cells_find(near, c, p, particle, radius, include_itself, false);
 }
 
-void particles_find_near_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
-                                   int64_t i, real radius, bool include_itself)
+void particles_list_neighbours_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
+                                         int64_t particle, real radius, bool include_itself)
 {
-    cells_find(near, c, p, i, radius, include_itself, true);
+    cells_find(near, c, p, particle, radius, include_itself, true);
 }

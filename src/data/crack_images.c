@@ -11,12 +11,12 @@ static real inner_height(const struct mirror_plane *m, const real *X)
     return (real)-m->outside * (X[m->axis] - m->at);
 }
 
-bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror, int mirrors, const struct crack *c,
-                                       const real *end, real tolerance)
+bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
+                                       const struct crack *c, const real *end, real tolerance)
 {
-    for (int k = 0; k < mirrors; k++)
-        for (int a = 0; a < c->n && inner_height(&mirror[k], end) <= tolerance; a++)
-            if (inner_height(&mirror[k], c->corner[a]) > tolerance) return true;
+    for (int k = 0; k < mirror_count; k++)
+        for (int a = 0; a < c->n && inner_height(&mirror_planes[k], end) <= tolerance; a++)
+            if (inner_height(&mirror_planes[k], c->corner[a]) > tolerance) return true;
     return false;
 }
 
@@ -80,17 +80,17 @@ static void image_add(struct crack_list *to, int k, const struct mirror_plane *m
     }
 }
 
-void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int cracks,
-                               const struct mirror_plane *mirror, int mirrors, real reach, real tolerance)
+void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int crack_count,
+                               const struct mirror_plane *mirror, int mirror_count, real image_reach, real tolerance)
 {
     *list = (struct crack_list){0};
-    for (int k = 0; k < cracks; k++) {
-        struct crack *c = crack_add(list, &crack[k], k, mirrors);
-        for (int b = 0; b < mirrors && c->n > 0; b++) crack_clip(c, &mirror[b], tolerance);
+    for (int k = 0; k < crack_count; k++) {
+        struct crack *c = crack_add(list, &crack[k], k, mirror_count);
+        for (int b = 0; b < mirror_count && c->n > 0; b++) crack_clip(c, &mirror[b], tolerance);
         if (c->n == 0) memory_free(list->crack[--list->n].corner);
     }
-    for (int b = 0; b < mirrors; b++) /* including images of images, at corners */
-        for (int k = 0, n = list->n; k < n; k++) image_add(list, k, &mirror[b], reach, tolerance);
+    for (int b = 0; b < mirror_count; b++) /* including images of images, at corners */
+        for (int k = 0, n = list->n; k < n; k++) image_add(list, k, &mirror[b], image_reach, tolerance);
 }
 
 void crack_list_free(struct crack_list *l)

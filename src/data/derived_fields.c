@@ -47,7 +47,7 @@ static void axis_put(const real *axis, real *to)
     for (int d = 0; d < 3; d++) to[d] = axis[most] < 0 ? -axis[d] : axis[d];
 }
 
-void tensor_principal_values(const real s[6], real value[3], real direction[9])
+void tensor_compute_principal_values(const real s[6], real value[3], real direction[9])
 {
     real a[3][3] = {{s[XX], s[XY], s[XZ]}, {s[XY], s[YY], s[YZ]}, {s[XZ], s[YZ], s[ZZ]}};
     real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -74,13 +74,13 @@ void tensor_principal_values(const real s[6], real value[3], real direction[9])
  * or velocity (3); to: receives the value or values. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
-static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }
+static void principal_from(const real *from, real *to) { tensor_compute_principal_values(from, to, NULL); }
 static void speed_from(const real *from, real *to) { *to = sqrt(dot(from, from, 3)); }
 
 static void directions_from(const real *from, real *to)
 {
     real value[3];
-    tensor_principal_values(from, value, to);
+    tensor_compute_principal_values(from, value, to);
 }
 
 const struct derived_field derived_fields[DERIVED_FIELDS] = {
@@ -91,7 +91,7 @@ const struct derived_field derived_fields[DERIVED_FIELDS] = {
     {"speed", "m/s", "length of the velocity", FROM_VELOCITY, 1, speed_from},
 };
 
-const struct derived_field *derived_field_find(const char *name)
+const struct derived_field *derived_field_find_by_name(const char *name)
 {
     for (int k = 0; k < DERIVED_FIELDS; k++)
         if (strcmp(derived_fields[k].name, name) == 0) return &derived_fields[k];

@@ -112,17 +112,18 @@ real expression_evaluate(const struct expression *e, const real *X, int dim, rea
     return top == 0 ? stack[0] : NAN;
 }
 
-void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text)
+void expression_make(struct expression *e, const struct expression_step *steps, int step_count, const char *text)
 {
     const size_t length = strlen(text) + 1;
-    *e = (struct expression){
-        .n = n, .step = NEW("expression", n, struct expression_step), .text = NEW("expression", length, char)};
-    array_copy(e->step, step, n, sizeof *step);
+    *e = (struct expression){.n = step_count,
+                             .step = NEW("expression", step_count, struct expression_step),
+                             .text = NEW("expression", length, char)};
+    array_copy(e->step, steps, step_count, sizeof *steps);
     memcpy(e->text, text, length);
-    for (int k = 0; k < n; k++) {
-        e->in_time |= step[k].op == EXPRESSION_T;
-        e->in_space |=
-            expression_op_has_no_operands(step[k].op) && step[k].op != EXPRESSION_NUMBER && step[k].op != EXPRESSION_T;
+    for (int k = 0; k < step_count; k++) {
+        e->in_time |= steps[k].op == EXPRESSION_T;
+        e->in_space |= expression_op_has_no_operands(steps[k].op) && steps[k].op != EXPRESSION_NUMBER &&
+                       steps[k].op != EXPRESSION_T;
     }
 }
 

@@ -89,7 +89,7 @@ status grid_extend_box(struct grid *g, const real *lower, const real *upper, int
     return OK;
 }
 
-bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t max_nodes)
+bool grid_set_box_if_not_too_large(struct grid *g, const real *lower, const real *upper, int64_t max_nodes)
 {
     real n = 1;
     g->n = 1;
@@ -104,10 +104,10 @@ bool grid_set_box(struct grid *g, const real *lower, const real *upper, int64_t 
     return true;
 }
 
-void grid_add_prescribed_velocity(struct grid *g, const struct wall *wall)
+void grid_add_prescribed_velocity(struct grid *g, const struct wall *prescribed_velocity)
 {
     GROW("grid.wall", g->wall, g->walls + 1);
-    g->wall[g->walls++] = *wall;
+    g->wall[g->walls++] = *prescribed_velocity;
 }
 
 void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)

@@ -143,17 +143,17 @@ static int64_t count_shells(const struct hull *s)
 
 /* Computes the area vector of face k, its normal times its area [m^2]; in 2D, where a face is a segment, its normal
  * times its length [m]. */
-void hull_face_area_vector(const struct hull *s, int64_t k, real area[DIM_MAX])
+void hull_compute_face_area_vector(const struct hull *s, int64_t k, real area_vector[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
     if (s->dim == 2) {
-        area[0] = b[1] - a[1], area[1] = a[0] - b[0], area[2] = 0;
+        area_vector[0] = b[1] - a[1], area_vector[1] = a[0] - b[0], area_vector[2] = 0;
         return;
     }
     const real *c = s->corner[s->face[k][2]];
     for (int d = 0; d < 3; d++) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
-        area[d] = 0.5 * ((b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e]));
+        area_vector[d] = 0.5 * ((b[e] - a[e]) * (c[f] - a[f]) - (b[f] - a[f]) * (c[e] - a[e]));
     }
 }
 
@@ -165,7 +165,7 @@ static real volume_of(const struct hull *s)
     real sum = 0;
     for (int64_t k = 0; k < s->faces; k++) {
         real area[DIM_MAX], arm[DIM_MAX];
-        hull_face_area_vector(s, k, area);
+        hull_compute_face_area_vector(s, k, area);
         for (int d = 0; d < s->dim; d++) arm[d] = s->corner[s->face[k][0]][d] - s->corner[s->face[0][0]][d];
         sum += dot(arm, area, s->dim) / s->dim;
     }
@@ -197,10 +197,10 @@ static void hull_take(struct hull *s, int dim, int64_t corners, real (*corner)[D
     *s = (struct hull){.dim = dim, .corners = corners, .corner = corner, .faces = faces, .face = face};
 }
 
-void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
-               int32_t (*face)[DIM_MAX])
+void hull_make_closed_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
+                              int64_t face_count, int32_t (*face_corners)[DIM_MAX])
 {
-    hull_take(s, dim, corners, corner, faces, face);
+    hull_take(s, dim, corner_count, corner_positions, face_count, face_corners);
     faces_cancel(s);
     find_open(s);
     s->shells = count_shells(s);
@@ -208,15 +208,15 @@ void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX]
     s->reversed = s->volume < 0;
     if (s->reversed) faces_reverse(s);
     s->volume = fabs(s->volume);
-    hull_build_face_tree(s);
+    hull_build_face_search_tree(s);
 }
 
-void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
-                    int32_t (*face)[DIM_MAX])
+void hull_make_open_surface(struct hull *s, int dim, int64_t corner_count, real (*corner_positions)[DIM_MAX],
+                            int64_t face_count, int32_t (*face_corners)[DIM_MAX])
 {
-    hull_take(s, dim, corners, corner, faces, face);
+    hull_take(s, dim, corner_count, corner_positions, face_count, face_corners);
     s->open = true;
-    hull_build_face_tree(s);
+    hull_build_face_search_tree(s);
 }
 
 void hull_free(struct hull *s)

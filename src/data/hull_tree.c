@@ -37,7 +37,7 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < DIM_MAX; d++) n->low[d] = INFINITY, n->high[d] = -INFINITY;
     for (int32_t k = n->first; k < n->first + n->count; k++) {
         real area[DIM_MAX];
-        hull_face_area_vector(s, leaf[k].face, area);
+        hull_compute_face_area_vector(s, leaf[k].face, area);
         const real size = sqrt(dot(area, area, s->dim));
         weight += size;
         for (int d = 0; d < s->dim; d++) {
@@ -74,7 +74,7 @@ static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
     node_split(s, left + 1, leaf);
 }
 
-void hull_build_face_tree(struct hull *s)
+void hull_build_face_search_tree(struct hull *s)
 {
     struct leaflet *leaf = NEW("hull.tree", s->faces, struct leaflet);
     int32_t(*sorted)[DIM_MAX] = memory_new("hull.faces", s->faces, sizeof *sorted);
@@ -146,7 +146,7 @@ real hull_winding_number(const struct hull *s, const real *X)
     return sum;
 }
 
-real hull_ambiguous_inside_fraction(const struct hull *s)
+real hull_sample_fraction_with_unclear_inside(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
@@ -219,7 +219,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
         segment_nearest(corner[0], corner[1], X, 2, nearest);
         return;
     }
-    hull_face_area_vector(s, k, area);
+    hull_compute_face_area_vector(s, k, area);
     triangle_nearest(corner, area, X, nearest);
 }
 
@@ -277,13 +277,13 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
     return (hull_outside(s, X) ? distance : -distance) <= max_distance;
 }
 
-real hull_distance(const struct hull *s, const real *X, real *normal)
+real hull_signed_distance(const struct hull *s, const real *X, real *normal)
 {
     real point[DIM_MAX] = {0}, r2 = INFINITY, area[DIM_MAX] = {0};
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
     const real distance = sqrt(r2), side = hull_outside(s, X) ? 1 : -1;
-    if (normal) hull_face_area_vector(s, face, area);
+    if (normal) hull_compute_face_area_vector(s, face, area);
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)
         normal[d] = distance > 1e-12 * size ? side * (X[d] - point[d]) / distance : size > 0 ? area[d] / size : 0;

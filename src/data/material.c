@@ -16,7 +16,7 @@ real bond_based_poisson_ratio(enum space space)
  * uniform expansion by the strain s. For bonds the energy density is 1/4 c s^2 family_sum. For the continuum it is 1/2
  * E s^2 (1D), 2 k s^2 (2D) or 9/2 k s^2 (3D), with the bulk modulus k of the space. family_sum: sum of length times
  * volume over the bonds of a full family [m^4]. */
-real material_micro_modulus(const struct material *m, enum space space, real family_sum)
+real material_micro_modulus_of_discrete_family(const struct material *m, enum space space, real family_sum)
 {
     static const real factor[DIM_MAX + 1] = {[1] = 2, [2] = 8, [3] = 18};
     INVARIANT(family_sum > 0);
@@ -26,7 +26,7 @@ real material_micro_modulus(const struct material *m, enum space space, real fam
 /* Returns the micro-modulus c at which bonds and continuum have equal energy densities under a uniform expansion, with
  * the integral over the horizon in place of a sum over neighbours. horizon [m]; section: cross-section in 1D [m^2],
  * thickness in 2D [m]. */
-real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section)
+real material_micro_modulus_of_continuum(const struct material *m, enum space space, real horizon, real section)
 {
     switch (space_dim(space)) {
     case 1:

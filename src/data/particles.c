@@ -111,27 +111,27 @@ void *particle_field_array(const struct particles *p, const struct particle_fiel
     return get(p, f, k);
 }
 
-void particles_make(struct particles *p, int dim, int64_t n, int optional_arrays)
+void particles_make(struct particles *p, int dim, int64_t particle_count, int optional_arrays)
 {
-    INVARIANT(dim >= 1 && dim <= DIM_MAX && n >= 0 && n <= INT32_MAX - LANES);
-    *p = (struct particles){.n = n, .n_all = n, .n_body = n, .dim = dim};
-    p->n_of[KIND_MPM] = n;
+    INVARIANT(dim >= 1 && dim <= DIM_MAX && particle_count >= 0 && particle_count <= INT32_MAX - LANES);
+    *p = (struct particles){.n = particle_count, .n_all = particle_count, .n_body = particle_count, .dim = dim};
+    p->n_of[KIND_MPM] = particle_count;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(dim, optional_arrays); k++)
-            particles_put(p, f, k, memory_new(f->name, n + LANES, f->size));
-    for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
-    p->list_free = NEW("particles.list_free", n, int32_t);
-    particles_update_kind_lists(p);
+            particles_put(p, f, k, memory_new(f->name, particle_count + LANES, f->size));
+    for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", particle_count, int32_t);
+    p->list_free = NEW("particles.list_free", particle_count, int32_t);
+    particles_rebuild_lists_by_kind(p);
 }
 
-void particles_add_mirror_images(struct particles *p, int64_t images, int optional_arrays)
+void particles_extend_arrays_for_mirror_images(struct particles *p, int64_t image_count, int optional_arrays)
 {
-    INVARIANT(images >= 0 && p->n_all + images <= INT32_MAX - LANES);
-    int64_t old = p->n_all + LANES, count = old + images;
+    INVARIANT(image_count >= 0 && p->n_all + image_count <= INT32_MAX - LANES);
+    int64_t old = p->n_all + LANES, count = old + image_count;
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional_arrays); k++)
             particles_put(p, f, k, memory_resize(f->name, get(p, f, k), old, count, f->size));
-    p->n_all += images;
+    p->n_all += image_count;
 }
 
 void particles_free(struct particles *p)
@@ -189,7 +189,7 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
     *low = least, *high = most;
 }
 
-int64_t particles_nearest(const struct particles *p, const real *X)
+int64_t particles_index_nearest_to_position(const struct particles *p, const real *X)
 {
     int64_t nearest = 0;
     real least = INFINITY;
@@ -251,7 +251,7 @@ void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optio
     find_places(p, spacing, place);
     if (in_order(place, p->n)) { /* a single lattice is created in this order */
         memory_free(place);
-        particles_update_kind_lists(p);
+        particles_rebuild_lists_by_kind(p);
         return;
     }
     char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
@@ -261,7 +261,7 @@ void particles_sort_by_lattice_rows(struct particles *p, real spacing, int optio
             permute(get(p, f, k), f->size, place, p->n, scratch);
     memory_free(scratch);
     memory_free(place);
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
 }
 
 /* Returns true if the eight particles i .. i + 7 have the same kind, and either all or none of them are part of a
@@ -279,7 +279,7 @@ static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
     *n += more;
 }
 
-void particles_update_kind_lists(struct particles *p)
+void particles_rebuild_lists_by_kind(struct particles *p)
 {
     for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
     p->n_free = 0;
@@ -330,13 +330,13 @@ status particles_save_or_load(struct particles *p, int optional_arrays, struct a
     return OK;
 }
 
-real particles_largest_speed_of_list(const struct particles *p, const int32_t *list, int64_t n)
+real particles_largest_speed_of_list(const struct particles *p, const int32_t *particle_list, int64_t particle_count)
 {
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)
-    for (int64_t k = 0; k < n; k++) {
+    for (int64_t k = 0; k < particle_count; k++) {
         real speed2 = 0;
-        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][list[k]]);
+        for (int d = 0; d < p->dim; d++) speed2 += square(p->v[d][particle_list[k]]);
         most = real_max(most, speed2);
     }
     return sqrt(most);

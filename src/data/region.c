@@ -35,7 +35,7 @@ real region_support_function_bound(const struct region *r, const real *direction
     return most;
 }
 
-bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX])
+bool region_compute_bounding_box_if_finite(const struct region *r, int dim, real lower[DIM_MAX], real upper[DIM_MAX])
 {
     bool bounded = r->n > 0;
     for (int d = 0; d < dim; d++) {
@@ -50,12 +50,12 @@ bool region_bounding_box(const struct region *r, int dim, real lower[DIM_MAX], r
 /* Returns the volume of the region inside the box `lower` .. `upper` [m^dim], estimated as the share of sample
  * points that are inside. The points are a Kronecker sequence with the increments g^-1, g^-2, .., where g is the
  * root of g^(dim+1) = g + 1 (Roberts 2018). */
-real region_volume(const struct region *r, int dim, const real *lower, const real *upper)
+real region_volume_within_box(const struct region *r, int dim, const real *lower, const real *upper)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
     int64_t inside = 0;
     real volume = 1, share[DIM_MAX] = {0}, effort = 0;
-    for (int k = 0; k < r->n; k++) effort += solid_query_cost(&r->solid[k]);
+    for (int k = 0; k < r->n; k++) effort += solid_query_cost_relative_to_ball(&r->solid[k]);
     const int points = effort < 100 ? 1 << 18 : 1 << 16;
     for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= upper[d] - lower[d];
 #pragma omp parallel for schedule(static) reduction(+ : inside)
@@ -339,7 +339,7 @@ struct wave_state wave_pulse_initial_state(const struct wave_pulse *w, const rea
     return (struct wave_state){velocity, w->velocity / c * radius * 0.5 * root_of_pi * erfc(xi), -velocity / c};
 }
 
-real segment_distance(const real *segment_start, const real *segment_end, const real *point, int dim)
+real segment_distance_from_point(const real *segment_start, const real *segment_end, const real *point, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
     for (int d = 0; d < dim; d++)

@@ -86,11 +86,11 @@ static real run_distance(const struct solid *s, const struct region_run *run, co
     struct box_search near;
     real nearest = INFINITY, own[DIM_MAX];
     int first = 0;
-    if (run->count == 1) return solid_distance(s, X, dim, normal);
+    if (run->count == 1) return solid_signed_distance(s, X, dim, normal);
     for (int d = 0; d < dim; d++) normal[d] = d == 0;
     box_search_start(&near, &run->tree, X, dim);
     for (int k; (k = box_search_find_next_box_within(&near, solid_distance_bound_from_level(nearest))) >= 0;) {
-        const real distance = solid_distance(&s[k], X, dim, own);
+        const real distance = solid_signed_distance(&s[k], X, dim, own);
         if (!(distance < nearest || (distance == nearest && k < first))) continue;
         nearest = distance, first = k;
         for (int d = 0; d < dim; d++) normal[d] = own[d];
@@ -136,18 +136,18 @@ real region_level_set_value(const struct region *r, const real *X, int dim)
     return level;
 }
 
-bool region_has_infinite_box(const struct region *r, int dim)
+bool region_contains_infinite_box_solid(const struct region *r, int dim)
 {
     bool endless = false;
     for (int k = 0; k < r->n; k++) {
         const struct solid *s = &r->solid[k];
         for (int d = 0; d < dim && s->kind == SOLID_BOX; d++) endless |= !isfinite(s->from[d]) || !isfinite(s->to[d]);
-        endless |= region_has_infinite_box(&s->region, dim);
+        endless |= region_contains_infinite_box_solid(&s->region, dim);
     }
     return endless;
 }
 
-real region_distance(const struct region *r, const real *X, int dim, real *normal)
+real region_signed_distance(const struct region *r, const real *X, int dim, real *normal)
 {
     real nearest = r->n > 0 && r->solid[0].intersect ? -INFINITY : INFINITY, own[DIM_MAX];
     for (int d = 0; d < dim; d++) normal[d] = d == 0;

@@ -44,7 +44,7 @@ static int64_t weights_along(real place, real weight[NODES])
     return first;
 }
 
-real scatter_gaussian_field(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
+real scatter_gaussian_field_value(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
     if (!(s->length > 0)) return noise_of(hash_add_word(hash_add_word(s->seed, 0), (uint64_t)particle_id));
     real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
@@ -85,7 +85,7 @@ static real lognormal_of(real g, real variation)
 real scatter_strength_factor(const struct strength_scatter *s, const real *X, int dim, int64_t particle_id)
 {
     if (!s->given) return 1;
-    const real g = scatter_gaussian_field(s, X, dim, particle_id);
+    const real g = scatter_gaussian_field_value(s, X, dim, particle_id);
     const real factor = s->form == SCATTER_WEIBULL ? weibull_of(g, s->modulus) : lognormal_of(g, s->variation);
     return s->of == SCATTER_ENERGY ? sqrt(factor) : factor;
 }

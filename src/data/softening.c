@@ -226,16 +226,17 @@ static real peak(const struct directions *a, real (*stress)(const struct directi
 static const struct softening_model bond_based = {0, 0, false};
 
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_ratio, const struct softening_model *model)
+                                                               real squared_stretch_ratio,
+                                                               const struct softening_model *model)
 {
-    const struct directions a = {c, space, (squared_ratio - 1) / (2 * c->area), model};
+    const struct directions a = {c, space, (squared_stretch_ratio - 1) / (2 * c->area), model};
     return (struct softening_strength){peak(&a, tension_at), peak(&a, biaxial_at), peak(&a, shear_at)};
 }
 
 struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
-                                                               real squared_ratio)
+                                                               real squared_stretch_ratio)
 {
-    return softening_model_normalised_strengths(c, space, squared_ratio, &bond_based);
+    return softening_model_normalised_strengths(c, space, squared_stretch_ratio, &bond_based);
 }
 
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model)
@@ -261,16 +262,17 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 
 /* ---- rates ------------------------------------------------------------------------------------------------------- */
 
-real strength_rate_interpolate(const struct strength_rate *r, const real *value, real rate)
+real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate)
 {
     int k = 0;
     while (k < r->points && r->rate[k] < rate) k++;
-    if (k == 0 || k == r->points) return value[k == 0 ? 0 : k - 1];
+    if (k == 0 || k == r->points) return table_values[k == 0 ? 0 : k - 1];
     const real part = log(rate / r->rate[k - 1]) / log(r->rate[k] / r->rate[k - 1]);
-    return value[k - 1] + part * (value[k] - value[k - 1]);
+    return table_values[k - 1] + part * (table_values[k] - table_values[k - 1]);
 }
 
-real strength_rate_compute_onset_factors(struct material *m, enum space space, const struct softening_model *model)
+real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
+                                                  const struct softening_model *model)
 {
     real least = INFINITY;
     for (int k = 0; k < m->rate.points; k++) {

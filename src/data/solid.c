@@ -235,7 +235,7 @@ static real cone_from(const struct solid *s, const real *X, int dim, real *norma
         if ((k == 2 && s->inner == 0) || (k == 3 && s->radius == 0)) continue;
         corner[section.n][0] = ends[k][0], corner[section.n++][1] = ends[k][1];
     }
-    const real distance = polygon_distance(&section, at, in_plane);
+    const real distance = polygon_signed_distance(&section, at, in_plane);
     axis_normal(&p, in_plane, normal);
     return distance;
 }
@@ -276,7 +276,7 @@ static real torus_support(const struct solid *s, const real *along, int dim)
 static real polygon_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
-    return polygon_distance(s->polygon, X, normal);
+    return polygon_signed_distance(s->polygon, X, normal);
 }
 
 static real polygon_reach(const struct solid *s, const real *along, int dim)
@@ -308,7 +308,7 @@ static real extrusion_from(const struct solid *s, const real *X, int dim, real *
     plane_axes(s, axes);
     const real flat[] = {X[axes[0]], X[axes[1]]}, below = s->begin - X[s->axis], above = X[s->axis] - s->end;
     real own[DIM_MAX];
-    const real across = region_distance(&s->region, flat, 2, own), along = real_max(below, above);
+    const real across = region_signed_distance(&s->region, flat, 2, own), along = real_max(below, above);
     const real outside = hypot(real_max(across, 0), real_max(along, 0));
     const real share = outside > 0 ? real_max(across, 0) / outside : across >= along;
     const real rest = outside > 0 ? real_max(along, 0) / outside : across < along;
@@ -351,7 +351,7 @@ static real extrusion_support(const struct solid *s, const real *along, int dim)
 
 static real group_from(const struct solid *s, const real *X, int dim, real *normal)
 {
-    return region_distance(&s->region, X, dim, normal);
+    return region_signed_distance(&s->region, X, dim, normal);
 }
 
 static real group_level(const struct solid *s, const real *X, int dim)
@@ -372,7 +372,7 @@ static real group_support(const struct solid *s, const real *along, int dim)
 static real hull_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
-    return hull_distance(s->hull, X, normal) - s->radius;
+    return hull_signed_distance(s->hull, X, normal) - s->radius;
 }
 
 static real hull_reach(const struct solid *s, const real *along, int dim)
@@ -386,19 +386,19 @@ static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
     return s->radius == 0 ? hull_point_is_within_distance(s->hull, X, most)
-                          : hull_distance(s->hull, X, NULL) - s->radius <= most;
+                          : hull_signed_distance(s->hull, X, NULL) - s->radius <= most;
 }
 
 static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
-    return voxel_part_distance(s->voxels, X, normal);
+    return voxel_part_signed_distance(s->voxels, X, normal);
 }
 
 static real voxels_level(const struct solid *s, const real *X, int dim)
 {
     (void)dim;
-    return voxel_part_distance(s->voxels, X, NULL);
+    return voxel_part_signed_distance(s->voxels, X, NULL);
 }
 
 /* Returns the support in direction along[dim] of the box of the whole voxel image: the maximum of X . along over its
@@ -431,7 +431,7 @@ const struct solid_type solid_types[SOLID_KINDS] = {
     [SOLID_BALL] = {ball_from, NULL, ball_support, NULL},
     [SOLID_CYLINDER] = {cylinder_from, cylinder_level, cylinder_support, NULL},
     [SOLID_HALF_SPACE] = {half_space_from, half_space_level, half_space_support, NULL},
-    [SOLID_ELLIPSOID] = {ellipsoid_distance, NULL, ellipsoid_support, NULL},
+    [SOLID_ELLIPSOID] = {ellipsoid_signed_distance, NULL, ellipsoid_support, NULL},
     [SOLID_RING] = {ring_from, NULL, ball_support, NULL},
     [SOLID_POLYGON] = {polygon_from, NULL, polygon_reach, NULL},
     [SOLID_TUBE] = {tube_from, NULL, cylinder_support, NULL},

@@ -158,7 +158,7 @@ static void images_index(struct solid *s, int dim)
     memory_free(box);
 }
 
-bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim)
+bool solid_apply_motion_if_not_too_many_copies(struct solid *s, const struct solid_motion *m, int dim)
 {
     const int before = s->images > 0 ? s->images : 1;
     const real count = motion_count(m, dim) * before;
@@ -179,7 +179,7 @@ bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim)
 
 /* Returns the signed distance of X[dim] from the nearest copy of the solid, negative inside [m], and its outward normal
  * in normal[dim]. If several copies are equally near, the first one counts. */
-real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
+real solid_signed_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
     int first = 0;
@@ -254,10 +254,10 @@ real solid_support_function(const struct solid *s, const real *direction, int di
     return most;
 }
 
-real solid_query_cost(const struct solid *s)
+real solid_query_cost_relative_to_ball(const struct solid *s)
 {
     real effort = s->region.n == 0 ? 1 : 0;
-    for (int k = 0; k < s->region.n; k++) effort += solid_query_cost(&s->region.solid[k]);
+    for (int k = 0; k < s->region.n; k++) effort += solid_query_cost_relative_to_ball(&s->region.solid[k]);
     if (s->polygon) effort = 1 + 0.1 * s->polygon->n;
     return effort * (s->images > 0 ? s->images : 1);
 }

@@ -6,10 +6,10 @@
 #include "data/solid.h"
 
 /* Functions of one kind of solid, which treat a solid without its copies. The members distance, level, support and
- * within do for it what solid_distance, solid_level_set_value, solid_support_function and solid_level_set_is_at_most do
- * for a solid with copies. */
+ * within do for it what solid_signed_distance, solid_level_set_value, solid_support_function and
+ * solid_level_set_is_at_most do for a solid with copies. */
 struct solid_type {
-    real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_distance */
+    real (*distance)(const struct solid *s, const real *X, int dim, real *normal); /* as solid_signed_distance */
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level_set_value; NULL: the distance */
     real (*support)(const struct solid *s, const real *along,
                     int dim); /* as solid_support_function, for `along` of any length */
@@ -27,14 +27,14 @@ struct axis_place {
 
 /* Returns the signed distance of the point X from the boundary of a polygon, negative inside [m]. normal: receives the
  * outward unit normal at the nearest point, two components. */
-real polygon_distance(const struct polygon *p, const real *X, real *normal);
+real polygon_signed_distance(const struct polygon *p, const real *X, real *normal);
 
-/* Returns the largest scalar product X . along over the points X of a polygon (support function). along: two
+/* Returns the largest scalar product X . along over the points X of a polygon (support function). direction: two
  * components, of any length. */
-real polygon_support_function(const struct polygon *p, const real *along);
+real polygon_support_function(const struct polygon *p, const real *direction);
 
 /* Returns the signed distance of the point X from the surface of an ellipsoid, negative inside [m]. dim: 2 for an
  * ellipse, 3; normal: receives the outward unit normal at the nearest point. */
-real ellipsoid_distance(const struct solid *s, const real *X, int dim, real *normal);
+real ellipsoid_signed_distance(const struct solid *s, const real *X, int dim, real *normal);
 
 #endif

@@ -107,7 +107,7 @@ static bool edge_crossed(const real *a, const real *b, const real *X)
     return X[0] < a[0] + (X[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
 }
 
-real polygon_distance(const struct polygon *p, const real *X, real *normal)
+real polygon_signed_distance(const struct polygon *p, const real *X, real *normal)
 {
     struct nearest n = {.r2 = INFINITY};
     bool inside = false;
@@ -127,18 +127,18 @@ real polygon_distance(const struct polygon *p, const real *X, real *normal)
     return sign * r;
 }
 
-real polygon_support_function(const struct polygon *p, const real *along)
+real polygon_support_function(const struct polygon *p, const real *direction)
 {
     real most = -INFINITY;
     for (int k = 0; k < p->n; k++) {
         if (!p->bend) {
-            most = real_max(most, dot(p->corner[k], along, 2));
+            most = real_max(most, dot(p->corner[k], direction, 2));
             continue;
         }
         const struct bend *b = &p->bend[k];
-        most = real_max(most, real_max(dot(b->from, along, 2), dot(b->to, along, 2)));
-        if (bend_convex(b, p->corner[k], p->sense) && bend_contains(b, along))
-            most = real_max(most, dot(b->centre, along, 2) + p->round * sqrt(dot(along, along, 2)));
+        most = real_max(most, real_max(dot(b->from, direction, 2), dot(b->to, direction, 2)));
+        if (bend_convex(b, p->corner[k], p->sense) && bend_contains(b, direction))
+            most = real_max(most, dot(b->centre, direction, 2) + p->round * sqrt(dot(direction, direction, 2)));
     }
     return most;
 }
@@ -298,7 +298,7 @@ static void ellipsoid_foot(const real *e, const real *y, int dim, real *x)
     if (t == -square(e[least])) x[least] = e[least] * sqrt(real_max(0, rest));
 }
 
-real ellipsoid_distance(const struct solid *s, const real *X, int dim, real *normal)
+real ellipsoid_signed_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real y[DIM_MAX], x[DIM_MAX], level = 0, r2 = 0, size2 = 0;
     for (int d = 0; d < dim; d++) {

@@ -10,19 +10,22 @@ static struct strength_surface surface_through(real tension, real g1)
     return (struct strength_surface){tension * (1 / sqrt(3) + g1), g1};
 }
 
-struct strength_surface strength_surface_from_compression(real tension, real compression)
+struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength)
 {
-    return surface_through(tension, (compression - tension) / (sqrt(3) * (compression + tension)));
+    return surface_through(tensile_strength, (compressive_strength - tensile_strength) /
+                                                 (sqrt(3) * (compressive_strength + tensile_strength)));
 }
 
-struct strength_surface strength_surface_from_hydrostatic(real tension, real hydrostatic)
+struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength)
 {
-    return surface_through(tension, tension / (sqrt(3) * (3 * hydrostatic - tension)));
+    return surface_through(tensile_strength,
+                           tensile_strength / (sqrt(3) * (3 * hydrostatic_strength - tensile_strength)));
 }
 
-struct strength_surface strength_surface_from_biaxial(real tension, real biaxial)
+struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength)
 {
-    return surface_through(tension, (tension - biaxial) / (sqrt(3) * (2 * biaxial - tension)));
+    return surface_through(tensile_strength, (tensile_strength - biaxial_strength) /
+                                                 (sqrt(3) * (2 * biaxial_strength - tensile_strength)));
 }
 
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface)
@@ -76,7 +79,7 @@ real material_smallest_strain_at_strength(const struct material *m, enum space s
     return real_max(0, real_min(least, largest_strain(m, space, equal)));
 }
 
-struct surface_strengths material_surface_strengths(const struct material *m, enum space space)
+struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space)
 {
     real tension[] = {1, 0, 0}, biaxial[] = {1, 1, 0};
     const real shear[] = {1, -1, 0}, hydrostatic[] = {1, 1, 1};

@@ -70,18 +70,19 @@ static void cells_room(struct transfer_order *o, int32_t cells)
     o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
 }
 
-void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells)
+void transfer_order_reserve_arrays(struct transfer_order *o, int64_t point_count, int64_t block_count,
+                                   int32_t cell_count)
 {
-    if (o->blocks_room < blocks + 1 || o->room < n) {
+    if (o->blocks_room < block_count + 1 || o->room < point_count) {
         memory_free(o->particle);
         memory_free(o->block_start);
         memory_free(o->block_cell);
-        o->particle = NEW("transfer.particle", n + ORDER_AHEAD, int32_t);
-        o->block_start = NEW("transfer.block_start", blocks + 1, int32_t);
-        o->block_cell = NEW("transfer.block_cell", blocks + 1, int32_t);
-        o->blocks_room = (int)blocks + 1, o->room = n;
+        o->particle = NEW("transfer.particle", point_count + ORDER_AHEAD, int32_t);
+        o->block_start = NEW("transfer.block_start", block_count + 1, int32_t);
+        o->block_cell = NEW("transfer.block_cell", block_count + 1, int32_t);
+        o->blocks_room = (int)block_count + 1, o->room = point_count;
     }
-    cells_room(o, cells);
+    cells_room(o, cell_count);
 }
 
 /* ---- sorting ----------------------------------------------------------------------------------------------------- */
@@ -269,14 +270,14 @@ static void sorting_free(struct sorting *s)
     for (int d = 0; d < DIM_MAX; d++) memory_free(s->place[d]);
 }
 
-void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
-                         const struct grid *g)
+void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
+                                        int64_t point_count, const struct grid *g)
 {
-    struct sorting s = {.p = p, .g = g, .shape = block_shape_of(g), .list = list, .n = n};
-    transfer_order_reserve(o, n, s.shape.n, 0);
+    struct sorting s = {.p = p, .g = g, .shape = block_shape_of(g), .list = point_list, .n = point_count};
+    transfer_order_reserve_arrays(o, point_count, s.shape.n, 0);
     sorting_make(&s);
     rank_blocks(o, &s.shape, s.rank);
-    o->n = n;
+    o->n = point_count;
 #pragma omp parallel for schedule(static)
     for (int chunk = 0; chunk < s.chunks; chunk++) find_blocks_of(&s, chunk);
     add_up(&s, o->block_start);

@@ -122,9 +122,9 @@ static void runs_make(struct rotation_groups *t, const struct member *all, int64
 }
 
 void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
-                          const int *joined_to, const bool *supported)
+                          const int *first_joined_body, const bool *body_is_supported)
 {
-    struct member *all = members_sorted(p, spacing, origin, joined_to);
+    struct member *all = members_sorted(p, spacing, origin, first_joined_body);
     rotation_groups_free(t);
     for (int64_t k = 0; k < p->n; k++) t->groups += k == 0 || groups_differ(&all[k], &all[k - 1]);
     t->group = NEW("turning.group", t->groups, struct turning_group);
@@ -132,7 +132,7 @@ void rotation_groups_make(struct rotation_groups *t, const struct particles *p, 
     struct turning_group *g = t->group;
     for (int64_t k = 0; k < p->n; k++) {
         if (k > 0 && !groups_differ(&all[k], &all[k - 1])) continue;
-        *g = (struct turning_group){.body = all[k].body, .off = all[k].off, .held = supported[all[k].body]};
+        *g = (struct turning_group){.body = all[k].body, .off = all[k].off, .held = body_is_supported[all[k].body]};
         memcpy(g->place, all[k].place, sizeof g->place);
         g++;
     }

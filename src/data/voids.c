@@ -132,7 +132,8 @@ static void line_normal(const struct voids *v, int body, const struct void_line 
     }
 }
 
-bool void_separates_points(const struct voids *v, int body, const real *point, const real *other_point, bool *facing)
+bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
+                           bool *facing)
 {
     const int dim = v->dim;
     struct void_line there = {.from = point}, back = {.from = other_point};
@@ -140,17 +141,17 @@ bool void_separates_points(const struct voids *v, int body, const real *point, c
     while (first < dim && point[first] == other_point[first]) first++;
     if (first == dim) return false;
     if (point[first] > other_point[first])
-        return void_separates_points(v, body, other_point, point, facing); /* equal bits in both directions */
+        return void_separates_points(v, body_number, other_point, point, facing); /* equal bits in both directions */
     for (int d = 0; d < dim; d++) there.length += square(other_point[d] - point[d]);
     there.length = back.length = sqrt(there.length);
     for (int d = 0; d < dim; d++)
         there.along[d] = (other_point[d] - point[d]) / there.length, back.along[d] = -there.along[d];
-    const real out = line_inside(v, body, &there);
+    const real out = line_inside(v, body_number, &there);
     if (out >= there.length) return false;
     if (!facing) return true;
     real normal[DIM_MAX], other[DIM_MAX];
-    line_normal(v, body, &there, out, normal);
-    line_normal(v, body, &back, line_inside(v, body, &back), other);
+    line_normal(v, body_number, &there, out, normal);
+    line_normal(v, body_number, &back, line_inside(v, body_number, &back), other);
     *facing = dot(normal, other, dim) < 0;
     return true;
 }
@@ -159,20 +160,21 @@ bool void_separates_points(const struct voids *v, int body, const real *point, c
 
 /* Returns true if a void, space without particles, is between particles i and j of one body: the segment that
  * connects them leaves the shape of the body. Returns false if v is NULL. */
-bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
+bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
+                              int64_t other_particle)
 {
     real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
-    if (!particle_is_beside_void(v, i) || !particle_is_beside_void(v, j)) return false;
-    particle_reference_position(p, i, a);
-    particle_reference_position(p, j, b);
-    return void_separates_points(v, p->body[i], a, b, NULL);
+    if (!particle_is_beside_void(v, particle) || !particle_is_beside_void(v, other_particle)) return false;
+    particle_reference_position(p, particle, a);
+    particle_reference_position(p, other_particle, b);
+    return void_separates_points(v, p->body[particle], a, b, NULL);
 }
 
-real voids_surface_distance_bound(const struct voids *v, const struct particles *p, int64_t i)
+real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle)
 {
     real X[DIM_MAX] = {0};
-    particle_reference_position(p, i, X);
-    return real_max(0, -void_level(v, p->body[i], X));
+    particle_reference_position(p, particle, X);
+    return real_max(0, -void_level(v, p->body[particle], X));
 }
 
 /* Returns true if the convex solid s stays convex when its mirror images are added. Only planes of symmetry within
@@ -242,29 +244,29 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
 }
 
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
-                                    const struct image *image, real reach)
+                                    const struct image *images, real max_distance)
 {
     real *depth = NEW("voids.depth", p->n_all, real);
     uint32_t *inside = NEW("voids.inside", p->n_all, uint32_t);
     v->near = NEW("voids.near", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
-        depth[i] = voids_surface_distance_bound(v, p, i);
-        if (depth[i] < reach) inside[i] = solids_around(v, p, i, reach);
+        depth[i] = voids_lower_bound_of_surface_distance(v, p, i);
+        if (depth[i] < max_distance) inside[i] = solids_around(v, p, i, max_distance);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_source_particle(p, image, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_source_particle(p, images, k)];
 #pragma omp parallel
     {
         struct neighbour_list near = {0};
 #pragma omp for schedule(dynamic, 256)
         for (int64_t i = 0; i < p->n; i++) {
-            if (depth[i] >= reach || inside[i] == ALONE) continue;
-            particles_find_near(&near, cells, p, i, reach, false);
+            if (depth[i] >= max_distance || inside[i] == ALONE) continue;
+            particles_list_neighbours_within_radius(&near, cells, p, i, max_distance, false);
             v->near[i] = void_search(v, p, depth, inside, i, &near);
         }
         memory_free(near.at);
     }
-    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_source_particle(p, image, k)];
+    for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_source_particle(p, images, k)];
     memory_free(depth);
     memory_free(inside);
 }

@@ -99,7 +99,7 @@ static bool grey_in(const struct voxel_part *p, int grey)
     return in;
 }
 
-void voxel_part_make(struct voxel_part *p)
+void voxel_part_make_from_grey_value_ranges(struct voxel_part *p)
 {
     const struct voxels *v = p->of;
     int64_t n[DIM_MAX], all = padded(v, n), inside = 0;
@@ -155,7 +155,7 @@ static real box_beyond(const struct voxels *v, const real *X)
     return sqrt(sum);
 }
 
-real voxel_part_distance(const struct voxel_part *p, const real *X, real *normal)
+real voxel_part_signed_distance(const struct voxel_part *p, const real *X, real *normal)
 {
     const struct voxels *v = p->of;
     real size2 = 0;

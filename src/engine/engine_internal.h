@@ -18,17 +18,18 @@ struct predecessor {
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates the run e of the scene s without the particles of the cells listed in `hollow`: cells inside a body that
- * coarse cells replace. out: output of the run. predecessor: NULL, or a run from which particles, bonds and time are
- * transferred. In the latter case the caller sets all other state that time steps have changed, and the refinement
- * levels of cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
-status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
-                                    struct cells_without_particles hollow, struct predecessor *predecessor);
+/* Creates the run e of the scene s without the particles of the cells listed in `omitted_cells`: cells inside a body
+ * that coarse cells replace. output: output of the run. predecessor: NULL, or a run from which particles, bonds and
+ * time are transferred. In the latter case the caller sets all other state that time steps have changed, and the
+ * refinement levels of cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
+status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
+                                          struct cells_without_particles omitted_cells,
+                                          struct predecessor *predecessor);
 
 /* Replaces run e by a run with the same state, in which the particles are those that the refinement levels of the mesh
- * cells require. level: refinement level of each mesh cell. Returns FAILED if this fails, or if the frame that is being
- * written cannot be written. */
-status engine_replace_particles(struct run *e, const uint8_t *level);
+ * cells require. cell_level: refinement level of each mesh cell. Returns FAILED if this fails, or if the frame that is
+ * being written cannot be written. */
+status engine_replace_particles(struct run *e, const uint8_t *cell_level);
 
 /* Transfers the particles of predecessor->run to the run e, which is being created, and stores the new indices of these
  * particles in predecessor->now. The mirror images of the new particles must exist. */
@@ -40,72 +41,74 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
 
 /* Saves the state of loads and of all parts of run e to the archive a if a->saving is true, else restores it from a.
  * Each part saves only the state that a->scope selects. Returns FAILED if an entry is missing or has another size. */
-status parts_save_or_load(struct run *e, struct archive *a);
+status parts_save_or_load_state(struct run *e, struct archive *a);
 
-/* Adds warnings to *to about bodies in which particles have no neighbours within the horizon. cells: neighbour search
- * over reference positions. */
+/* Adds warnings to *warnings about bodies in which particles have no neighbours within the horizon. cells: neighbour
+ * search over reference positions. */
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                                       const struct particles *p, struct warnings *to);
+                                       const struct particles *p, struct warnings *warnings);
 
-/* Returns true if the bounding box of crack c, extended by `reach` [m] on every side, overlaps the box with the corners
- * low[dim] and high[dim] [m]. */
-bool crack_overlaps_box(const struct crack *c, const real *low, const real *high, int dim, real reach);
+/* Returns true if the bounding box of crack c, extended by `margin` [m] on every side, overlaps the box with the
+ * corners box_low[dim] and box_high[dim] [m]. */
+bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin);
 
-/* Adds warnings to *to about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks where
- * no bond can break. reach: length of the longest bonds [m]. */
-void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
-                                   struct warnings *to);
+/* Adds warnings to *warnings about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks
+ * where no bond can break. longest_bond: length of the longest bonds [m]. */
+void engine_warn_of_useless_cracks(const struct scene *s, const struct particles *p, const struct bonds *b,
+                                   real longest_bond, struct warnings *warnings);
 
-/* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
- * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
+/* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
+ * excepts them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
-                                   const struct run_clock *clock, real wave_speed, struct warnings *to);
+                                   const struct run_clock *clock, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *to about supports whose prescribed speed is so high that bonds break between the particles that
- * they drive and the neighbours of these particles. */
+/* Adds warnings to *warnings about supports whose prescribed speed is so high that bonds break between the particles
+ * that they drive and the neighbours of these particles. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                  struct warnings *to);
+                                  struct warnings *warnings);
 
-/* Adds a warning to *to if a particle starts faster than wave_speed, the speed of the fastest wave in any material
- * [m/s]. */
-void engine_warn_of_fast_start(const struct particles *p, real wave_speed, struct warnings *to);
+/* Adds a warning to *warnings if a particle starts faster than wave_speed, the speed of the fastest wave in any
+ * material [m/s]. */
+void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings);
 
-/* Adds warnings to *to about supports that hold all particles, and about pairs of supports that prescribe different
- * motions of the same particles. */
+/* Adds warnings to *warnings about supports that hold all particles, and about pairs of supports that prescribe
+ * different motions of the same particles. */
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                         struct warnings *to);
+                                         struct warnings *warnings);
 
-/* Adds warnings to *to about bodies of a few rows of particles, whose stiffness the correction pd.surface: moments
- * cannot correct. Also warns if the solver for the weights w of bonds near faces has given up. */
-void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
-                                      struct warnings *to);
+/* Adds warnings to *warnings about bodies of a few rows of particles, whose stiffness the correction pd.surface:
+ * moments cannot correct. Also warns if the solver for the weights w of bonds near faces has given up. */
+void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
+                                      const struct surface_weights *weights, struct warnings *warnings);
 
 /* Computes the bounding box of the particles of body b and of all bodies that are joined to it, and stores its corners
- * in low[dim] and high[dim] [m]. Returns false if there are no such particles. */
-bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int body, real *low, real *high);
+ * in box_low[dim] and box_high[dim] [m]. Returns false if there are no such particles. */
+bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
+                                         real *box_low, real *box_high);
 
 /* Returns the number of particles along the axis `axis` between the positions `low` and `high` [m], including their
  * mirror images beyond planes of symmetry. */
-real engine_count_particles_across(const struct scene *s, real low, real high, int axis);
+real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis);
 
-/* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */
-void engine_warn_of_useless_solids(const struct scene *s, struct warnings *to);
+/* Adds warnings to *warnings about solids of the shape of a body that add nothing to it or remove nothing from it. */
+void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *to about bodies that move at the start and meet no other body within the duration. */
-void engine_warn_of_missed_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
+/* Adds warnings to *warnings about bodies that move at the start and meet no other body within the duration. */
+void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds a warning to *to about each pair of bodies that overlap at the start. */
-void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *to);
+/* Adds a warning to *warnings about each pair of bodies that overlap at the start. */
+void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *to about planes of symmetry that no body touches, and about initial states whose region holds no
- * particle. */
-void engine_warn_of_idle_places(const struct scene *s, const struct particles *p, struct warnings *to);
+/* Adds warnings to *warnings about planes of symmetry that no body touches, and about initial states whose region holds
+ * no particle. */
+void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p,
+                                              struct warnings *warnings);
 
-/* Adds warnings to *to about times of frames beyond the end of the run. */
-void engine_warn_of_late_frames(const struct scene *s, struct warnings *to);
+/* Adds warnings to *warnings about times of frames beyond the end of the run. */
+void engine_warn_of_frames_after_end_of_run(const struct scene *s, struct warnings *warnings);
 
 /* Returns REFUSED, with a message that contains the estimate, if the memory of the machine is smaller than that of the
  * run. */
-status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
+status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source);
 
 #endif

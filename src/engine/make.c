@@ -151,7 +151,7 @@ static void make_family(const struct scene *s, struct bond_source *source)
     struct family *f = &source->family;
     f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
     f->influence = s->influence;
-    family_make(f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    family_make_on_lattice(f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     source->material = s->material, source->materials = s->materials;
 }
 
@@ -197,7 +197,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
-        TRY(run_surface_weights_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
+        TRY(run_compute_surface_bond_weight_factors(&e->tables.surface, &e->source, &e->part, &e->loads, s));
     if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply_as_slits_or_cut_bonds(e));
     if (before)
         engine_transfer_particles(
@@ -270,7 +270,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
  * before: NULL if there is none. Returns REFUSED, with a message, if no time step is possible. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
-    if (!before) return scene_prepend_location(e->scene, time_step_choose(e));
+    if (!before) return scene_prepend_location(e->scene, time_step_choose_and_count_steps(e));
     e->clock = before->run->clock;
     e->source.limit.dt = before->run->source.limit.dt;
     e->source.core = e->bonds.core = before->run->source.core;
@@ -296,10 +296,10 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(scene_prepend_location(s, cells_without_particles_choose(&e->frame->hollow, s, &e->source)));
+    TRY(scene_prepend_location(s, cells_without_particles_choose_for_scene(&e->frame->hollow, s, &e->source)));
     if (!e->frame->hollow.absent) TRY(scene_prepend_location(s, engine_check_memory(s, &e->part, &e->source)));
-    TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
-    conversion_stress_reduce_to_weakest(e->tables.elastic, &e->part);
+    TRY(fill_bodies_with_particles(&e->part, s, &e->frame->hollow, e->optional));
+    conversion_stress_reduce_to_weakest_particle(e->tables.elastic, &e->part);
     return scene_prepend_location(
         s, engine_check_memory(s, &e->part, &e->source)); /* with the actual number of particles */
 }
@@ -309,17 +309,19 @@ static status make_particles(struct run *e)
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->probing->strain_stress = particles_largest_stress(&e->part);
-    tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    if (e->coupling->notches.lost) tips_exclude_precrack_damage(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(scene_prepend_location(s, sif_growth_check(e)));
+    e->probing->strain_stress = particles_largest_stress_component(&e->part);
+    tips_make_at_precrack_ends(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing,
+                               s->speed_window);
+    if (e->coupling->notches.lost)
+        tips_ignore_particles_damaged_by_precracks(&e->fracture->tips, e->coupling->notches.lost);
+    TRY(scene_prepend_location(s, sif_growth_check_scene_allows_it(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growing_crack);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
     if (scene_is_single_equilibrium(s)) TRY(scene_prepend_location(s, engine_static_solver_make(e)));
     diagnostics_make(e->diagnostics);
-    scene_list_pulses(e->scene, e->probing);
-    struct observed_run o = observed_run_of(e);
+    scene_list_wave_pulses(e->scene, e->probing);
+    struct observed_run o = observed_run_view_of(e);
     return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
@@ -328,47 +330,47 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(scene_prepend_location(s, body_frames_choose(e->frame, e->grid, &e->part, s)));
+    TRY(scene_prepend_location(s, body_frames_choose_mesh_or_grid(e->frame, e->grid, &e->part, s)));
     if (!scene_is_dynamic(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_is_single_equilibrium(s))
-        static_boundaries_make(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+        static_boundaries_make_from_dynamic(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(scene_prepend_location(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries,
                                              &e->part, s->spacing, e->source.family.cutoff, e->optional)));
-    e->tables.impedance = absorbing_impedances(s, &e->source);
+    e->tables.impedance = absorbing_boundary_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)
         absorbing_dashpots_make(&e->loads, &e->part,
                                 (const struct impedance *const[MOVERS]){z, z + s->materials, z + 2 * s->materials});
-    cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
+    cells_make_for_neighbour_search(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
     TRY(rigids_check_start_positions(e->rigid, s, &e->part));
-    TRY(scene_prepend_location(s, joined_bodies_check(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(scene_prepend_location(s, statics_check_scene(e)));
+    TRY(scene_prepend_location(s, joined_bodies_check_close_enough(s, &e->part, &e->cells, e->source.family.cutoff)));
+    TRY(scene_prepend_location(s, statics_check_scene_is_solvable(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
-    coupling_compute_partial_stress(e);
-    TRY(scene_prepend_location(s, coupling_make_mesh(e, before != NULL)));
+    coupling_choose_and_compute_partial_stress(e);
+    TRY(scene_prepend_location(s, coupling_make_reference_frame_mesh(e, before != NULL)));
     TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
     bonded_points_update_strain(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_store_start_speed(e->stability, &e->part);
     return make_time(e, before);
 }
 
-status engine_make_from_predecessor(struct run *e, const struct scene *s, struct output *out,
-                                    struct cells_without_particles hollow, struct predecessor *predecessor)
+status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
+                                          struct cells_without_particles omitted_cells, struct predecessor *predecessor)
 {
     memset(e, 0, sizeof *e);
     run_parts_make(e);
-    e->save = engine_save_or_load;
+    e->save = engine_save_or_load_run_state;
     e->scene = s;
-    e->report->out = out;
-    e->report->began = wall_clock();
-    e->frame->hollow = hollow;
+    e->report->out = output;
+    e->report->began = wall_clock_seconds();
+    e->frame->hollow = omitted_cells;
     TRY(make_particles(e));
-    TRY(scene_prepend_location(s, reversion_check_scene(e->scene)));
+    TRY(scene_prepend_location(s, reversion_check_scene_allows_reversion(e->scene)));
     TRY(make_forces(e, predecessor));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
@@ -376,7 +378,7 @@ status engine_make_from_predecessor(struct run *e, const struct scene *s, struct
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && joined_bodies_first_body(s, 1) + s->rigids >= 0 &&
+                              s->contact_convert && joined_bodies_first_body_of_group(s, 1) + s->rigids >= 0 &&
                               !coupling_has_one_grid(s->coupling);
     e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
                                                .partial = &e->coupling->partial,
@@ -390,19 +392,19 @@ status engine_make_from_predecessor(struct run *e, const struct scene *s, struct
     return make_probes(e);
 }
 
-status engine_make(struct run *e, const struct scene *s, struct output *out)
+status engine_set_up_run(struct run *e, const struct scene *s, struct output *output)
 {
     struct cells_without_particles hollow = {0};
     for (;;) {
-        TRY(engine_make_from_predecessor(e, s, out, hollow, NULL));
+        TRY(engine_create_run_from_predecessor(e, s, output, hollow, NULL));
         if (!e->frame->lacks) return OK;
         hollow = e->frame->hollow;
         e->frame->hollow = (struct cells_without_particles){0};
-        engine_free(e);
+        engine_free_run(e);
     }
 }
 
-void engine_free(struct run *e)
+void engine_free_run(struct run *e)
 {
     if (e->report && e->report->out)
         (void)output_wait_for_frame(e->report->out); /* the writer of frames still reads the particles */

@@ -35,7 +35,7 @@ static real particles_expected(const struct scene *s, bool boxes, real *longest)
     real n = 0, from[DIM_MAX], to[DIM_MAX];
     *longest = 0;
     for (int b = 0; b < s->bodies; b++) {
-        if (s->body[b].file || !region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
+        if (s->body[b].file || !region_compute_bounding_box_if_finite(&s->body[b].shape, s->dim, from, to)) continue;
         real count = boxes ? 1 : share_filled(&s->body[b].shape, from, to, s->dim);
         for (int d = 0; d < s->dim; d++) {
             count *= (to[d] - from[d]) / s->spacing;
@@ -65,14 +65,15 @@ static real memory_of(const struct scene *s, const struct bond_source *source, r
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
+real run_estimate_peak_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
     const real n = particles_now(s, p, &longest);
     return memory_of(s, source, n, longest, s->method == METHOD_PD);
 }
 
-real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source)
+real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const struct particles *p,
+                                                 const struct bond_source *source)
 {
     real longest;
     particles_expected(s, true, &longest);
@@ -97,9 +98,9 @@ void engine_announce_long_set_up(const struct scene *s)
             s->spacing, n, longest, n * SECONDS_PER_POSITION / 60);
 }
 
-status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
+status engine_check_memory(const struct scene *s, const struct particles *p, const struct bond_source *bond_source)
 {
-    const real memory = (real)machine_memory_size(), bytes = run_estimate_memory(s, p, source);
+    const real memory = (real)machine_memory_size(), bytes = run_estimate_peak_memory(s, p, bond_source);
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(REFUSED,

@@ -77,31 +77,31 @@ static status run_replace(struct run *e)
     struct memory_archive parts;
     const struct cells_without_particles hollow = e->frame->hollow;
     memory_archive_make(&parts, ARCHIVE_REBUILD);
-    status s = parts_save_or_load(e, &parts.archive);
+    status s = parts_save_or_load_state(e, &parts.archive);
     *old = *e;
     old->frame->hollow = (struct cells_without_particles){0};
     leave_derived(old);
-    if (s == OK) s = engine_make_from_predecessor(e, old->scene, NULL, hollow, &before);
+    if (s == OK) s = engine_create_run_from_predecessor(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
         rest_take(e, old);
-        memory_archive_rewind(&parts);
+        memory_archive_rewind_for_loading(&parts);
         parts.archive.now = before.now;
-        s = parts_save_or_load(e, &parts.archive);
+        s = parts_save_or_load_state(e, &parts.archive);
     }
     memory_archive_free(&parts);
     memory_free(before.now);
-    engine_free(old);
+    engine_free_run(old);
     memory_free(old);
     return s;
 }
 
-status engine_replace_particles(struct run *e, const uint8_t *level)
+status engine_replace_particles(struct run *e, const uint8_t *cell_level)
 {
     if (e->report->out) {
         TRY(output_wait_for_frame(e->report->out));
         output_discard_particle_order(e->report->out);
     }
-    cells_without_particles_update(e->frame, level);
+    cells_without_particles_update_from_levels(e->frame, cell_level);
     TRY(run_replace(e));
     if (e->report->out) contact_allocate_force_record(e->contact, &e->part);
     return OK;

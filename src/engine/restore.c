@@ -18,8 +18,8 @@ static status remake(struct run *e, uint8_t *absent)
     hollow.absent = absent, hollow.restored = true;
     e->frame->hollow = (struct cells_without_particles){0};
     e->report = NULL, e->warnings = (struct warnings){0};
-    engine_free(e);
-    const status made = engine_make_from_predecessor(e, s, NULL, hollow, NULL);
+    engine_free_run(e);
+    const status made = engine_create_run_from_predecessor(e, s, NULL, hollow, NULL);
     memory_free(e->report->record), memory_free(e->report);
     e->report = report, e->warnings = warnings, e->timers = timers;
     return made;
@@ -44,5 +44,5 @@ static status hollow_restore(struct run *e, struct archive *a)
 status engine_load_checkpoint(void *run, struct archive *a)
 {
     TRY(hollow_restore(run, a));
-    return engine_save_or_load(run, a);
+    return engine_save_or_load_run_state(run, a);
 }

@@ -15,25 +15,25 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
     f->rings = 0;
     for (int k = 0; k < p->n; k++)
-        f->rings += probes_get_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
+        f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
 /* Adapts the refinement levels of cells to cracks and stress. If refined cells lack particles, the run is first
  * replaced by one that has them; returns FAILED, with a message, if that is not possible. */
 static status refine(struct run *e)
 {
-    if (!mesh_levels_may_change(&e->frame->levels, e->clock.step)) return OK;
-    const struct observed_run seen = observed_run_of(e);
+    if (!mesh_levels_may_change_before_step(&e->frame->levels, e->clock.step)) return OK;
+    const struct observed_run seen = observed_run_view_of(e);
     rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = mesh_levels_choose_next(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
+    uint8_t *level = mesh_levels_choose_for_next_steps(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
     const status s = levels_need_more_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
-    if (s == OK) mesh_levels_apply(e, level);
+    if (s == OK) mesh_levels_change_cell_levels(e, level);
     memory_free(level);
     return s;
 }
 
-status engine_step(struct run *e)
+status engine_adapt_refinement_and_step(struct run *e)
 {
     TRY(refine(e));
     return step(e);
@@ -43,22 +43,22 @@ status engine_step(struct run *e)
  * if a step fails, INTERRUPTED if a signal ends the run early. */
 static status run_to_end(struct run *e)
 {
-    if (scene_is_single_equilibrium(e->scene)) return engine_solve_static(e);
+    if (scene_is_single_equilibrium(e->scene)) return engine_solve_single_equilibrium(e);
     if (scene_has_load_steps(e->scene)) return engine_run_load_steps(e);
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
-        TRY(engine_step(e));
-        TRY(stability_check(e));
-        TRY(report_step(e));
+        TRY(engine_adapt_refinement_and_step(e));
+        TRY(stability_check_after_step(e));
+        TRY(report_finished_step(e));
     }
-    return report_end(e);
+    return report_finish_after_last_step(e);
 }
 
-status engine_run(struct run *e)
+status engine_run_to_end(struct run *e)
 {
-    memory_set_reuse(true);
+    memory_set_reuse_of_freed_arrays(true);
     const status ended = run_to_end(e);
-    memory_set_reuse(false);
+    memory_set_reuse_of_freed_arrays(false);
     return ended;
 }

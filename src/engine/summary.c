@@ -153,7 +153,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     fputs("\n}\n", file);
 }
 
-status summary_write(const struct run *e, status end_status, int threads)
+status summary_write(const struct run *e, status end_status, int thread_count)
 {
     char message[1024], *text = NULL;
     size_t length = 0;
@@ -161,12 +161,12 @@ status summary_write(const struct run *e, status end_status, int threads)
     snprintf(message, sizeof message, "%s", status_message());
     struct fragments fragments = {0};
     if (has_fragments(e->scene, e->diagnostics)) {
-        fragments_find(&fragments, &e->bonds, &e->part);
+        fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
         TRY(fragments_write(&e->part, e->report, &fragments));
     }
     FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
-    summary_print(file, e, &fragments, end_status, message, threads);
+    summary_print(file, e, &fragments, end_status, message, thread_count);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
     status written = whole ? output_write_text(e->report->out, "summary.json", text, length)

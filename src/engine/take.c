@@ -33,8 +33,8 @@ void engine_transfer_particles(struct run *e, struct predecessor *predecessor)
 {
     predecessor->now = numbers_now(&e->part, &e->loads, &predecessor->run->part, &predecessor->run->loads);
     particles_copy_fields(&e->part, &predecessor->run->part, predecessor->now, e->optional);
-    particles_update_kind_lists(&e->part);
-    mirror_images_copy_kinds(&e->part, &e->source);
+    particles_rebuild_lists_by_kind(&e->part);
+    mirror_images_copy_particle_kinds(&e->part, &e->source);
 }
 
 void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
@@ -42,7 +42,7 @@ void engine_transfer_bonds(struct run *e, const struct predecessor *predecessor)
     struct run *old = predecessor->run;
     bonds_copy_damage_to_new_particles(&e->bonds, &e->part, &e->source.limit, &old->bonds, &old->part,
                                        predecessor->now);
-    state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
+    state_based_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);
 }

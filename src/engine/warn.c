@@ -31,9 +31,9 @@ static bool spins(const struct scene *s)
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_is_dynamic(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
-        warnings_add(to,
-                     "mpm.transfer: flip with this coupling loses angular momentum of bodies that rotate: a plate of "
-                     "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
+        warnings_add_if_new(
+            to, "mpm.transfer: flip with this coupling loses angular momentum of bodies that rotate: a plate of "
+                "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
 }
 
 /* Adds warnings to *to about pre-cracks in scenes without bonds, which have no effect there, and about coupling methods
@@ -41,17 +41,18 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
-        warnings_add(to,
-                     "method: mpm ignores the key cracks: its body is whole, as points on both sides of a crack share "
-                     "the nodes of the grid; method pd and adaptive represent cracks");
+        warnings_add_if_new(
+            to, "method: mpm ignores the key cracks: its body is whole, as points on both sides of a crack share "
+                "the nodes of the grid; method pd and adaptive represent cracks");
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
-        warnings_add(to,
-                     "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
+        warnings_add_if_new(
+            to, "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
     if (coupling_moves_by_grid(kind) && !scene_silences_warning(s, ACCEPT_COUPLING))
-        warnings_add(to,
-                     "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
-                     "energy.balance_error, or use coupling: partial stress; if this is meant: accept: [coupling]",
-                     coupling_name[kind]);
+        warnings_add_if_new(
+            to,
+            "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
+            "energy.balance_error, or use coupling: partial stress; if this is meant: accept: [coupling]",
+            coupling_name[kind]);
 }
 
 /* Adds warnings to *to about quadratic and cubic shape functions if a boundary prescribes the motion of points on a
@@ -62,15 +63,17 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
     bool driven = false;
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
     if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
-        warnings_add(to,
-                     "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
-                     "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
-                     s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
+        warnings_add_if_new(
+            to,
+            "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
+            "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
+            s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5 && !scene_silences_warning(s, ACCEPT_CELL))
-        warnings_add(to,
-                     "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
-                     "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2; if this is meant: accept: [cell]",
-                     s->cell);
+        warnings_add_if_new(
+            to,
+            "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
+            "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2; if this is meant: accept: [cell]",
+            s->cell);
 }
 
 /* Adds warnings to *to about keys for coarse cells and slits that have no effect in this scene. */
@@ -82,16 +85,16 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                                                 : NULL;
     const char *all = scene_why_all_particles_needed(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
-        warnings_add(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
+        warnings_add_if_new(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
-        warnings_add(to, "mpm.fill: needed has no effect, and all particles are made, as %s; use auto or all",
-                     why   ? why
-                     : all ? all
-                           : "there are no coarse cells");
+        warnings_add_if_new(to, "mpm.fill: needed has no effect, and all particles are made, as %s; use auto or all",
+                            why   ? why
+                            : all ? all
+                                  : "there are no coarse cells");
     if (s->conversion.notch == NOTCH_SLIT && s->cracks > 0 && s->method != METHOD_ADAPTIVE)
-        warnings_add(to, "conversion.notch: slit has no effect with method %s%s; conversion.notch: auto is expected",
-                     s->method == METHOD_PD ? "pd" : "mpm",
-                     s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
+        warnings_add_if_new(
+            to, "conversion.notch: slit has no effect with method %s%s; conversion.notch: auto is expected",
+            s->method == METHOD_PD ? "pd" : "mpm", s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
 }
 
 /* Adds warnings to *to about materials whose points convert at a stress above the one at which bonds break. */
@@ -100,14 +103,15 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     for (int m = 0; m < s->materials; m++) {
         const struct material *a = &s->material[m];
         if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->onset_stretch)
-            warnings_add(to,
-                         "material %s: material points convert to bonds at a stress of %.4g Pa, above the %.4g Pa (E "
-                         "%s) at which bonds %s, so that they may exceed %s stretch before they convert: "
-                         "use a lower conversion.stress",
-                         a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
-                         material_has_softening_bonds(a) ? "s_0" : "s_c",
-                         material_has_softening_bonds(a) ? "begin to soften" : "break",
-                         material_has_softening_bonds(a) ? "this" : "the critical");
+            warnings_add_if_new(
+                to,
+                "material %s: material points convert to bonds at a stress of %.4g Pa, above the %.4g Pa (E "
+                "%s) at which bonds %s, so that they may exceed %s stretch before they convert: "
+                "use a lower conversion.stress",
+                a->name, tables->elastic[m].trigger_mean, a->young * a->onset_stretch,
+                material_has_softening_bonds(a) ? "s_0" : "s_c",
+                material_has_softening_bonds(a) ? "begin to soften" : "break",
+                material_has_softening_bonds(a) ? "this" : "the critical");
     }
 }
 
@@ -132,17 +136,18 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
     for (int m = 0; m < s->materials; m++) yields |= material_yields(&s->material[m]);
     for (int k = 0; k < s->probes && yields; k++)
         if (s->probe[k].kind == PROBE_SIF)
-            warnings_add(to,
-                         "probe %s: K_I, K_II and J hold for an elastic body; where a material yields within the ring "
-                         "they are meaningless, and differ with the radius (contour_spread)",
-                         s->probe[k].name);
+            warnings_add_if_new(
+                to,
+                "probe %s: K_I, K_II and J hold for an elastic body; where a material yields within the ring "
+                "they are meaningless, and differ with the radius (contour_spread)",
+                s->probe[k].name);
 }
 
 /* Adds warnings to *to about columns of particle lists that are not read, or for which a default is used. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].list.note[0]) warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
+        if (s->body[b].list.note[0]) warnings_add_if_new(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
 /* Adds a warning to *to if plastic strain is requested for frames although no material yields. asked: fields that the
@@ -151,7 +156,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
     if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !p->plastic_strain && !b->plastic_path)
-        warnings_add(to, "output.fields: no material yields, so frames will have no plastic_strain");
+        warnings_add_if_new(to, "output.fields: no material yields, so frames will have no plastic_strain");
 }
 
 /* Adds warnings to *to about output regions that contain no particle. */
@@ -160,7 +165,8 @@ static void warn_of_regions(const struct scene *s, const struct reference_frame 
 {
     for (int k = 0; k < s->n_series; k++)
         if (!region_is_met(frame, p, &s->series[k].region))
-            warnings_add(to, "output.regions: %s holds no particle: its frames will be empty", s->series[k].name);
+            warnings_add_if_new(to, "output.regions: %s holds no particle: its frames will be empty",
+                                s->series[k].name);
 }
 
 /* Adds warnings to *to about boundaries with prescribed motion that contain no particle. */
@@ -169,17 +175,17 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, con
 {
     for (int b = 0; b < l->n; b++)
         if (l->load[b].n == 0 && s->boundary[b].kind == BOUNDARY_VELOCITY)
-            warnings_add(to, "boundary %s holds no particle%s; %s: check its region and the unit (mm?)",
-                         s->boundary[b].name,
-                         s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
-                         particles_extent_text(p).text);
+            warnings_add_if_new(to, "boundary %s holds no particle%s; %s: check its region and the unit (mm?)",
+                                s->boundary[b].name,
+                                s->method == METHOD_PD ? "" : " and acts on grid nodes in its region only",
+                                particles_extent_text(p).text);
 }
 
 /* Adds a warning to *to about a time step above the critical time step, with which a dynamic run is unstable. */
 static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
 {
     if (!scene_is_dynamic(s) || !(clock->dt > clock->dt_critical)) return;
-    warnings_add(
+    warnings_add_if_new(
         to,
         "the time step is above the critical one: time.step is %.4g s, %.3g times the critical %.4g s, and the "
         "run will be unstable: leave time.step out, or use at most %.3g s",
@@ -194,12 +200,13 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
 {
     if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
     if (s->dim == 1)
-        warnings_add(to,
-                     "particles.horizon: %.3g: the neighbours of a bar lie exactly at the horizon; use 1.015 for one "
-                     "neighbour on each side, or 3.015",
-                     s->horizon);
+        warnings_add_if_new(
+            to,
+            "particles.horizon: %.3g: the neighbours of a bar lie exactly at the horizon; use 1.015 for one "
+            "neighbour on each side, or 3.015",
+            s->horizon);
     else
-        warnings_add(
+        warnings_add_if_new(
             to,
             "particles.horizon: %.3g: each particle has bonds along the axes of the lattice only (%d), so that "
             "the body has no stiffness in shear, and cracks follow the axes; 3.015 is usual",
@@ -211,7 +218,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
     if (s->renamed[0])
-        warnings_add(
+        warnings_add_if_new(
             to, "the scene uses earlier names of keys (%s), which this version still accepts with the same meaning",
             s->renamed);
     warn_of_step(s, &e->clock, to);
@@ -226,14 +233,14 @@ void engine_warn_of_suspicious_input(struct run *e)
     engine_warn_of_mistaken_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
     engine_warn_of_isolated_particles(s, &e->cells, &e->bonds, &e->part, to);
     engine_warn_of_fast_supports(s, &e->loads, &e->part, to);
-    engine_warn_of_fast_start(&e->part, e->tables.wave_speed, to);
+    engine_warn_of_particles_faster_than_waves(&e->part, e->tables.wave_speed, to);
     engine_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
     engine_warn_of_useless_solids(s, to);
     engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
-    engine_warn_of_missed_encounters(s, &e->part, to);
+    engine_warn_of_bodies_that_never_meet(s, &e->part, to);
     engine_warn_of_overlaps(s, &e->part, to);
-    engine_warn_of_idle_places(s, &e->part, to);
-    engine_warn_of_late_frames(s, to);
+    engine_warn_of_unused_mirrors_and_states(s, &e->part, to);
+    engine_warn_of_frames_after_end_of_run(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, &e->part, to);

@@ -39,7 +39,7 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
 {
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
-        f[b].known = region_bounding_box(&body->shape, s->dim, f[b].low, f[b].high);
+        f[b].known = region_compute_bounding_box_if_finite(&body->shape, s->dim, f[b].low, f[b].high);
         for (int d = 0; d < s->dim; d++) f[b].slowest[d] = f[b].fastest[d] = body->velocity[d];
     }
 }
@@ -97,18 +97,19 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
     }
     if (other < 0 || soonest <= s->duration) return;
     if (isfinite(soonest))
-        warnings_add(to,
-                     "body %s reaches %s after %.3g s, but the duration is %.3g s: check its position (mm?) and "
-                     "velocity, or the duration",
-                     s->body[a].name, s->body[other].name, soonest, s->duration);
+        warnings_add_if_new(to,
+                            "body %s reaches %s after %.3g s, but the duration is %.3g s: check its position (mm?) and "
+                            "velocity, or the duration",
+                            s->body[a].name, s->body[other].name, soonest, s->duration);
     else
-        warnings_add(to,
-                     "body %s meets no other body, as its velocity leads past %s or away from it: check its position "
-                     "and the sign of its velocity",
-                     s->body[a].name, s->body[other].name);
+        warnings_add_if_new(
+            to,
+            "body %s meets no other body, as its velocity leads past %s or away from it: check its position "
+            "and the sign of its velocity",
+            s->body[a].name, s->body[other].name);
 }
 
-void engine_warn_of_missed_encounters(const struct scene *s, const struct particles *p, struct warnings *to)
+void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings)
 {
     const int bodies = s->bodies + s->rigids;
     if (!fly_freely(s) || bodies < 2 || bodies > FLYING_MOST || p->n < p->n_body) return;
@@ -116,6 +117,6 @@ void engine_warn_of_missed_encounters(const struct scene *s, const struct partic
     flights_of_particles(s, p, f);
     flights_of_rigids(s, f);
     for (int b = 0; b < bodies; b++)
-        if (f[b].known && flies(&f[b], s->dim)) warn_of_flight(s, f, b, to);
+        if (f[b].known && flies(&f[b], s->dim)) warn_of_flight(s, f, b, warnings);
     memory_free(f);
 }

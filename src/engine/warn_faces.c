@@ -14,13 +14,13 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
 {
     real low[DIM_MAX], high[DIM_MAX], rows = INFINITY;
     int axis = 0;
-    if (!engine_joined_bodies_box(s, p, b, low, high)) return;
+    if (!engine_compute_box_of_joined_bodies(s, p, b, low, high)) return;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_count_particles_across(s, low[d], high[d], d);
+        const real n = engine_particle_count_between_positions(s, low[d], high[d], d);
         if (n < rows) rows = n, axis = d;
     }
     if (rows > ROWS_FEW) return;
-    warnings_add(
+    warnings_add_if_new(
         to,
         "body %s: it has %.0f row%s of particles along %c, and with pd.surface: moments bears up to 1.8 times "
         "the force of the continuum in tension and bending; particles.spacing: %.3g m (%d rows) is off by 2 %% "
@@ -28,16 +28,17 @@ static void warn_of_thin(const struct scene *s, const struct particles *p, int b
         s->body[b].name, rows, rows > 1.5 ? "s" : "", "xyz"[axis], s -> spacing *rows / ROWS_ENOUGH, ROWS_ENOUGH);
 }
 
-void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
-                                      struct warnings *to)
+void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
+                                      const struct surface_weights *weights, struct warnings *warnings)
 {
     if (s->surface != SURFACE_MOMENTS || s->method != METHOD_PD || s->dim < 2) return;
-    if (w->residual > UNSOLVED)
-        warnings_add(to,
-                     "pd.surface: moments: the solver of the weights of bonds near faces has given up at a residual of "
-                     "%.2g of the first one (1e-13 is solved): the stiffness near faces is between that of moments and "
-                     "that of none; a larger particles.spacing, or pd.surface: volume, is solved",
-                     w->residual);
+    if (weights->residual > UNSOLVED)
+        warnings_add_if_new(
+            warnings,
+            "pd.surface: moments: the solver of the weights of bonds near faces has given up at a residual of "
+            "%.2g of the first one (1e-13 is solved): the stiffness near faces is between that of moments and "
+            "that of none; a larger particles.spacing, or pd.surface: volume, is solved",
+            weights->residual);
     for (int b = 0; b < s->bodies && p->n == p->n_body && !scene_silences_warning(s, ACCEPT_PARTICLES); b++)
-        warn_of_thin(s, p, b, to);
+        warn_of_thin(s, p, b, warnings);
 }

@@ -55,7 +55,7 @@ static void lone_points_count(const struct scene *s, const struct cells *cells, 
     struct neighbour_list near = {0};
     for (int64_t i = 0; i < p->n && s->method != METHOD_PD; i++) {
         if (p->kind[i] == KIND_PD || !from_file(s, p->body[i])) continue;
-        particles_find_near(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
         if (near.n == 0) lone_add(&lone[p->body[i]], i);
     }
     memory_free(near.at);
@@ -101,7 +101,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
     for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++) {
         if (p->body[i] != b->joined || k++ % (own / SAMPLED + 1) != 0) continue;
-        particles_find_near(&near, cells, p, i, NEAR * spacing, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, NEAR * spacing, false);
         surroundings(p, &near, i, &apart[n], &beside[n]), count[n++] = near.n + 1;
     }
     memory_free(near.at);
@@ -111,7 +111,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_by_sorting(beside, n) <= 2 * p->dim;
     if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
-        warnings_add(
+        warnings_add_if_new(
             to,
             "%.200s has no volumes: each particle has that of the spacing of %.4g m, and nearest neighbours are %.4g m "
             "apart, so that masses and forces are wrong: use particles.spacing %.4g m, or a column volume",
@@ -119,7 +119,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
 }
 
 void engine_warn_of_isolated_particles(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                                       const struct particles *p, struct warnings *to)
+                                       const struct particles *p, struct warnings *warnings)
 {
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
     for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;
@@ -127,13 +127,14 @@ void engine_warn_of_isolated_particles(const struct scene *s, const struct cells
     lone_points_count(s, cells, p, lone);
     for (int k = 0; k < s->bodies; k++)
         if (s->body[k].file && !s->body[k].list.volumes && s->body[k].joined == k && s->spacing > 0)
-            warn_of_list_spacing(&s->body[k], s->spacing, cells, p, to);
+            warn_of_list_spacing(&s->body[k], s->spacing, cells, p, warnings);
     for (int k = 0; k < s->bodies; k++) {
         if (lone[k].n == 0 || lone[k].all <= MASS_POINTS) continue;
-        warnings_add(to, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
-                     s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve",
-                     particle_position_text(p, lone[k].first, 6).text, lone[k].n == 1 ? "it" : "them",
-                     scene_is_single_equilibrium(s) ? ", and there is no equilibrium; remove such particles" : "");
+        warnings_add_if_new(
+            warnings, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
+            s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve",
+            particle_position_text(p, lone[k].first, 6).text, lone[k].n == 1 ? "it" : "them",
+            scene_is_single_equilibrium(s) ? ", and there is no equilibrium; remove such particles" : "");
     }
     memory_free(lone);
 }

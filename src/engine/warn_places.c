@@ -24,8 +24,8 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     const struct region *shape = &s->body[b].shape;
     struct overlap found = {0};
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX];
-    if (s->body[b].file || shape->n == 0 || region_has_infinite_box(shape, s->dim)) return found;
-    if (!region_bounding_box(shape, s->dim, low, high)) return found;
+    if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) return found;
+    if (!region_compute_bounding_box_if_finite(shape, s->dim, low, high)) return found;
     for (int64_t i = 0; i < p->n; i++) {
         bool near = p->body[i] == a;
         for (int d = 0; d < s->dim && near; d++) near = p->X[d][i] > low[d] && p->X[d][i] < high[d];
@@ -33,7 +33,7 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
         real X[DIM_MAX];
         particle_reference_position(p, i, X);
         if (!region_contains(shape, X, s->dim, 0)) continue;
-        const real depth = -region_distance(shape, X, s->dim, normal);
+        const real depth = -region_signed_distance(shape, X, s->dim, normal);
         if (!(depth > least)) continue;
         if (depth > found.depth) found.depth = depth, found.deepest = i;
         found.n++;
@@ -47,14 +47,14 @@ static void warn_of_overlap(const struct scene *s, const struct particles *p, in
                             const struct overlap *found, struct warnings *to)
 {
     const char *name = s->body[inner].name, *other = s->body[outer].name;
-    warnings_add(
+    warnings_add_if_new(
         to,
         "bodies %s and %s overlap: %lld particles of %s are inside %s, the deepest by %.3g m at (%s) m: move one "
         "body, or subtract its shape from the other; if this is meant: accept: [contact]",
         name, other, (long long)found->n, name, other, found->depth, particle_position_text(p, found->deepest, 4).text);
 }
 
-void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *to)
+void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings)
 {
     const real least = (DEEP + 0.5 * s->irregularity) * s->spacing;
     if (s->bodies > COMPARED_MOST || scene_silences_warning(s, ACCEPT_CONTACT)) return;
@@ -62,9 +62,9 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         for (int b = 0; b < a; b++) {
             const struct overlap first = body_overlap(s, p, b, a, least), second = body_overlap(s, p, a, b, least);
             if (first.n > 0 && first.n >= second.n)
-                warn_of_overlap(s, p, b, a, &first, to);
+                warn_of_overlap(s, p, b, a, &first, warnings);
             else if (second.n > 0)
-                warn_of_overlap(s, p, a, b, &second, to);
+                warn_of_overlap(s, p, a, b, &second, warnings);
         }
 }
 
@@ -91,19 +91,21 @@ static real mirror_distance(const struct particles *p, const struct boundary *b)
     return real_max(low - b->at, b->at - high);
 }
 
-void engine_warn_of_idle_places(const struct scene *s, const struct particles *p, struct warnings *to)
+void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p,
+                                              struct warnings *warnings)
 {
     for (int b = 0; b < s->boundaries && s->method == METHOD_PD && p->n > 0; b++) {
         const struct boundary *mirror = &s->boundary[b];
         if (mirror->kind != BOUNDARY_MIRROR || !(mirror_distance(p, mirror) > BESIDE * s->spacing)) continue;
-        warnings_add(to,
-                     "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle and does "
-                     "nothing; %s: check its position and the unit (mm?)",
-                     mirror->name, "xyz"[mirror->axis], mirror -> at, mirror_distance(p, mirror),
-                     particles_extent_text(p).text);
+        warnings_add_if_new(
+            warnings,
+            "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle and does "
+            "nothing; %s: check its position and the unit (mm?)",
+            mirror->name, "xyz"[mirror->axis], mirror -> at, mirror_distance(p, mirror), particles_extent_text(p).text);
     }
     for (int k = 0; k < s->initials; k++)
         if (!initial_is_met(s, p, k))
-            warnings_add(to, "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
-                         particles_extent_text(p).text);
+            warnings_add_if_new(warnings,
+                                "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
+                                particles_extent_text(p).text);
 }

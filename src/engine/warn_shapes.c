@@ -50,16 +50,16 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
 {
     const struct region before = {.n = k, .solid = b->shape.solid};
     real low[DIM_MAX], high[DIM_MAX];
-    if (!region_bounding_box(&before, dim, low, high)) return;
+    if (!region_compute_bounding_box_if_finite(&before, dim, low, high)) return;
     const real apart = boxes_common(&b->shape.solid[k], dim, low, high);
     if (apart > 0)
-        warnings_add(
+        warnings_add_if_new(
             to, "body %s: solid %d of its shape removes nothing: it is %.3g m from the body; check its units (mm?)",
             b->name, k + 1, apart);
     else if (!point_found(&b->shape.solid[k], &before, dim, true, low, high))
-        warnings_add(to,
-                     "body %s: solid %d of its shape removes nothing, as it is outside the body; check its position",
-                     b->name, k + 1);
+        warnings_add_if_new(
+            to, "body %s: solid %d of its shape removes nothing, as it is outside the body; check its position",
+            b->name, k + 1);
 }
 
 /* Adds a warning to *to if solid k of the shape of body b, which is added, is completely inside the solids before
@@ -72,21 +72,22 @@ static void warn_of_added(const struct scene_body *b, int k, int dim, struct war
     for (int d = 0; d < dim; d++)
         if (!isfinite(box.high[d] - box.low[d])) return;
     if (!point_found(&b->shape.solid[k], &before, dim, false, box.low, box.high))
-        warnings_add(to,
-                     "body %s: solid %d of its shape adds nothing, as the solids before it contain it; to cut it out: "
-                     "subtract: {...}",
-                     b->name, k + 1);
+        warnings_add_if_new(
+            to,
+            "body %s: solid %d of its shape adds nothing, as the solids before it contain it; to cut it out: "
+            "subtract: {...}",
+            b->name, k + 1);
 }
 
-void engine_warn_of_useless_solids(const struct scene *s, struct warnings *to)
+void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings)
 {
     for (int b = 0; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
         const int solids = body->file || body->shape.n > SOLIDS_MOST ? 0 : body->shape.n;
         for (int k = 1; k < solids; k++)
             if (body->shape.solid[k].subtract)
-                warn_of_subtracted(body, k, s->dim, to);
+                warn_of_subtracted(body, k, s->dim, warnings);
             else if (!body->shape.solid[k].intersect)
-                warn_of_added(body, k, s->dim, to);
+                warn_of_added(body, k, s->dim, warnings);
     }
 }

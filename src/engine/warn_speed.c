@@ -68,7 +68,7 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     for (int m = 0; m < s->materials; m++) slowest = real_min(slowest, s->material[m].wave_speed);
     for (int b = 0; b < s->bodies; b++) {
         real low[DIM_MAX], high[DIM_MAX], size2 = 0;
-        if (!body[b] || !engine_joined_bodies_box(s, p, b, low, high)) continue;
+        if (!body[b] || !engine_compute_box_of_joined_bodies(s, p, b, low, high)) continue;
         for (int d = 0; d < p->dim; d++) size2 += square(high[d] - low[d] + s->spacing);
         most = real_max(most, sqrt(size2));
     }
@@ -83,18 +83,19 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
     const real within = body_crossing_time(p, s, d->body);
     const real change = load_largest_velocity_change(d->load, p, s->duration, within);
     if (change > d->limit)
-        warnings_add(to,
-                     "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
-                     "its body; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a "
-                     "slower change; if an impact is meant: accept: [speed]",
-                     d->load->boundary->name, change, within, d->limit);
+        warnings_add_if_new(
+            to,
+            "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
+            "its body; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a "
+            "slower change; if an impact is meant: accept: [speed]",
+            d->load->boundary->name, change, within, d->limit);
 }
 
-/* Adds warnings to *to about boundaries that move particles, or change their velocity at t = 0, by more than the speed
- * at which bonds next to them break. A face moved at speed v strains the material behind it by v/c at once, c being the
- * wave speed. */
+/* Adds warnings to *warnings about boundaries that move particles, or change their velocity at t = 0, by more than the
+ * speed at which bonds next to them break. A face moved at speed v strains the material behind it by v/c at once, c
+ * being the wave speed. */
 void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
-                                  struct warnings *to)
+                                  struct warnings *warnings)
 {
     real limit = INFINITY;
     if (scene_silences_warning(s, ACCEPT_SPEED)) return;
@@ -105,20 +106,20 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
         const struct load *l = &loads->load[b];
         const struct driver driver = {l, body, limit};
         const real speed = load_largest_displacement_speed(l, p, s->duration);
-        const real jump = load_largest_velocity_jump(l, p, s->duration);
+        const real jump = load_largest_jump_from_initial_velocity(l, p, s->duration);
         if (!(speed > limit || jump > limit)) continue;
         bodies_mark(s, p, l, body);
         if (isfinite(speed) && moves_freely(&driver, s, loads, p))
-            warn_of_change(&driver, s, p, to);
+            warn_of_change(&driver, s, p, warnings);
         else if (speed > limit)
-            warnings_add(
-                to,
+            warnings_add_if_new(
+                warnings,
                 "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
                 "the critical stretch times the wave speed: use a longer time; if an impact is meant: accept: [speed]",
                 s->boundary[b].name, speed, limit);
         else
-            warnings_add(
-                to,
+            warnings_add_if_new(
+                warnings,
                 "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; bonds beside "
                 "it break at %.3g m/s, the critical stretch times the wave speed: use a lower "
                 "velocity; if an impact is meant: accept: [speed]",
@@ -127,12 +128,13 @@ void engine_warn_of_fast_supports(const struct scene *s, const struct loads *loa
     memory_free(body);
 }
 
-void engine_warn_of_fast_start(const struct particles *p, real wave_speed, struct warnings *to)
+void engine_warn_of_particles_faster_than_waves(const struct particles *p, real wave_speed, struct warnings *warnings)
 {
     const real speed = particles_largest_speed_of_all(p);
     if (speed > wave_speed)
-        warnings_add(to,
-                     "particles start with %.3g m/s, %.3g times the wave speed, and a run stops where particles are "
-                     "faster than waves: check the initial velocities and their units",
-                     speed, speed / wave_speed);
+        warnings_add_if_new(
+            warnings,
+            "particles start with %.3g m/s, %.3g times the wave speed, and a run stops where particles are "
+            "faster than waves: check the initial velocities and their units",
+            speed, speed / wave_speed);
 }

@@ -75,9 +75,9 @@ static void units_judge_between(const struct scene *s, enum accept k, real least
     const bool low = (value < least), high = (value > most);
     if ((!low && !high) || scene_silences_warning(s, k)) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
-    warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]", subject,
-                 rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? least : most, rule[k].look,
-                 (int)strcspn(word, "|"), word);
+    warnings_add_if_new(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]",
+                        subject, rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? least : most,
+                        rule[k].look, (int)strcspn(word, "|"), word);
 }
 
 /* Adds a warning to *to if `value` is outside the plausible range of the quantity k in the table `rule`, unless the
@@ -99,10 +99,11 @@ static void units_of_waves(const struct scene *s, const char *subject, const str
     if (!(m->wave_speed > rule[ACCEPT_WAVES].most) || bar > rule[ACCEPT_WAVES].most || m->poisson <= 0.4)
         units_judge(s, ACCEPT_WAVES, subject, m->wave_speed, "", to);
     else if (!scene_silences_warning(s, ACCEPT_WAVES))
-        warnings_add(to,
-                     "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.3g times as fast as at "
-                     "0.4; if this is meant: accept: [waves]",
-                     subject, m->poisson, m->wave_speed, m->wave_speed / usual);
+        warnings_add_if_new(
+            to,
+            "%s: its Poisson's ratio of %.6g makes its waves as fast as %.3g m/s, %.3g times as fast as at "
+            "0.4; if this is meant: accept: [waves]",
+            subject, m->poisson, m->wave_speed, m->wave_speed / usual);
 }
 
 /* Adds a warning to *to if a hardening constant of material a is so small, relative to Young's modulus, that the
@@ -123,10 +124,11 @@ static void units_of_hardening(const struct scene *s, const char *subject, const
     if (!l->given || scene_silences_warning(s, ACCEPT_YIELD)) return;
     for (size_t k = 0; k < COUNT_OF(constant); k++)
         if (constant[k].value > 0 && constant[k].value < HARDENING_LEAST * a->young)
-            warnings_add(to,
-                         "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so that it does not harden: "
-                         "check the unit (MPa?); if this is meant: accept: [yield]",
-                         subject, constant[k].key, constant[k].value);
+            warnings_add_if_new(
+                to,
+                "%s: its %s of %.3g Pa is below a millionth of Young's modulus, so that it does not harden: "
+                "check the unit (MPa?); if this is meant: accept: [yield]",
+                subject, constant[k].key, constant[k].value);
 }
 
 /* Adds warnings to *to about implausible wave speeds, densities, energy release rates, specific heats, yield stresses
@@ -165,8 +167,8 @@ static void units_of_rigids(const struct scene *s, struct warnings *to)
     least = usual ? rule[ACCEPT_MASS].least : least / UNLIKE, most = usual ? rule[ACCEPT_MASS].most : most * UNLIKE;
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         const struct scene_body *body = &s->body[b];
-        if (!(body->mass > 0) || !region_bounding_box(&body->shape, s->dim, low, high)) continue;
-        const real volume = region_volume(&body->shape, s->dim, low, high) * scene_section_or_thickness(s);
+        if (!(body->mass > 0) || !region_compute_bounding_box_if_finite(&body->shape, s->dim, low, high)) continue;
+        const real volume = region_volume_within_box(&body->shape, s->dim, low, high) * scene_section_or_thickness(s);
         snprintf(subject, sizeof subject, "body %s", body->name);
         snprintf(note, sizeof note, " (%.3g kg over %.3g m^3)", body->mass, volume);
         units_judge_between(s, ACCEPT_MASS, least, most, subject, body->mass / volume, note, to);
@@ -219,10 +221,11 @@ static void units_of_times(const struct scene *s, real dt, struct warnings *to)
         snprintf(subject, sizeof subject, "boundary %s", s->boundary[b].name);
         if (most > 0) units_judge(s, ACCEPT_TIMES, subject, factor_largest_until(f, s->duration) / most, "", to);
         if (scene_is_dynamic(s) && end < EARLY * dt && !scene_silences_warning(s, ACCEPT_TIMES))
-            warnings_add(to,
-                         "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so that %s: "
-                         "check the units of its times (us?); if this is meant: accept: [times]",
-                         subject, end, dt, early[f->kind]);
+            warnings_add_if_new(
+                to,
+                "%s: its time function ends at %.3g s, long before the first time step of %.3g s, so that %s: "
+                "check the units of its times (us?); if this is meant: accept: [times]",
+                subject, end, dt, early[f->kind]);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         snprintf(subject, sizeof subject, "body %s", s->body[b].name);
@@ -373,10 +376,11 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     stress = real_max(stress, scene_is_dynamic(s) ? real_min(stretched, enough) : stretched);
     if (stress == 0 && scene_has_moving_rigid_body(s)) return; /* it loads by contact alone */
     if (stress == 0 && !scene_silences_warning(s, ACCEPT_STRESS)) {
-        warnings_add(to,
-                     "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
-                     "their values and times (us?); if this is meant: accept: [stress]",
-                     s->duration);
+        warnings_add_if_new(
+            to,
+            "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
+            "their values and times (us?); if this is meant: accept: [stress]",
+            s->duration);
         return;
     }
     snprintf(note, sizeof note, " (%.3g Pa; E s_c is %.3g Pa)", stress, strength);
@@ -421,18 +425,18 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
-bool crack_overlaps_box(const struct crack *c, const real *low, const real *high, int dim, real reach)
+bool crack_overlaps_box(const struct crack *c, const real *box_low, const real *box_high, int dim, real margin)
 {
     bool meets = true;
     for (int d = 0; d < dim; d++) {
         real from = INFINITY, to = -INFINITY;
         for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
-        meets = meets && from <= high[d] + reach && to >= low[d] - reach;
+        meets = meets && from <= box_high[d] + margin && to >= box_low[d] - margin;
     }
     return meets;
 }
 
-real engine_count_particles_across(const struct scene *s, real low, real high, int axis)
+real engine_particle_count_between_positions(const struct scene *s, real low, real high, int axis)
 {
     real n = round((high - low) / s->spacing) + 1;
     for (int b = 0; b < s->boundaries; b++)
@@ -448,23 +452,24 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     char subject[NAME_MAX_LENGTH + 16], note[80];
     real least = INFINITY;
     for (int d = 0; d < s->dim; d++) {
-        const real n = engine_count_particles_across(s, low[d], high[d], d);
+        const real n = engine_particle_count_between_positions(s, low[d], high[d], d);
         if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
     }
     snprintf(subject, sizeof subject, "body %s", name);
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
-bool engine_joined_bodies_box(const struct scene *s, const struct particles *p, int body, real *low, real *high)
+bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
+                                         real *box_low, real *box_high)
 {
     for (int d = 0; d < s->dim; d++) {
-        low[d] = INFINITY, high[d] = -INFINITY;
+        box_low[d] = INFINITY, box_high[d] = -INFINITY;
         for (int64_t i = 0; i < p->n; i++) {
-            if (s->body[p->body[i]].joined != body) continue;
-            low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
+            if (s->body[p->body[i]].joined != body_number) continue;
+            box_low[d] = real_min(box_low[d], p->X[d][i]), box_high[d] = real_max(box_high[d], p->X[d][i]);
         }
     }
-    return high[0] >= low[0];
+    return box_high[0] >= box_low[0];
 }
 
 /* Adds warnings to *to about bodies with a pre-crack if they have few particles along an axis. Joined bodies count as
@@ -474,7 +479,7 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
         real low[DIM_MAX], high[DIM_MAX];
         bool cracked = false;
-        if (!engine_joined_bodies_box(s, p, b, low, high)) continue;
+        if (!engine_compute_box_of_joined_bodies(s, p, b, low, high)) continue;
         for (int k = 0; k < s->cracks; k++)
             cracked = cracked || crack_overlaps_box(&s->crack[k], low, high, s->dim, s->spacing);
         if (cracked) units_of_body(s, s->body[b].name, low, high, to);
@@ -492,15 +497,15 @@ static void units_of_thickness(const struct scene *s, real longest, struct warni
 }
 
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *l,
-                                   const struct run_clock *clock, real wave_speed, struct warnings *to)
+                                   const struct run_clock *clock, real wave_speed, struct warnings *warnings)
 {
-    units_of_time(s, clock, wave_speed, real_max(particles_bounding_box_longest_edge(p), s->spacing), to);
-    units_of_thickness(s, particles_bounding_box_longest_edge(p) + s->spacing, to);
-    units_of_materials(s, to);
-    units_of_rigids(s, to);
-    units_of_brittleness(s, particles_bounding_box_longest_edge(p) + s->spacing, to);
-    units_of_times(s, clock->dt, to);
-    units_of_tractions(s, to);
-    units_of_loads(s, p, l, to);
-    units_of_particles(s, p, to);
+    units_of_time(s, clock, wave_speed, real_max(particles_bounding_box_longest_edge(p), s->spacing), warnings);
+    units_of_thickness(s, particles_bounding_box_longest_edge(p) + s->spacing, warnings);
+    units_of_materials(s, warnings);
+    units_of_rigids(s, warnings);
+    units_of_brittleness(s, particles_bounding_box_longest_edge(p) + s->spacing, warnings);
+    units_of_times(s, clock->dt, warnings);
+    units_of_tractions(s, warnings);
+    units_of_loads(s, p, l, warnings);
+    units_of_particles(s, p, warnings);
 }

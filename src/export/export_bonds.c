@@ -84,7 +84,8 @@ static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int 
     real X[DIM_MAX];
     int kept = 0;
     particle_reference_position(&e->part, i, X);
-    const int n = cells_find_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, capacity);
+    const int n =
+        cells_list_particles_near_point(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, capacity);
     for (int k = 0; k < n; k++)
         if (distance2(&e->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
     return kept;
@@ -193,15 +194,15 @@ static void touched_near(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-status lammps_find_bonds_to_cut(struct touched *t, struct exported *x)
+status lammps_find_bonds_to_cut(struct touched *touched, struct exported *x)
 {
     struct search a = {.room = bonds_neighbour_count_bound(&x->e->source) + 1};
     a.found = NEW("touched.found", a.room, int32_t);
     a.bonded = NEW("touched.bonded", x->e->part.n_all, int64_t);
     a.number = NEW("touched.number", x->e->part.n_all, int32_t);
-    *t = (struct touched){0};
+    *touched = (struct touched){0};
     const status s = touched_find(x, &a, &x->bonds, &x->cut);
-    if (s == OK && !x->bond_style) touched_list(t, x, &a), touched_near(t, x, &a);
+    if (s == OK && !x->bond_style) touched_list(touched, x, &a), touched_near(touched, x, &a);
     memory_free(a.found);
     memory_free(a.bonded);
     memory_free(a.number);

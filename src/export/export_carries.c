@@ -88,7 +88,10 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
     settings_add(to, s->contact_stiffness != 1, "contact.stiffness", "1", effect);
 }
 
-bool lammps_normalisation_differs(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
+bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s)
+{
+    return s->model == MODEL_OSPD && scene_bonds_break(s);
+}
 
 /* Appends to the list the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect
  * of changing them. bond_style: true for an export for bond_style bpm/peri, false for a pair_style. */
@@ -115,12 +118,12 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
                  "paths of a crack are nearly alike");
 }
 
-status lammps_list_required_key_changes(struct lammps_settings *to, const struct scene *s, bool bond_style)
+status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style)
 {
-    to->n = 0;
+    changes->n = 0;
     TRY(carries_method(s));
     TRY(carries_materials(s, bond_style));
-    pd_settings(to, s, bond_style);
-    contact_settings(to, s, !bond_style && s->model == MODEL_BOND);
+    pd_settings(changes, s, bond_style);
+    contact_settings(changes, s, !bond_style && s->model == MODEL_BOND);
     return OK;
 }

@@ -33,7 +33,7 @@ int64_t lammps_reference_step_count(const struct exported *exported)
     return exported->e->clock.steps < CHECK_STEPS ? exported->e->clock.steps : CHECK_STEPS;
 }
 
-status lammps_write_reference_positions(FILE *to, struct exported *x)
+status lammps_run_and_write_comparison_positions(FILE *file, struct exported *x)
 {
     struct run *e = x->e;
     const int64_t n = e->part.n, steps = e->clock.steps;
@@ -43,13 +43,13 @@ status lammps_write_reference_positions(FILE *to, struct exported *x)
     array_copy(damage, e->part.damage, n, sizeof *damage);
     e->report->quiet = e->report->excerpt = true;
     e->clock.steps = lammps_reference_step_count(x);
-    const status ran = engine_run(e);
+    const status ran = engine_run_to_end(e);
     e->clock.steps = steps;
     if (ran == OK) {
         /* In LAMMPS the new positions have already broken bonds. */
         e->kernels.bond_force(&e->bonds, &e->part, &e->source.limit, NULL);
         joined_volume(after, &e->part, &e->bonds);
-        check_rows_write(to, &e->part, before, after, damage);
+        check_rows_write(file, &e->part, before, after, damage);
     }
     memory_free(before);
     memory_free(after);

@@ -9,14 +9,14 @@
 
 #include "base/memory.h"
 
-void touched_particles_free(struct touched *t)
+void touched_particles_free(struct touched *touched)
 {
-    memory_free(t->particle);
-    memory_free(t->first);
-    memory_free(t->near);
-    memory_free(t->cut);
-    memory_free(t->key);
-    *t = (struct touched){0};
+    memory_free(touched->particle);
+    memory_free(touched->first);
+    memory_free(touched->near);
+    memory_free(touched->cut);
+    memory_free(touched->key);
+    *touched = (struct touched){0};
 }
 
 /* Colours assigned so far to the particles at cut bonds. of[k]: colour of particle k in the list of these particles,
@@ -79,7 +79,7 @@ static bool colours_share(struct colouring *a)
     return true;
 }
 
-int particle_colours_assign(int32_t *colour, const struct touched *t)
+int particle_colours_assign_and_count(int32_t *colour, const struct touched *t)
 {
     struct colouring a = {t, colour, 0, NEW("colours.key", COLOURS_MOST, uint64_t),
                           NEW("colours.pair", (int64_t)COLOURS_MOST * COLOURS_MOST, uint8_t)};
@@ -93,12 +93,12 @@ int particle_colours_assign(int32_t *colour, const struct touched *t)
     return a.n;
 }
 
-uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colours, const struct touched *t)
+uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colour_count, const struct touched *t)
 {
-    uint8_t *pair = NEW("colours.pairs", (int64_t)colours * colours, uint8_t);
+    uint8_t *pair = NEW("colours.pairs", (int64_t)colour_count * colour_count, uint8_t);
     for (int64_t k = 0; k < t->n; k++)
         for (int64_t q = t->first[k]; q < t->first[k + 1]; q++) {
-            uint8_t *known = &pair[(int64_t)colour[k] * colours + colour[t->near[q]]];
+            uint8_t *known = &pair[(int64_t)colour[k] * colour_count + colour[t->near[q]]];
             if (*known == PAIR_UNKNOWN || *known == pair_kind(t, q))
                 *known = pair_kind(t, q);
             else {

@@ -33,21 +33,22 @@ static struct duration duration_of(real seconds)
     return d;
 }
 
-void lammps_write_run_time_estimate(FILE *to, const struct exported *x)
+void lammps_write_run_time_estimate(FILE *file, const struct exported *x)
 {
     const struct bond_time t = bond_time_of(x->s);
     const real there = x->bond_style ? t.there_bonds : t.there, work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;
-    const int cores = machine_cores();
-    fprintf(to, "%lld particles, %lld bonds, %lld steps of %.4g s: about %s on one core with LAMMPS, %s with Cleave\n",
+    const int cores = machine_physical_core_count();
+    fprintf(file,
+            "%lld particles, %lld bonds, %lld steps of %.4g s: about %s on one core with LAMMPS, %s with Cleave\n",
             (long long)x->e->part.n, (long long)x->bonds, (long long)x->e->clock.steps, x->e->clock.dt,
             duration_of(work * there).text, duration_of(work * t.here).text);
-    fprintf(to, "(%.3g ns with LAMMPS and %.2g ns with Cleave per directed bond and step, %s).\n", there, t.here,
+    fprintf(file, "(%.3g ns with LAMMPS and %.2g ns with Cleave per directed bond and step, %s).\n", there, t.here,
             x->bond_style ? "the first by LAMMPS' own benchmark" : "measured on one machine");
-    fprintf(to,
+    fprintf(file,
             "Break-even: %.0f ranks of LAMMPS with perfect parallel efficiency are as fast as Cleave on %d core%s.\n",
             ceil(cores * there / t.here), cores, cores == 1 ? "" : "s");
     fputs("Lost there: material points and conversion (all particles have bonds from start to end), the balance of\n"
           "energy, stress, crack tips and their speed, stress-intensity factors, probes, fragments, the same bits on\n"
           "any number of ranks.\n",
-          to);
+          file);
 }

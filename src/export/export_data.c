@@ -74,19 +74,19 @@ static void bonds_write(FILE *to, const struct exported *x)
                         e->part.id[it.bond.nbr] + 1);
 }
 
-void lammps_data_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+void lammps_data_write(FILE *file, const struct exported *x, const struct lammps_types *types)
 {
     const struct particles *p = &x->e->part;
-    fprintf(to, "%s, by Cleave\n\n%lld atoms\n%d atom types\n", x->s->name, (long long)p->n, t->n);
+    fprintf(file, "%s, by Cleave\n\n%lld atoms\n%d atom types\n", x->s->name, (long long)p->n, types->n);
     if (x->bond_style)
-        fprintf(to, "%lld bonds\n%d bond types\n", (long long)x->bonds,
+        fprintf(file, "%lld bonds\n%d bond types\n", (long long)x->bonds,
                 bond_type(x->s->materials, x->s->materials - 1, x->s->materials - 1));
-    fputc('\n', to);
-    box_write(to, x);
-    if (x->bond_style) fputs("\nMasses\n\n", to);
-    for (int k = 1; x->bond_style && k <= t->n; k++) fprintf(to, "%d %.17g\n", k, p->mass[t->any[k]]);
-    atoms_write(to, x, t);
-    velocities_write(to, x);
-    if (x->bond_style) bonds_write(to, x);
-    if (x->columns > 0 || x->bond_style) columns_write(to, x);
+    fputc('\n', file);
+    box_write(file, x);
+    if (x->bond_style) fputs("\nMasses\n\n", file);
+    for (int k = 1; x->bond_style && k <= types->n; k++) fprintf(file, "%d %.17g\n", k, p->mass[types->any[k]]);
+    atoms_write(file, x, types);
+    velocities_write(file, x);
+    if (x->bond_style) bonds_write(file, x);
+    if (x->columns > 0 || x->bond_style) columns_write(file, x);
 }

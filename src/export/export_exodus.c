@@ -334,7 +334,7 @@ static void sets_write(struct exodus_export *x)
 }
 
 /* Writes the whole Exodus file to `to`. context: pointer to a struct exodus_export. Returns FAILED or REFUSED if a
- * frame cannot be written. It is passed to export_write_file, which calls it. */
+ * frame cannot be written. It is passed to export_write_file_and_rename, which calls it. */
 static status exodus_put(FILE *to, void *context)
 {
     struct exodus_export *x = context;
@@ -382,7 +382,7 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
                           (long long)x->mesh.n, NETCDF_NUMBERS_MOST);
     if (x->folder) TRY(frames_open(x));
     snprintf(x->title, sizeof x->title, "%.40s%s %s", x->mesh.scene.name, EXODUS_SIGN, CLEAVE_VERSION);
-    return export_write_file(x->request->folder, exodus_put, x);
+    return export_write_file_and_rename(x->request->folder, exodus_put, x);
 }
 
 /* Prints which file was written with which contents, and what of the scene the file does not contain: rigid bodies, and
@@ -414,7 +414,7 @@ status export_exodus(const struct export_request *request)
     status s = exodus_check_name(request->folder);
     if (s == OK && x->folder && request->overrides > 0)
         s = status_set(REFUSED, "%s: is a run, whose scene -s cannot change", printable_name(x->folder).text);
-    if (s == OK) s = export_check_file(request->folder, EXODUS_SIGN, request->overwrite);
+    if (s == OK) s = export_check_file_may_be_written(request->folder, EXODUS_SIGN, request->overwrite);
     if (s == OK) s = exodus_make(x, &scene);
     if (s == OK) exodus_print(x);
     netcdf_free(&x->w);

@@ -58,7 +58,7 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
     scene_free(s);
     TRY(scene_make(s, r, &none));
     TRY(lammps_list_required_key_changes(settings, s, r->bond_style));
-    if (settings->n == 0 && !lammps_normalisation_differs(s)) return OK;
+    if (settings->n == 0 && !lammps_keeps_weighted_volume_of_intact_family(s)) return OK;
     if (!r->allow_different) return settings_refuse(settings, s);
     struct lammps_settings left;
     scene_free(s);
@@ -105,7 +105,7 @@ static void readme_write(FILE *to, const struct exported *x)
         fprintf(to, "%s%s: %s   %s\n",
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",
                 x->settings.of[k].key, x->settings.of[k].value, x->settings.of[k].effect);
-    if (lammps_normalisation_differs(x->s))
+    if (lammps_keeps_weighted_volume_of_intact_family(x->s))
         fputs("\nThe results differ once bonds break: families of LAMMPS keep the weight that they had whole, those of "
               "Cleave\n"
               "do not. check.csv agrees to round-off only as long as nothing has broken.\n",
@@ -150,7 +150,7 @@ static status put_scene_text(FILE *to, struct exported *x, const struct lammps_t
 static status put_check(FILE *to, struct exported *x, const struct lammps_types *t)
 {
     (void)t;
-    return lammps_write_reference_positions(to, x);
+    return lammps_run_and_write_comparison_positions(to, x);
 }
 
 static status put_script(FILE *to, struct exported *x, const struct lammps_types *t)
@@ -170,7 +170,7 @@ static const struct export_file files[] = {{"plate.data", put_data},
  * particles. Returns FAILED, with the file removed, if it cannot be written completely. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
-    const struct path path = path_join(x->request->folder, f->name), aside = file_begin_temporary(path.text);
+    const struct path path = path_join(x->request->folder, f->name), aside = file_begin_writing_temporary(path.text);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path.text, errno);
@@ -259,7 +259,7 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
-    if (lammps_normalisation_differs(x->s))
+    if (lammps_keeps_weighted_volume_of_intact_family(x->s))
         puts("differs from Cleave once bonds break: in peri/lps the weighted volume of a particle still includes "
              "broken bonds");
 }
@@ -271,8 +271,8 @@ static status export_write(struct exported *x)
     const bool ramp = f->volume == VOLUME_CUT_RAMP;
     x->cutoff = ramp ? f->horizon : f->cutoff;
     x->lattice = ramp ? f->spacing : 1e-8 * f->spacing; /* a ramp so narrow that no neighbour is on it */
-    TRY(lammps_loads_make(x));
-    status s = lammps_types_make(&t, x);
+    TRY(lammps_find_loads_of_particles(x));
+    status s = lammps_types_assign_to_particles(&t, x);
     if (s == OK) s = files_write(x, &t);
     if (s == OK) export_print(x, &t);
     lammps_types_free(&t);
@@ -288,9 +288,9 @@ status export_lammps(const struct export_request *request)
     x->s = &s, x->e = e, x->request = request, x->bond_style = request->bond_style;
     status result = scene_to_export(&s, &x->settings, request);
     if (result == OK) result = export_guard(request);
-    if (result == OK) result = engine_make(e, &s, NULL);
+    if (result == OK) result = engine_set_up_run(e, &s, NULL);
     if (result == OK) result = export_write(x);
-    engine_free(e);
+    engine_free_run(e);
     scene_free(&s);
     memory_free(x);
     memory_free(e);

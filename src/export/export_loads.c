@@ -60,7 +60,7 @@ static status load_carries(const struct load *load)
 
 static void columns_make(struct exported *x);
 
-status lammps_loads_make(struct exported *exported)
+status lammps_find_loads_of_particles(struct exported *exported)
 {
     const struct loads *l = &exported->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
@@ -74,18 +74,18 @@ status lammps_loads_make(struct exported *exported)
     return OK;
 }
 
-void lammps_initial_velocity(const struct exported *exported, int64_t i, real v[DIM_MAX])
+void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX])
 {
     const struct loads *l = &exported->e->loads;
     const int dim = exported->e->part.dim;
-    for (int d = 0; d < DIM_MAX; d++) v[d] = d < dim ? exported->e->part.v[d][i] : 0;
+    for (int d = 0; d < DIM_MAX; d++) velocity[d] = d < dim ? exported->e->part.v[d][particle] : 0;
     for (int k = 0; k < l->n; k++) {
         const struct boundary *b = l->load[k].boundary;
-        if (is_force(&l->load[k]) || !(exported->loads[i] >> k & 1)) continue;
+        if (is_force(&l->load[k]) || !(exported->loads[particle] >> k & 1)) continue;
         const struct prescribed_motion by =
             prescribed_motion_make(b, dim, 0.5 * exported->e->clock.dt, exported->e->clock.dt);
         for (int d = 0; d < dim; d++)
-            if (b->components >> d & 1) v[d] = prescribed_velocity_at(&by, NULL, d, false);
+            if (b->components >> d & 1) velocity[d] = prescribed_velocity_at(&by, NULL, d, false);
     }
 }
 
@@ -145,16 +145,16 @@ static struct word column_name(const struct lammps_column *c)
     return w;
 }
 
-void lammps_write_column_names(FILE *to, const struct exported *x)
+void lammps_write_column_names(FILE *file, const struct exported *x)
 {
-    for (int c = 0; c < x->columns; c++) fprintf(to, " d_%s", column_name(&x->column[c]).text);
+    for (int c = 0; c < x->columns; c++) fprintf(file, " d_%s", column_name(&x->column[c]).text);
 }
 
-void lammps_write_compute_commands(FILE *to, const struct exported *x)
+void lammps_write_compute_commands(FILE *file, const struct exported *x)
 {
     for (int c = 0; c < x->columns; c++) {
         const struct word name = column_name(&x->column[c]);
-        fprintf(to, "compute %s all property/atom d_%s\n", name.text, name.text);
+        fprintf(file, "compute %s all property/atom d_%s\n", name.text, name.text);
     }
 }
 
@@ -172,12 +172,12 @@ static int64_t index_in_load(const struct load *load, int64_t i)
     return low < load->n && load->particle[low] == i ? low : -1;
 }
 
-real lammps_column_value(const struct exported *exported, int c, int64_t i)
+real lammps_column_value(const struct exported *exported, int c, int64_t particle)
 {
     const int d = exported->column[c].axis;
-    if (exported->column[c].load < 0) return exported->e->part.x[d][i] - exported->e->part.X[d][i];
+    if (exported->column[c].load < 0) return exported->e->part.x[d][particle] - exported->e->part.X[d][particle];
     const struct load *load = &exported->e->loads.load[exported->column[c].load];
-    const int64_t k = index_in_load(load, i);
+    const int64_t k = index_in_load(load, particle);
     return k < 0 ? 0 : force_on(exported, load, d, k);
 }
 
@@ -334,24 +334,24 @@ static void drive_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d setforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+void lammps_loads_write(FILE *file, const struct exported *x, const struct lammps_types *types)
 {
     const struct loads *l = &x->e->loads;
     bool places = false;
     if (l->n == 0) return;
     for (int k = 0; k < l->n; k++) places |= l->load[k].boundary->displaces;
-    fprintf(to,
+    fprintf(file,
             "\n# Loads; the kick of a step begins and ends at these times, in the middles of steps\n"
             "variable kick equal \"(step+0.5)*%.17g\"\nvariable kicked equal \"(step-0.5*(step>0))*%.17g\"\n",
             x->e->clock.dt, x->e->clock.dt);
     if (places)
-        fprintf(to, "variable next equal \"(step+1)*%.17g\"\ncompute placed all displace/atom\n", x->e->clock.dt);
+        fprintf(file, "variable next equal \"(step+1)*%.17g\"\ncompute placed all displace/atom\n", x->e->clock.dt);
     for (int k = 0; k < l->n; k++) {
         if (l->load[k].n == 0) continue;
-        fprintf(to, "# %s\n", l->load[k].boundary->name);
-        group_write(to, k, t, x);
-        if (is_force(&l->load[k])) force_write(to, x, k);
+        fprintf(file, "# %s\n", l->load[k].boundary->name);
+        group_write(file, k, types, x);
+        if (is_force(&l->load[k])) force_write(file, x, k);
     }
     for (int k = 0; k < l->n; k++) /* after all forces, which these commands replace */
-        if (l->load[k].n > 0 && !is_force(&l->load[k])) drive_write(to, x, k);
+        if (l->load[k].n > 0 && !is_force(&l->load[k])) drive_write(file, x, k);
 }

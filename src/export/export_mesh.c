@@ -37,7 +37,7 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
 {
     *m = (struct export_mesh){.e = NEW("export.engine", 1, struct run)};
     TRY(scene_make_whole(m, r));
-    TRY(engine_make(m->e, &m->scene, NULL));
+    TRY(engine_set_up_run(m->e, &m->scene, NULL));
     const struct particles *p = &m->e->part;
     int64_t(*key)[3] = memory_new("export.order", p->n, sizeof *key);
     for (int64_t i = 0; i < p->n; i++) key[i][0] = p->material[i], key[i][1] = p->id[i], key[i][2] = i;
@@ -55,7 +55,7 @@ status export_mesh_make(struct export_mesh *m, const struct export_request *r)
 
 void export_mesh_free(struct export_mesh *m)
 {
-    if (m->e) engine_free(m->e);
+    if (m->e) engine_free_run(m->e);
     scene_free(&m->scene);
     memory_free(m->e);
     memory_free(m->particle);
@@ -99,27 +99,27 @@ int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-status export_check_file(const char *path, const char *sign, bool overwrite)
+status export_check_file_may_be_written(const char *path, const char *format_signature, bool overwrite)
 {
     char begin[1024] = "";
     size_t n = 0;
     if (path_is_folder(path)) return status_set(REFUSED, "%s: is a folder; -o FILE is expected", path);
-    if (!path_exists(path)) return folder_make_above(path);
+    if (!path_exists(path)) return folder_make_for_file(path);
     FILE *file = fopen(path, "rb");
     if (file) n = fread(begin, 1, sizeof begin, file), fclose(file);
-    if (!memmem(begin, n, sign, strlen(sign)))
+    if (!memmem(begin, n, format_signature, strlen(format_signature)))
         return status_set(REFUSED, "%s: is there, and is no export of Cleave; another -o FILE is expected", path);
     if (!overwrite) return status_set(REFUSED, "%s: is there; choose another -o, or replace it with --overwrite", path);
     return file_check_replaceable(path);
 }
 
-status export_write_file(const char *path, status (*write)(FILE *to, void *context), void *context)
+status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context)
 {
-    const struct path aside = file_begin_temporary(path);
+    const struct path aside = file_begin_writing_temporary(path);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_report_write_failure(path, errno);
-    status s = write(to, context);
+    status s = write_contents(to, context);
     const bool whole = !ferror(to);
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_report_write_failure(path, errno);

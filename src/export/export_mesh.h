@@ -36,12 +36,13 @@ int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load
 /* Releases the memory of *m. */
 void export_mesh_free(struct export_mesh *m);
 
-/* Checks that the file `path` may be written. It may be new, or an export of Cleave if `overwrite` is true. sign: text
- * in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED otherwise. */
-status export_check_file(const char *path, const char *sign, bool overwrite);
+/* Checks that the file `path` may be written. It may be new, or an export of Cleave if `overwrite` is true.
+ * format_signature: text in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED
+ * otherwise. */
+status export_check_file_may_be_written(const char *path, const char *format_signature, bool overwrite);
 
 /* Writes the file `path`: calls write(to, context) with a file of a temporary name, synchronises it with the disk and
  * renames it. Returns FAILED, and leaves no file, if it cannot be written. */
-status export_write_file(const char *path, status (*write)(FILE *to, void *context), void *context);
+status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context);
 
 #endif

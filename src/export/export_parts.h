@@ -26,14 +26,14 @@ struct lammps_settings {
     struct lammps_setting of[SETTINGS_MOST];
 };
 
-/* Lists in *to the keys of the scene that must be changed for LAMMPS to give the same results, with their required
+/* Lists in *changes the keys of the scene that must be changed for LAMMPS to give the same results, with their required
  * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED if LAMMPS lacks a
  * feature of the scene. */
-status lammps_list_required_key_changes(struct lammps_settings *to, const struct scene *s, bool bond_style);
+status lammps_list_required_key_changes(struct lammps_settings *changes, const struct scene *s, bool bond_style);
 
 /* Returns true if the results of LAMMPS differ in a way that no key of the scene removes: in the state-based model
  * LAMMPS continues to normalise by the weighted volume of the intact family after bonds have broken. */
-bool lammps_normalisation_differs(const struct scene *s);
+bool lammps_keeps_weighted_volume_of_intact_family(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
 
@@ -51,20 +51,20 @@ struct touched {
 enum { COLOURS_MOST = 3000 };
 enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 
-/* Releases the arrays of *t. */
-void touched_particles_free(struct touched *t);
+/* Releases the arrays of *touched. */
+void touched_particles_free(struct touched *touched);
 
 /* Assigns a colour, a number from 0 on, to each particle of the list `touched`. For any two colours, the neighbouring
  * particles with these colours all have a bond, or the bonds of all of them must be cut. Particles with equal keys
  * share a colour where possible. Stores the colours in colour[touched->n]. Returns the number of colours, or 0 if more
  * than COLOURS_MOST are needed. */
-int particle_colours_assign(int32_t *colour, const struct touched *touched);
+int particle_colours_assign_and_count(int32_t *colour, const struct touched *touched);
 
 /* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
  * colour[touched->n]: colours of the listed particles. Returns an allocated array state[a * colours + b] of
  * PAIR_BONDED, PAIR_CUT or PAIR_UNKNOWN (no such neighbours), which the caller releases with memory_free. Returns NULL
  * if a pair of colours has both bonded and cut neighbours. */
-uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colours, const struct touched *touched);
+uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colour_count, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
 
@@ -91,10 +91,10 @@ struct exported {
 };
 
 /* Compares the bonds that LAMMPS would create with those of the scene. Stores their numbers in exported->bonds (bonds
- * of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *t the particles at bonds that
- * must be cut. Returns REFUSED if LAMMPS would lack a bond of the scene or give it another weight. Release *t with
- * touched_particles_free. */
-status lammps_find_bonds_to_cut(struct touched *t, struct exported *exported);
+ * of the scene) and exported->cut (further ones of LAMMPS, which must be cut). Lists in *touched the particles at bonds
+ * that must be cut. Returns REFUSED if LAMMPS would lack a bond of the scene or give it another weight. Release
+ * *touched with touched_particles_free. */
+status lammps_find_bonds_to_cut(struct touched *touched, struct exported *exported);
 
 /* Types of particles in LAMMPS: one for each combination of material and loads, and further ones to exclude pairs of
  * particles whose bond must be cut. */
@@ -109,55 +109,56 @@ struct lammps_types {
 /* Assigns a LAMMPS type to each particle. Particles of one type have the same material and loads. Where bonds must be
  * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Returns REFUSED if too
  * many types are needed. Release t with lammps_types_free. */
-status lammps_types_make(struct lammps_types *t, struct exported *exported);
+status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
-/* Releases the arrays of *t. */
-void lammps_types_free(struct lammps_types *t);
+/* Releases the arrays of *types. */
+void lammps_types_free(struct lammps_types *types);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
 /* Finds which loads act on each particle and stores them as bits in x->loads, which it allocates. Lists in x->column
  * the per-particle columns of plate.data that the loads need. Returns REFUSED if LAMMPS has no command for a load, or
  * not enough groups for all loads. */
-status lammps_loads_make(struct exported *exported);
+status lammps_find_loads_of_particles(struct exported *exported);
 
-/* Computes the velocity v[] with which particle i starts in LAMMPS [m/s]. In components that a boundary drives it is
- * the prescribed velocity at half a time step, in others the initial velocity of the scene. */
-void lammps_initial_velocity(const struct exported *exported, int64_t i, real v[DIM_MAX]);
+/* Computes the velocity velocity[] with which particle i starts in LAMMPS [m/s]. In components that a boundary drives
+ * it is the prescribed velocity at half a time step, in others the initial velocity of the scene. */
+void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
-/* Writes the names of all per-particle columns x->column to the file `to`, as arguments of the LAMMPS command `fix
+/* Writes the names of all per-particle columns x->column to the file `file`, as arguments of the LAMMPS command `fix
  * property/atom`. exported: the export x. */
-void lammps_write_column_names(FILE *to, const struct exported *exported);
+void lammps_write_column_names(FILE *file, const struct exported *exported);
 
-/* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export to the file `to`.
+/* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export to the file `file`.
  * Variables of the script read the columns through these commands. */
-void lammps_write_compute_commands(FILE *to, const struct exported *exported);
+void lammps_write_compute_commands(FILE *file, const struct exported *exported);
 
-/* Returns the value of the per-particle column number `column` at particle i: a component of its initial displacement
- * [m], or of the force of a load on it, 0 if the load does not act on it. For pair styles the force is per volume
- * [N/m^3], for bond styles it is in [N]. */
-real lammps_column_value(const struct exported *exported, int column, int64_t i);
+/* Returns the value of the per-particle column number `column` at particle particle: a component of its initial
+ * displacement [m], or of the force of a load on it, 0 if the load does not act on it. For pair styles the force is per
+ * volume [N/m^3], for bond styles it is in [N]. */
+real lammps_column_value(const struct exported *exported, int column, int64_t particle);
 
-/* Writes the LAMMPS commands of all loads and supports to the file `to`. t: types of the particles. */
-void lammps_loads_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
+/* Writes the LAMMPS commands of all loads and supports to the file `file`. types: types of the particles. */
+void lammps_loads_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the contents of plate.data, the particles with their types, to the file `to` (export_data.c). t: types of the
+/* Writes the contents of plate.data, the particles with their types, to the file `file` (export_data.c). types: types
+ * of the particles. */
+void lammps_data_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
+/* Writes the contents of the input script in.lammps to the file `file` (export_script.c). types: types of the
  * particles. */
-void lammps_data_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
-/* Writes the contents of the input script in.lammps to the file `to` (export_script.c). t: types of the particles. */
-void lammps_script_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
-/* Writes the estimated duration of the run in LAMMPS and in Cleave, and what the export lacks, to the file `to`
+void lammps_script_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
+/* Writes the estimated duration of the run in LAMMPS and in Cleave, and what the export lacks, to the file `file`
  * (export_cost.c). */
-void lammps_write_run_time_estimate(FILE *to, const struct exported *exported);
+void lammps_write_run_time_estimate(FILE *file, const struct exported *exported);
 
 /* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps
  * of a shorter run. */
 int64_t lammps_reference_step_count(const struct exported *exported);
 
-/* Makes lammps_reference_step_count time steps in Cleave and writes the contents of check.csv to the file `to`: the
+/* Makes lammps_reference_step_count time steps in Cleave and writes the contents of check.csv to the file `file`: the
  * positions of the particles, and which share of their bonds is broken. Returns FAILED if a step fails. */
-status lammps_write_reference_positions(FILE *to, struct exported *exported);
+status lammps_run_and_write_comparison_positions(FILE *file, struct exported *exported);
 
 #endif

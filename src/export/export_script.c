@@ -162,9 +162,9 @@ static void test_write(FILE *to, int64_t steps)
 /* Returns the number of time steps between frames if it is the same for all, else 0. frames: number of frames. */
 static int64_t frame_distance(const struct run *e, int64_t frames)
 {
-    const int64_t first = report_step_of_frame(e->scene, &e->clock, 1);
+    const int64_t first = report_step_number_of_frame(e->scene, &e->clock, 1);
     for (int64_t k = 2; k <= frames; k++)
-        if (report_step_of_frame(e->scene, &e->clock, k) != k * first) return 0;
+        if (report_step_number_of_frame(e->scene, &e->clock, k) != k * first) return 0;
     return first;
 }
 
@@ -175,7 +175,7 @@ static void frames_write(FILE *to, const struct exported *x)
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
     const struct run *e = x->e;
-    const int64_t frames = report_count_frames(e->scene, &e->clock), steps = e->clock.steps;
+    const int64_t frames = report_frame_count_of_run(e->scene, &e->clock), steps = e->clock.steps;
     int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {
         every = steps / frames;
@@ -185,10 +185,10 @@ static void frames_write(FILE *to, const struct exported *x)
         fprintf(to, "dump frames all custom %lld %s\n", (long long)every, columns);
         return;
     }
-    fprintf(to, "variable next equal %lld", (long long)report_step_of_frame(e->scene, &e->clock, 1));
+    fprintf(to, "variable next equal %lld", (long long)report_step_number_of_frame(e->scene, &e->clock, 1));
     for (int64_t k = 1; k <= frames; k++) {
-        const int64_t here = report_step_of_frame(e->scene, &e->clock, k),
-                      next = k < frames ? report_step_of_frame(e->scene, &e->clock, k + 1) : steps + 1;
+        const int64_t here = report_step_number_of_frame(e->scene, &e->clock, k),
+                      next = k < frames ? report_step_number_of_frame(e->scene, &e->clock, k + 1) : steps + 1;
         if (next > here) fprintf(to, "+(step>=%lld)*%lld", (long long)here, (long long)(next - here));
     }
     fprintf(to, "\ndump frames all custom %lld %s every v_next first yes\n", (long long)steps, columns);
@@ -208,18 +208,18 @@ static void runs_write(FILE *to, const struct exported *x)
     test_write(to, check);
 }
 
-void lammps_script_write(FILE *to, const struct exported *x, const struct lammps_types *t)
+void lammps_script_write(FILE *file, const struct exported *x, const struct lammps_types *types)
 {
-    fprintf(to, "# %s, exported by Cleave %s for %s\n", x->s->name, CLEAVE_VERSION,
+    fprintf(file, "# %s, exported by Cleave %s for %s\n", x->s->name, CLEAVE_VERSION,
             x->bond_style ? "bond_style bpm/peri (LAMMPS of September 2026 and later, package BPM)"
                           : "pair_style peri (LAMMPS with package PERI, as Debian's of 2021)");
-    settings_write(to, x);
-    particles_write(to, x);
+    settings_write(file, x);
+    particles_write(file, x);
     if (x->bond_style)
-        bond_style_write(to, x);
+        bond_style_write(file, x);
     else
-        pairs_write(to, x, t);
-    start_write(to, x, t);
-    lammps_loads_write(to, x, t);
-    runs_write(to, x);
+        pairs_write(file, x, types);
+    start_write(file, x, types);
+    lammps_loads_write(file, x, types);
+    runs_write(file, x);
 }

@@ -105,14 +105,14 @@ static status types_give(struct lammps_types *t, struct exported *x, const struc
     return made;
 }
 
-status lammps_types_make(struct lammps_types *t, struct exported *x)
+status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *x)
 {
     struct touched touched;
-    *t = (struct lammps_types){0};
+    *types = (struct lammps_types){0};
     status s = lammps_find_bonds_to_cut(&touched, x);
     int32_t *colour = NEW("types.colour", touched.n, int32_t);
     uint8_t *pair = NULL;
-    const int colours = s == OK && touched.n > 0 ? particle_colours_assign(colour, &touched) : 0;
+    const int colours = s == OK && touched.n > 0 ? particle_colours_assign_and_count(colour, &touched) : 0;
     if (s == OK && touched.n > 0 && colours == 0)
         s = status_set(REFUSED,
                        "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
@@ -120,18 +120,18 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
         s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
-    if (s == OK) s = types_give(t, x, &touched, colour, colours, pair);
+    if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);
     touched_particles_free(&touched);
     return s;
 }
 
-void lammps_types_free(struct lammps_types *t)
+void lammps_types_free(struct lammps_types *types)
 {
-    memory_free(t->of);
-    memory_free(t->material);
-    memory_free(t->any);
-    memory_free(t->pair);
-    *t = (struct lammps_types){0};
+    memory_free(types->of);
+    memory_free(types->material);
+    memory_free(types->any);
+    memory_free(types->pair);
+    *types = (struct lammps_types){0};
 }

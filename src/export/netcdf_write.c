@@ -25,14 +25,16 @@ int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_
     return w->dimensions++;
 }
 
-void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type, int ranks,
-                         const int *dimension, const char *attribute, const char *text)
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type,
+                         int dimension_count, const int *dimension, const char *attribute_name,
+                         const char *attribute_text)
 {
     GROW("netcdf.arrays", w->array, w->arrays + 1);
     struct netcdf_array *a = &w->array[w->arrays++];
-    *a = (struct netcdf_array){.type = type, .ranks = ranks, .attribute = attribute, .text = text};
+    *a = (struct netcdf_array){
+        .type = type, .ranks = dimension_count, .attribute = attribute_name, .text = attribute_text};
     name_set(a->name, name, name_suffix);
-    for (int k = 0; k < ranks; k++) a->dimension[k] = dimension[k];
+    for (int k = 0; k < dimension_count; k++) a->dimension[k] = dimension[k];
 }
 
 /* ---- the header -------------------------------------------------------------------------------------------------- */
@@ -173,11 +175,11 @@ void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *va
     w->pending += 4 * n;
 }
 
-void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width)
+void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int row_bytes)
 {
     const int length = (int)strlen(text);
-    for (int k = 0; k < width; k++) fputc(k < length ? text[k] : 0, w->to);
-    w->pending += width;
+    for (int k = 0; k < row_bytes; k++) fputc(k < length ? text[k] : 0, w->to);
+    w->pending += row_bytes;
 }
 
 void netcdf_end_array(struct netcdf_writer *w)

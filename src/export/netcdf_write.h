@@ -51,10 +51,11 @@ struct netcdf_writer {
 int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_suffix, int64_t length);
 
 /* Defines an array of numbers of type `type`. It is called `name` followed by `name_suffix`, or only `name` if
- * `name_suffix` is 0. dimension[ranks]: indices of its dimensions; attribute, text: name and text of its only
+ * `name_suffix` is 0. dimension[ranks]: indices of its dimensions; attribute, attribute_text: name and text of its only
  * attribute, kept by reference, or NULL for none. */
-void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type, int ranks,
-                         const int *dimension, const char *attribute, const char *text);
+void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type,
+                         int dimension_count, const int *dimension, const char *attribute_name,
+                         const char *attribute_text);
 
 /* Writes the header of the file, which follows from the definitions, to w->to. To be called after all definitions and
  * before the arrays are written. */
@@ -65,9 +66,9 @@ void netcdf_write_header(struct netcdf_writer *w);
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
-/* Writes `text` as the next row of the array that is being written, an array of letters with rows of `width` bytes. The
- * text is cut or padded to this length. */
-void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int width);
+/* Writes `text` as the next row of the array that is being written, an array of letters with rows of `row_bytes` bytes.
+ * The text is cut or padded to this length. */
+void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int row_bytes);
 
 /* Ends the array that is being written, or its part in one record, with the padding that the format requires. The next
  * numbers belong to the next array. */

@@ -77,7 +77,7 @@ static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
     memory_free(number);
 }
 
-void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p)
+void fragments_find_by_intact_bonds(struct fragments *f, const struct bonds *b, const struct particles *p)
 {
     /* slot[i]: index of the fragment whose first particle is i */
     int32_t *leader = BARE("fragments.leader", p->n, int32_t), *slot = BARE("fragments.slot", p->n, int32_t);

@@ -38,7 +38,7 @@ static void target_speed_find(struct growing_crack *g, const struct growth_contr
                most = isnan(g->rule->fastest) ? bound : real_min(g->rule->fastest, bound);
     real wanted = 0;
     if (g->intensity > 0) {
-        const real filtered_speed = crack_sif_ratio_at_speed(m, SPEED_EXACT, g->filtered_speed);
+        const real filtered_speed = crack_moving_to_resting_sif_ratio(m, SPEED_EXACT, g->filtered_speed);
         wanted = crack_speed_from_sif_ratio(m, filtered_speed * g->rule->toughness / g->intensity, most);
     }
     g->target_speed += (wanted - g->target_speed) * -expm1(-(control->time - g->control_time) / (SMOOTHING * settling));
@@ -81,7 +81,7 @@ static bool grows(const struct growing_crack *g, real t)
  * factors K_I, K_II and the direction of the crack to which they refer. */
 static void growth_turn(struct growing_crack *g, const struct growth_control *control)
 {
-    const real angle = crack_kink_angle_of_sif(control->factors.K), c = cos(angle), s = sin(angle);
+    const real angle = crack_kink_angle_from_sif(control->factors.K), c = cos(angle), s = sin(angle);
     const real x = control->along[0], y = control->along[1];
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
@@ -144,9 +144,9 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
 {
     real X[DIM_MAX] = {from[0], from[1]};
     const real radius = s->family.cutoff + hypot(to[0] - from[0], to[1] - from[1]);
-    const int room = cells_find_near(s->cells, p, X, radius, -1, NULL, 0);
+    const int room = cells_list_particles_near_point(s->cells, p, X, radius, -1, NULL, 0);
     *found = NEW("growth.found", room, int32_t);
-    return cells_find_near(s->cells, p, X, radius, -1, *found, room);
+    return cells_list_particles_near_point(s->cells, p, X, radius, -1, *found, room);
 }
 
 /* Marks the material points within the cutoff of the tip for conversion to peridynamic particles, because cracks grow
@@ -247,8 +247,9 @@ static int64_t fade(struct growing_crack *g, struct bonds *b, struct particles *
 /* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
  * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. control: present
  * stress-intensity factors, NULL if not known. Returns the number of directed bonds whose weight has become 0. */
-int64_t growing_crack_advance(struct growing_crack *g, struct bonds *b, struct particles *p,
-                              const struct bond_source *source, const struct growth_control *control, real t, real dt)
+int64_t growing_crack_advance_and_count_cut_bonds(struct growing_crack *g, struct bonds *b, struct particles *p,
+                                                  const struct bond_source *source,
+                                                  const struct growth_control *control, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
     g->intensity = control ? crack_equivalent_sif(control->factors.K) : NAN;

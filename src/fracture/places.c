@@ -77,16 +77,16 @@ static void group_middle(const struct place *place, const int32_t *group, int64_
     if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle);
 }
 
-int64_t positions_cluster_centre(const struct place *position, int64_t positions, int dim, real reach,
-                                 const real *along, real *centre)
+int64_t positions_count_clusters_and_find_centre(const struct place *position, int64_t position_count, int dim,
+                                                 real max_step, const real *ignored_direction, real *cluster_centre)
 {
-    const int64_t looked = positions < POSITIONS_MOST ? positions : POSITIONS_MOST;
+    const int64_t looked = position_count < POSITIONS_MOST ? position_count : POSITIONS_MOST;
     int64_t last = -1;
     int32_t *group = BARE("places.group", looked, int32_t);
-    const int64_t groups = groups_number(position, looked, dim, reach, along, group);
+    const int64_t groups = groups_number(position, looked, dim, max_step, ignored_direction, group);
     for (int64_t k = 0; k < looked; k++)
-        if (!position[k].beside && (last < 0 || comes_after(&position[k], &position[last], dim, reach))) last = k;
-    if (last >= 0) group_middle(position, group, looked, group[last], dim, reach, centre);
+        if (!position[k].beside && (last < 0 || comes_after(&position[k], &position[last], dim, max_step))) last = k;
+    if (last >= 0) group_middle(position, group, looked, group[last], dim, max_step, cluster_centre);
     memory_free(group);
     return last >= 0 ? groups : 0;
 }

@@ -136,7 +136,7 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
                              struct crack_state *state)
 {
     if (tip->stress == SIF_HOOKE) {
-        crack_stress_from_gradient(&tip->medium, state->gradient, state->stress);
+        crack_stress_from_displacement_gradient(&tip->medium, state->gradient, state->stress);
         return;
     }
     real global[2][2] = {{m->stress[0][i], m->stress[2][i]}, {m->stress[2][i], m->stress[1][i]}};
@@ -184,7 +184,7 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
         struct gradient_stencil stencil = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < s->n; k++) {
-            gradient_stencil_compute(&stencil, rule, p, c, s->particle[k]);
+            gradient_stencil_compute_weights(&stencil, rule, p, c, s->particle[k]);
             point_make(s, k, m, &stencil, p);
         }
         gradient_stencil_free(&stencil);
@@ -226,14 +226,14 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contours,
+void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct contour *contour, int contour_count,
                                          const struct sif_motion *motion, const struct gradient_rule *rule,
                                          const struct particles *p, const struct cells *c, struct sif *result)
 {
     struct sif_points s = {.tip = tip, .inner = motion->velocity[0] || motion->body[0]};
-    points_find(&s, contour, contours, p);
+    points_find(&s, contour, contour_count, p);
     points_make(&s, motion, rule, p, c);
-    for (int k = 0; k < contours; k++) {
+    for (int k = 0; k < contour_count; k++) {
         real sum[MODES + 1];
         s.contour = &contour[k];
         reproducible_sums(s.n, MODES + 1, points_block, &s, sum);
@@ -251,15 +251,15 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
 /* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean
  * of |K|, or of J over its mean; NAN if a denominator is 0. result[contours]: stress-intensity factors and J of each
  * contour. */
-real sif_contour_spread(const struct sif *result, int contours)
+real sif_relative_spread_over_contours(const struct sif *result, int contour_count)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];
     for (int m = 0; m <= MODES; m++) {
         low[m] = INFINITY, high[m] = -INFINITY;
-        for (int k = 0; k < contours; k++) {
+        for (int k = 0; k < contour_count; k++) {
             const real value = m < MODES ? result[k].K[m] : result[k].J;
             low[m] = real_min(low[m], value), high[m] = real_max(high[m], value);
-            mean[m] += value / contours;
+            mean[m] += value / contour_count;
         }
         range[m] = high[m] - low[m];
     }

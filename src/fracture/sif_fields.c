@@ -10,7 +10,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-struct crack_medium crack_medium_of(const struct material *m, enum space space)
+struct crack_medium crack_medium_of_material(const struct material *m, enum space space)
 {
     const real nu = m->poisson;
     const bool thin = space == SPACE_PLANE_STRESS;
@@ -26,7 +26,7 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space)
                                  .rayleigh = m->rayleigh_speed};
 }
 
-void crack_stress_from_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
+void crack_stress_from_displacement_gradient(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
 {
     const real dilatation = gradient[0][0] + gradient[1][1];
     for (int i = 0; i < 2; i++)
@@ -63,7 +63,7 @@ void crack_tip_field_at_rest(const struct crack_medium *m, enum crack_mode mode,
         f->state.gradient[i][0] = size / r * (0.5 * g[i] * c - slope[i] * s);
         f->state.gradient[i][1] = size / r * (0.5 * g[i] * s + slope[i] * c);
     }
-    crack_stress_from_gradient(m, f->state.gradient, f->state.stress);
+    crack_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
 }
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
@@ -117,7 +117,7 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
             twice_along[i] += creal(unit * bend);
         }
     }
-    crack_stress_from_gradient(m, f->state.gradient, f->state.stress);
+    crack_stress_from_displacement_gradient(m, f->state.gradient, f->state.stress);
     for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -speed d/dx1 */
         f->state.velocity[i] = -speed * f->state.gradient[i][0];
         f->state.velocity_along[i] = -speed * twice_along[i];
@@ -167,7 +167,7 @@ static real factor_exact(const struct crack_medium *m, real v)
     return (1 - v / m->rayleigh) / sqrt(1 - v / m->longitudinal) * exp(sum / pi);
 }
 
-real crack_sif_ratio_at_speed(const struct crack_medium *m, enum speed_factor form, real speed)
+real crack_moving_to_resting_sif_ratio(const struct crack_medium *m, enum speed_factor form, real speed)
 {
     const real c_d = m->longitudinal, c_s = m->shear_speed, falling = 1 - speed / m->rayleigh;
     if (form == SPEED_EXACT) return factor_exact(m, speed);
@@ -176,23 +176,23 @@ real crack_sif_ratio_at_speed(const struct crack_medium *m, enum speed_factor fo
     return falling / sqrt(1 - h * speed);
 }
 
-real crack_speed_from_sif_ratio(const struct crack_medium *m, real factor, real max_speed)
+real crack_speed_from_sif_ratio(const struct crack_medium *m, real sif_ratio, real max_speed)
 {
     real low = 0, high = max_speed;
-    if (factor >= 1) return 0;
-    if (factor_exact(m, max_speed) >= factor) return max_speed;
+    if (sif_ratio >= 1) return 0;
+    if (factor_exact(m, max_speed) >= sif_ratio) return max_speed;
     for (int k = 0; k < HALVINGS; k++) { /* k decreases from 1 at rest to 0 at c_R */
         const real v = 0.5 * (low + high);
-        *(factor_exact(m, v) > factor ? &low : &high) = v;
+        *(factor_exact(m, v) > sif_ratio ? &low : &high) = v;
     }
     return 0.5 * (low + high);
 }
 
-real crack_sif_after_plane_wave(const struct crack_medium *m, real stress, real time_since_arrival)
+real crack_sif_after_plane_wave(const struct crack_medium *m, real wave_stress, real time_since_arrival)
 {
     const real nu = m->poisson;
     return time_since_arrival > 0
-               ? 2 * stress * sqrt(m->longitudinal * time_since_arrival * (1 - 2 * nu) / pi) / (1 - nu)
+               ? 2 * wave_stress * sqrt(m->longitudinal * time_since_arrival * (1 - 2 * nu) / pi) / (1 - nu)
                : 0;
 }
 
@@ -200,13 +200,13 @@ real crack_sif_after_plane_wave(const struct crack_medium *m, real stress, real 
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
  * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. */
-real crack_kink_angle_of_sif(const real K[MODES])
+real crack_kink_angle_from_sif(const real K[MODES])
 {
     return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));
 }
 
 real crack_equivalent_sif(const real K[MODES])
 {
-    const real theta = crack_kink_angle_of_sif(K), c = cos(0.5 * theta);
+    const real theta = crack_kink_angle_from_sif(K), c = cos(0.5 * theta);
     return c * c * c * K[MODE_I] - 1.5 * c * sin(theta) * K[MODE_II];
 }

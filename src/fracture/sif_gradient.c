@@ -174,21 +174,21 @@ static void stencil_room(struct gradient_stencil *s, int capacity)
     s->weight = memory_new("sif.weight", s->room, sizeof *s->weight);
 }
 
-void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
-                              const struct cells *c, int64_t i)
+void gradient_stencil_compute_weights(struct gradient_stencil *s, const struct gradient_rule *rule,
+                                      const struct particles *p, const struct cells *c, int64_t particle)
 {
     const real support = 2 * rule->reach * (1 + 1e-9);
     real X[DIM_MAX];
-    particle_reference_position(p, i, X);
-    s->n = cells_find_near(c, p, X, support, -1, s->particle, s->room);
+    particle_reference_position(p, particle, X);
+    s->n = cells_list_particles_near_point(c, p, X, support, -1, s->particle, s->room);
     if (s->n > s->room) {
         stencil_room(s, s->n);
-        s->n = cells_find_near(c, p, X, support, -1, s->particle, s->room);
+        s->n = cells_list_particles_near_point(c, p, X, support, -1, s->particle, s->room);
     }
     if (rule->method == GRADIENT_MLS)
-        stencil_mls(s, rule, p, i);
+        stencil_mls(s, rule, p, particle);
     else
-        stencil_pddo(s, rule, p, i);
+        stencil_pddo(s, rule, p, particle);
     if (s->order == 0) s->n = 0;
 }
 
@@ -199,13 +199,13 @@ void gradient_stencil_free(struct gradient_stencil *s)
     *s = (struct gradient_stencil){0};
 }
 
-void gradient_stencil_apply(const struct gradient_stencil *s, int64_t i, const real *const field[2],
+void gradient_stencil_apply(const struct gradient_stencil *s, int64_t particle, const real *const field[2],
                             real gradient[2][2])
 {
     for (int a = 0; a < 2; a++) {
         gradient[a][0] = gradient[a][1] = 0;
         for (int k = 0; k < s->n; k++) {
-            const real difference = field[a][s->particle[k]] - field[a][i];
+            const real difference = field[a][s->particle[k]] - field[a][particle];
             for (int b = 0; b < 2; b++) gradient[a][b] += s->weight[k][b] * difference;
         }
     }

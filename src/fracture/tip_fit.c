@@ -100,7 +100,7 @@ static bool seen(const struct tip_view *v, const real *X)
     return true;
 }
 
-bool crack_tip_fit_sif(const struct tip_view *v, const struct particles *p, real K[MODES])
+bool crack_tip_fit_sif_to_displacements(const struct tip_view *v, const struct particles *p, real K[MODES])
 {
     struct surface_fit_problem f = {.particles = 0};
     K[MODE_I] = K[MODE_II] = 0;

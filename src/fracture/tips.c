@@ -50,7 +50,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
-    if (particles_are_consecutive(at, n))
+    if (particles_have_consecutive_numbers(at, n))
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[0] + k);
     else
         for (int64_t k = 0; k < n; k++) any |= damage_bits(p, at[k]);
@@ -64,7 +64,7 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_list_piece_end(p, first) - first;
+        const int64_t n = tip_end_of_particle_list_piece(p, first) - first;
         real most = 0;
         if (!any_damage(p, at, n)) continue;
         for (int64_t k = 0; k < n; k++) most = real_max(most, p->damage[at[k]]);
@@ -110,7 +110,8 @@ static void flood_run(struct flood *f)
     for (int64_t head = 0; head < f->queued; head++) {
         int32_t i = f->queue[head];
         particle_reference_position(p, i, X);
-        int tip = f->t->label[i] - 1, n = tip_search_find_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+        int tip = f->t->label[i] - 1,
+            n = tip_search_find_particles_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
         for (int k = 0; k < n; k++) {
             int32_t j = f->search.found[k];
             if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -133,7 +134,7 @@ static int start_near(const struct crack_tips *t, const struct particles *p, int
     for (int k = 0; k < t->n; k++) {
         const struct crack_tip *tip = &t->tip[k];
         if (!tip->from_crack || tip->body != p->body[i]) continue;
-        real distance = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
+        real distance = segment_distance_and_offset_to_point(tip->origin, tip->edge, X, t->dim, offset);
         if (distance > least || (nearest >= 0 && distance == least)) continue;
         nearest = k, least = distance;
     }
@@ -147,7 +148,7 @@ static int crack_touched(struct flood *f, int64_t i)
     const struct particles *p = f->search.p;
     real X[DIM_MAX];
     particle_reference_position(p, i, X);
-    int lowest = -1, n = tip_search_find_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
+    int lowest = -1, n = tip_search_find_particles_near(&f->search, X, (TIP_TOUCH + TIP_EQUAL) * f->t->spacing);
     for (int k = 0; k < n; k++) {
         int32_t j = f->search.found[k];
         if (j >= p->n || p->body[j] != p->body[i]) continue;
@@ -186,7 +187,7 @@ static bool flood_nucleate(struct flood *f)
     if (tip < TIPS_MAX) {
         real X[DIM_MAX];
         particle_reference_position(p, best, X);
-        tip_add(f->t, p->body[best], X, NULL);
+        tip_add_without_growth(f->t, p->body[best], X, NULL);
         f->into[tip] = tip, f->grown_by[tip] = false;
     } else {
         tip = tip_nearest(f->t, p, best);
@@ -229,12 +230,12 @@ static void flood_make(struct flood *f, struct crack_tips *t, const struct parti
     const int64_t n = p->n_of[KIND_PD];
     *f = (struct flood){.t = t, .search = {.p = p, .c = c}};
     for (int64_t b = next_damaged(p, 0); b < n; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_list_piece_end(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
+        for (int64_t k = b; k < tip_end_of_particle_list_piece(p, b); k++) f->n_fresh += can_belong(t, p, list[k]);
     f->fresh = NEW("tips.fresh", f->n_fresh, int32_t);
     f->queue = NEW("tips.queue", f->n_fresh, int32_t);
     int64_t fresh = 0;
     for (int64_t b = next_damaged(p, 0); b < n && fresh < f->n_fresh; b = next_damaged(p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_list_piece_end(p, b); k++)
+        for (int64_t k = b; k < tip_end_of_particle_list_piece(p, b); k++)
             if (can_belong(t, p, list[k])) f->fresh[fresh++] = list[k];
     for (int m = 0; m < t->n; m++) f->into[m] = m;
 }
@@ -341,7 +342,7 @@ static void record_grow(struct crack_tips *t, int64_t samples)
     GROW("tips.growth", t->growth, samples * TIPS_MAX);
 }
 
-void tips_update(struct crack_tips *t, const struct particles *p, const struct cells *c, real time)
+void tips_update_from_damage(struct crack_tips *t, const struct particles *p, const struct cells *c, real time)
 {
     INVARIANT(t->count == p->n && t->dim == p->dim);
     INVARIANT(t->samples == 0 || time >= t->time[t->samples - 1]);
@@ -351,7 +352,7 @@ void tips_update(struct crack_tips *t, const struct particles *p, const struct c
     flood_free(&f);
 
     struct tip_reach reach[TIPS_MAX] = {{0}};
-    tips_find_extents(t, p, reach);
+    tips_compute_crack_extents(t, p, reach);
     record_grow(t, t->samples + 1);
     int64_t s = t->samples++;
     t->time[s] = time;
@@ -382,7 +383,7 @@ real tip_deflection_angle(const struct crack_tip *tip, int dim)
 
 /* Returns the tip with the largest growth, or NULL if no crack has grown. Of several with equal growth, up to
  * round-off, the first is returned: round-off then does not choose between the halves of a symmetric crack. */
-const struct crack_tip *tips_longest(const struct crack_tips *t)
+const struct crack_tip *tips_find_tip_with_largest_growth(const struct crack_tips *t)
 {
     const struct crack_tip *longest = NULL;
     for (int k = 0; k < t->n; k++)
@@ -390,9 +391,9 @@ const struct crack_tip *tips_longest(const struct crack_tips *t)
     return longest;
 }
 
-int64_t tips_count_longest_ends(const struct crack_tips *t)
+int64_t tips_count_ends_with_largest_growth(const struct crack_tips *t)
 {
-    const struct crack_tip *longest = tips_longest(t);
+    const struct crack_tip *longest = tips_find_tip_with_largest_growth(t);
     int64_t tied = 0;
     for (int k = 0; k < t->n && longest; k++)
         if (t->tip[k].growth > 0 && t->tip[k].growth >= longest->growth - (1 + TIP_EQUAL) * t->spacing)

@@ -46,7 +46,7 @@ static struct ahead ahead_of(const struct crack_tips *t, int body, const real *X
         const struct crack_tip *tip = &t->tip[k];
         real offset[DIM_MAX];
         if (!tip->from_crack || tip->body != body) continue;
-        const real reach = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
+        const real reach = segment_distance_and_offset_to_point(tip->origin, tip->edge, X, t->dim, offset);
         if (reach >= least * (1 - EQUAL)) continue;
         const bool ahead = dot(offset, tip->along, t->dim) > EQUAL * t->spacing;
         least = reach;
@@ -88,10 +88,10 @@ static int64_t strip_length(const uint8_t *cell, int64_t deepest)
 }
 
 bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_tip *tip,
-                               const struct mirror_plane *mirror, int mirrors)
+                               const struct mirror_plane *mirror, int mirror_count)
 {
     bool on = false;
-    for (int m = 0; m < mirrors; m++) {
+    for (int m = 0; m < mirror_count; m++) {
         const int axis = mirror[m].axis;
         on |= fabs(tip->origin[axis] - mirror[m].at) < 0.5 * t->spacing * (1 + EQUAL) && fabs(tip->along[axis]) < 0.1 &&
               fabs(tip->edge[axis]) < 0.1 * front_width(tip, t->dim) + EQUAL * t->spacing;
@@ -99,8 +99,8 @@ bool tip_grows_on_mirror_plane(const struct crack_tips *t, const struct crack_ti
     return on;
 }
 
-struct crack_area tips_crack_area(const struct crack_tips *t, const struct particles *p,
-                                  const struct tip_surroundings *s)
+struct crack_area tips_total_crack_area(const struct crack_tips *t, const struct particles *p,
+                                        const struct tip_surroundings *s)
 {
     int64_t first[TIPS_MAX + 1] = {0};
     struct crack_area area = {0};

@@ -15,15 +15,19 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
 enum { TIP_PIECE = 64 };
 
 /* Returns the index after the last entry of a piece of the list of peridynamic particles of p, which is tested at once:
- * first + TIP_PIECE, or the length of the list if that is smaller. first: index of the first entry of the piece. */
-static inline int64_t tip_list_piece_end(const struct particles *p, int64_t first)
+ * first + TIP_PIECE, or the length of the list if that is smaller. piece_start: index of the first entry of the piece.
+ */
+static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, int64_t piece_start)
 {
-    return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];
+    return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
 }
 
-/* Returns true if the n >= 1 particle numbers at[0 .. n - 1], which must be strictly ascending, are consecutive. Flags
- * of consecutive particles are tested eight at a time. */
-static inline bool particles_are_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
+/* Returns true if the n >= 1 particle numbers particle_number[0 .. n - 1], which must be strictly ascending, are
+ * consecutive. Flags of consecutive particles are tested eight at a time. */
+static inline bool particles_have_consecutive_numbers(const int32_t *particle_number, int64_t count)
+{
+    return particle_number[count - 1] - particle_number[0] == count - 1;
+}
 
 /* Extent of a crack. farthest: largest distance of its particles from its start [m]; place: position of its end, the
  * middle of the farthest particles (of one group, if they form several) [m]; ends: number of separate groups of
@@ -34,9 +38,9 @@ struct tip_reach {
 };
 
 /* Computes for every crack the largest distance of its particles from its start, the position of its end, and the
- * number of separate groups of particles that are farthest within one spacing. reach: receives an element for each of
+ * number of separate groups of particles that are farthest within one spacing. extent: receives an element for each of
  * TIPS_MAX tips; must be 0 on entry. */
-void tips_find_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *reach);
+void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
 
 struct tip_search {
     const struct particles *p;
@@ -48,14 +52,17 @@ struct tip_search {
 /* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. The indices are written to
  * s->found, which grows as needed and which the caller frees after the last search. Returns the number of particles
  * found. */
-int tip_search_find_near(struct tip_search *s, const real *X, real radius);
+int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius);
 
-/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
- * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */
-real segment_offset_of_point(const real *centre, const real *half, const real *X, int dim, real *offset);
+/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m];
+ * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
+ * vector [m]. */
+real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,
+                                          real *offset);
 
-/* Adds a crack tip without growth to t. body: number of the body; origin: start position [m]; along: unit vector of
- * the direction of the crack, NULL for the x axis. Returns the new tip, an element of t->tip. */
-struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, const real *along);
+/* Adds a crack tip without growth to t. body_number: number of the body; start_position: start position [m]; direction:
+ * unit vector of the direction of the crack, NULL for the x axis. Returns the new tip, an element of t->tip. */
+struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, const real *start_position,
+                                         const real *direction);
 
 #endif

@@ -16,9 +16,9 @@ static int64_t next_of_crack(const struct crack_tips *t, const struct particles 
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
         const int32_t *at = p->list[KIND_PD] + first;
-        const int64_t n = tip_list_piece_end(p, first) - first;
+        const int64_t n = tip_end_of_particle_list_piece(p, first) - first;
         uint8_t any = 0;
-        if (particles_are_consecutive(at, n))
+        if (particles_have_consecutive_numbers(at, n))
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[0] + k]);
         else
             for (int64_t k = 0; k < n; k++) any |= is_of_crack(t->label[at[k]]);
@@ -34,7 +34,7 @@ static real tips_reach_of(const struct crack_tips *t, const struct particles *p,
     const struct crack_tip *tip = &t->tip[t->label[i] - 1];
     real X[DIM_MAX], offset[DIM_MAX];
     particle_reference_position(p, i, X);
-    real distance = segment_offset_of_point(tip->origin, tip->edge, X, t->dim, offset);
+    real distance = segment_distance_and_offset_to_point(tip->origin, tip->edge, X, t->dim, offset);
     bool behind = tip->from_crack && dot(offset, tip->along, t->dim) < -TIP_EQUAL * t->spacing;
     return behind && distance <= (TIP_START_REACH + TIP_EQUAL) * t->spacing ? -1 : distance;
 }
@@ -58,7 +58,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
     const int32_t *list = a->p->list[KIND_PD];
     const int64_t n = a->p->n_of[KIND_PD];
     for (int64_t b = next_of_crack(a->t, a->p, 0); b < n; b = next_of_crack(a->t, a->p, b + TIP_PIECE))
-        for (int64_t k = b; k < tip_list_piece_end(a->p, b); k++)
+        for (int64_t k = b; k < tip_end_of_particle_list_piece(a->p, b); k++)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
@@ -86,9 +86,9 @@ static void farthest_collect(struct ahead *a, int32_t i, int tip)
     a->n[tip]++;
 }
 
-void tips_find_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *reach)
+void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent)
 {
-    struct ahead a = {.t = t, .p = p, .reach = reach};
+    struct ahead a = {.t = t, .p = p, .reach = extent};
     each_of_crack(&a, extent_find);
     each_of_crack(&a, farthest_collect);
     for (int k = 0; k < t->n; k++)
@@ -97,7 +97,8 @@ void tips_find_extents(const struct crack_tips *t, const struct particles *p, st
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)
-            reach[k].ends = positions_cluster_centre(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge, reach[k].place);
+            extent[k].ends = positions_count_clusters_and_find_centre(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge,
+                                                                      extent[k].place);
         memory_free(a.place[k]);
     }
 }

@@ -12,27 +12,29 @@
 /* Finds the particles, mirror images included, within `radius` of the position X [m]; the radius is reduced to the edge
  * of the search cells if it is larger. Writes their indices to s->found, which grows as needed and is freed by the
  * caller. Returns their number. */
-int tip_search_find_near(struct tip_search *s, const real *X, real radius)
+int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius)
 {
     radius = real_min(radius, s->c->edge);
-    int n = cells_find_near(s->c, s->p, X, radius, -1, s->found, s->room);
+    int n = cells_list_particles_near_point(s->c, s->p, position, radius, -1, s->found, s->room);
     if (n <= s->room) return n;
     memory_free(s->found);
     s->room = 2 * n;
     s->found = NEW("tips.found", s->room, int32_t);
-    return cells_find_near(s->c, s->p, X, radius, -1, s->found, s->room);
+    return cells_list_particles_near_point(s->c, s->p, position, radius, -1, s->found, s->room);
 }
 
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
-/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
- * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */
-real segment_offset_of_point(const real *centre, const real *half, const real *X, int dim, real *offset)
+/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m];
+ * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
+ * vector [m]. */
+real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,
+                                          real *offset)
 {
-    real half2 = dot(half, half, dim), along = 0;
-    for (int d = 0; d < dim; d++) offset[d] = X[d] - centre[d];
-    if (half2 > 0) along = real_max(-1, real_min(1, dot(offset, half, dim) / half2));
-    for (int d = 0; d < dim; d++) offset[d] -= along * half[d];
+    real half2 = dot(half_vector, half_vector, dim), along = 0;
+    for (int d = 0; d < dim; d++) offset[d] = point[d] - centre[d];
+    if (half2 > 0) along = real_max(-1, real_min(1, dot(offset, half_vector, dim) / half2));
+    for (int d = 0; d < dim; d++) offset[d] -= along * half_vector[d];
     return sqrt(dot(offset, offset, dim));
 }
 
@@ -48,7 +50,7 @@ static bool on_another(const struct crack_tips *t, const struct crack *crack, in
             const real *a = crack[c].corner[k], *b = crack[c].corner[(k + 1) % crack[c].n];
             real centre[DIM_MAX], half[DIM_MAX], offset[DIM_MAX];
             for (int d = 0; d < t->dim; d++) centre[d] = 0.5 * (a[d] + b[d]), half[d] = 0.5 * (b[d] - a[d]);
-            if (segment_offset_of_point(centre, half, X, t->dim, offset) < 0.5 * t->spacing) return true;
+            if (segment_distance_and_offset_to_point(centre, half, X, t->dim, offset) < 0.5 * t->spacing) return true;
         }
     }
     return false;
@@ -60,7 +62,7 @@ static int body_ahead(const struct crack_tips *t, struct tip_search *s, const re
 {
     real ahead[DIM_MAX];
     for (int d = 0; d < t->dim; d++) ahead[d] = X[d] + t->spacing * along[d];
-    int n = tip_search_find_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
+    int n = tip_search_find_particles_near(s, ahead, AHEAD_REACH * t->spacing), free_ones = 0, body = -1;
     for (int k = 0; k < n; k++) {
         int32_t i = s->found[k];
         if (i >= s->p->n || s->p->flag[i] & FLAG_DRIVEN) continue;
@@ -69,16 +71,21 @@ static int body_ahead(const struct crack_tips *t, struct tip_search *s, const re
     return free_ones >= 2 ? body : -1;
 }
 
-struct crack_tip *tip_add(struct crack_tips *t, int body, const real *origin, const real *along)
+struct crack_tip *tip_add_without_growth(struct crack_tips *t, int body_number, const real *start_position,
+                                         const real *direction)
 {
     INVARIANT(t->n < TIPS_MAX);
     struct crack_tip *tip = &t->tip[t->n++];
-    *tip = (struct crack_tip){
-        .body = body, .first_time = NAN, .start_time = NAN, .arrest_time = NAN, .speed_max = NAN, .speed_mean = NAN};
-    array_copy(tip->origin, origin, t->dim, sizeof *origin);
-    array_copy(tip->place, origin, t->dim, sizeof *origin);
-    if (along)
-        array_copy(tip->along, along, t->dim, sizeof *along);
+    *tip = (struct crack_tip){.body = body_number,
+                              .first_time = NAN,
+                              .start_time = NAN,
+                              .arrest_time = NAN,
+                              .speed_max = NAN,
+                              .speed_mean = NAN};
+    array_copy(tip->origin, start_position, t->dim, sizeof *start_position);
+    array_copy(tip->place, start_position, t->dim, sizeof *start_position);
+    if (direction)
+        array_copy(tip->along, direction, t->dim, sizeof *direction);
     else
         tip->along[0] = 1;
     return tip;
@@ -95,7 +102,7 @@ static void start_at_end(struct crack_tips *t, struct tip_search *s, const struc
     if (!(length > 0) || t->n == TIPS_MAX || on_another(t, crack, cracks, self, to)) return;
     for (int d = 0; d < t->dim; d++) along[d] /= length;
     int body = body_ahead(t, s, to, along);
-    if (body >= 0) tip_add(t, body, to, along)->from_crack = true;
+    if (body >= 0) tip_add_without_growth(t, body, to, along)->from_crack = true;
 }
 
 /* Computes the unit vector `outward` in the plane of polygon c, perpendicular to its edge k (from corner k to the next
@@ -137,33 +144,34 @@ static void start_at_edge(struct crack_tips *t, struct tip_search *s, const stru
     }
     if (body < 0) return;
     for (int d = 0; d < 3; d++) X[d] = a[d] + 0.5 * (first + last) * edge[d];
-    struct crack_tip *tip = tip_add(t, body, X, outward);
+    struct crack_tip *tip = tip_add_without_growth(t, body, X, outward);
     tip->from_crack = true;
     for (int d = 0; d < 3; d++) tip->edge[d] = 0.5 * (last - first) * edge[d];
 }
 
-void tips_make(struct crack_tips *t, const struct particles *p, const struct cells *c, const struct crack *crack,
-               int cracks, real spacing, real window)
+void tips_make_at_precrack_ends(struct crack_tips *t, const struct particles *p, const struct cells *c,
+                                const struct crack *precrack, int precrack_count, real spacing,
+                                real speed_averaging_time)
 {
-    INVARIANT(spacing > 0 && window >= 0);
-    *t = (struct crack_tips){.dim = p->dim, .spacing = spacing, .window = window, .count = p->n};
+    INVARIANT(spacing > 0 && speed_averaging_time >= 0);
+    *t = (struct crack_tips){.dim = p->dim, .spacing = spacing, .window = speed_averaging_time, .count = p->n};
     t->label = NEW("tips.label", p->n, uint8_t);
     for (int64_t i = 0; i < p->n; i++)
         if (p->damage[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;
     struct tip_search s = {.p = p, .c = c};
-    for (int k = 0; k < cracks; k++)
-        for (int e = 0; e < crack_edges(&crack[k], p->dim); e++) {
+    for (int k = 0; k < precrack_count; k++)
+        for (int e = 0; e < crack_edges(&precrack[k], p->dim); e++) {
             if (p->dim == 3) {
-                start_at_edge(t, &s, crack, cracks, k, e);
+                start_at_edge(t, &s, precrack, precrack_count, k, e);
             } else {
-                start_at_end(t, &s, crack, cracks, k, crack[k].corner[e + 1], crack[k].corner[e]);
-                start_at_end(t, &s, crack, cracks, k, crack[k].corner[e], crack[k].corner[e + 1]);
+                start_at_end(t, &s, precrack, precrack_count, k, precrack[k].corner[e + 1], precrack[k].corner[e]);
+                start_at_end(t, &s, precrack, precrack_count, k, precrack[k].corner[e], precrack[k].corner[e + 1]);
             }
         }
     memory_free(s.found);
 }
 
-void tips_exclude_precrack_damage(struct crack_tips *t, const real *cut_fraction)
+void tips_ignore_particles_damaged_by_precracks(struct crack_tips *t, const real *cut_fraction)
 {
     for (int64_t i = 0; i < t->count; i++)
         if (cut_fraction[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;

@@ -70,7 +70,7 @@ static bool data_line(struct source *s)
         const bool empty = at >= s->length || s->text[at] == '\n';
         const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
         if (!empty && !comment) return s->text[at] != '*';
-        source_next_line(s);
+        source_skip_to_next_line(s);
     }
     return false;
 }
@@ -165,7 +165,7 @@ static const char *parameter(const struct deck *d, const char *name)
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
-    *set = given ? element_mesh_find_set(d->m, given, of_nodes) : -1;
+    *set = given ? element_mesh_find_or_create_set(d->m, given, of_nodes) : -1;
     return given && *set < 0 ? source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
@@ -179,7 +179,7 @@ static status nodes_read(struct deck *d)
         return source_report_fault(
             d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected", system);
     TRY(set_named(d, "NSET", true, &set));
-    for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
+    for (char field[FIELD]; data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         real X[DIM_MAX] = {0};
         deck_field(d->s, field);
@@ -236,7 +236,7 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
     for (int k = 0; k < size->nodes;) {
         int32_t label;
         if (!deck_field(d->s, field)) {
-            source_next_line(d->s);
+            source_skip_to_next_line(d->s);
             if (!data_line(d->s))
                 return source_report_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
             continue;
@@ -267,13 +267,13 @@ static status elements_read(struct deck *d)
         text_replace_control_characters(d->m->skipped);
         return OK;
     }
-    for (; data_line(d->s); source_next_line(d->s)) {
+    for (; data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label, node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
         deck_field(d->s, field);
         TRY(deck_label(d->s, field, &label));
         TRY(element_nodes(d, size, node, middle));
         TRY(element_mesh_add_element(d->m, d->s, size->kind, node, label));
-        if (size->nodes > element_corners[size->kind]) element_mesh_set_middle_nodes(d->m, middle);
+        if (size->nodes > element_corners[size->kind]) element_mesh_set_middle_nodes_of_last_element(d->m, middle);
         if (set >= 0) element_mesh_add_to_set(d->m, set, label);
     }
     return OK;
@@ -300,7 +300,7 @@ static status generate_line(struct deck *d, int set)
  * for sets of elements. Returns REFUSED if there are too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
-    const int other = element_mesh_find_set(d->m, name, of_nodes);
+    const int other = element_mesh_find_or_create_set(d->m, name, of_nodes);
     if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->s->length)
@@ -344,7 +344,7 @@ static status set_read(struct deck *d, bool of_nodes)
     const bool generate = parameter(d, "GENERATE") != NULL;
     TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
     if (set < 0) return source_report_fault(d->s, "a set without a name");
-    for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
+    for (char field[FIELD]; data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         if (generate) {
             TRY(generate_line(d, set));
@@ -461,7 +461,7 @@ static status instance_read(struct deck *d)
                                    p->name);
     if (data_line(d->s)) {
         for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
-        source_next_line(d->s);
+        source_skip_to_next_line(d->s);
     }
     if (data_line(d->s))
         for (int k = 0; k < 7 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &turn[k]));
@@ -508,7 +508,7 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     status result = OK;
     scope_begin(&d, "");
     while (result == OK && source_skip_blanks(s)) {
-        while (data_line(s)) source_next_line(s); /* data lines of a skipped keyword */
+        while (data_line(s)) source_skip_to_next_line(s); /* data lines of a skipped keyword */
         if (s->at >= s->length) break;
         source_skip_blanks(s);
         keyword_read(&d);

@@ -30,55 +30,55 @@ const struct element_edges element_edges[ELEMENT_KINDS] = {
         {12, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}},
 };
 
-int element_edge_between(enum element_kind kind, int i, int j)
+int element_edge_index_between_corners(enum element_kind kind, int corner, int other_corner)
 {
     const struct element_edges *edges = &element_edges[kind];
     for (int k = 0; k < edges->n; k++)
-        if ((edges->corner[k][0] == i && edges->corner[k][1] == j) ||
-            (edges->corner[k][0] == j && edges->corner[k][1] == i))
+        if ((edges->corner[k][0] == corner && edges->corner[k][1] == other_corner) ||
+            (edges->corner[k][0] == other_corner && edges->corner[k][1] == corner))
             return k;
     return -1;
 }
 
-int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *X, int64_t label)
+int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *coordinates, int64_t label)
 {
     GROW("mesh.node", m->node, m->nodes + 1);
     GROW("mesh.label", m->node_label, m->nodes + 1);
-    memcpy(m->node[m->nodes], X, sizeof *m->node);
+    memcpy(m->node[m->nodes], coordinates, sizeof *m->node);
     m->node_label[m->nodes] = label;
     return (int32_t)m->nodes++;
 }
 
-status element_mesh_add_node(struct element_mesh *m, const struct source *s, const real *X, int64_t label)
+status element_mesh_add_node(struct element_mesh *m, const struct source *s, const real *coordinates, int64_t label)
 {
     if (m->nodes >= HULL_CORNERS_MAX) return source_report_fault(s, "more than %d nodes", HULL_CORNERS_MAX);
-    element_mesh_add_node_unchecked(m, X, label);
+    element_mesh_add_node_unchecked(m, coordinates, label);
     return OK;
 }
 
 status element_mesh_add_element(struct element_mesh *m, const struct source *s, enum element_kind kind,
-                                const int32_t *node, int64_t label)
+                                const int32_t *corner_node, int64_t label)
 {
     if (m->elements >= HULL_CORNERS_MAX) return source_report_fault(s, "more than %d elements", HULL_CORNERS_MAX);
     GROW("mesh.element", m->element, m->elements + 1);
     GROW("mesh.label", m->element_label, m->elements + 1);
     struct element *e = &m->element[m->elements];
     e->kind = kind, e->middle = -1;
-    for (int k = 0; k < element_corners[kind]; k++) e->node[k] = node[k];
+    for (int k = 0; k < element_corners[kind]; k++) e->node[k] = corner_node[k];
     m->element_label[m->elements++] = label;
     return OK;
 }
 
-void element_mesh_set_middle_nodes(struct element_mesh *m, const int32_t *middle)
+void element_mesh_set_middle_nodes_of_last_element(struct element_mesh *m, const int32_t *middle_node)
 {
     struct element *e = &m->element[m->elements - 1];
     const int n = element_middles[e->kind];
     GROW("mesh.middle", m->middle, m->middles + n);
     e->middle = m->middles;
-    for (int k = 0; k < n; k++) m->middle[m->middles++] = middle[k];
+    for (int k = 0; k < n; k++) m->middle[m->middles++] = middle_node[k];
 }
 
-int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_nodes)
+int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bool of_nodes)
 {
     for (int k = 0; k < m->sets; k++)
         if (strcasecmp(m->set[k].name, name) == 0 && m->set[k].of_nodes == of_nodes) return k;
@@ -120,12 +120,12 @@ static int label_entry_order(const void *a, const void *b)
                                 : (p->index > q->index) - (p->index < q->index);
 }
 
-void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t n)
+void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t label_count)
 {
-    map->n = n;
-    map->entry = NEW("mesh.labels", n, struct label_entry);
-    for (int64_t k = 0; k < n; k++) map->entry[k] = (struct label_entry){label[k], first_index + k};
-    array_sort(map->entry, n, sizeof *map->entry, label_entry_order);
+    map->n = label_count;
+    map->entry = NEW("mesh.labels", label_count, struct label_entry);
+    for (int64_t k = 0; k < label_count; k++) map->entry[k] = (struct label_entry){label[k], first_index + k};
+    array_sort(map->entry, label_count, sizeof *map->entry, label_entry_order);
 }
 
 int64_t label_map_find(const struct label_map *map, int64_t label)

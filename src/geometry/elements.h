@@ -48,7 +48,7 @@ struct element_edges {
 extern const struct element_edges element_edges[ELEMENT_KINDS];
 
 /* Returns the index of the edge between corners i and j of an element of this kind; -1 if there is no such edge. */
-int element_edge_between(enum element_kind kind, int i, int j);
+int element_edge_index_between_corners(enum element_kind kind, int corner, int other_corner);
 
 /* A named set of nodes or elements. */
 struct element_set {
@@ -80,25 +80,25 @@ enum { ELEMENT_SETS_MAX = 1000 };
 
 /* Appends a node at X (three coordinates [unit of the file]) to the mesh m. label: its number in the file; file: for
  * the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
-status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *X, int64_t label);
+status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *coordinates, int64_t label);
 
 /* Appends a node at X (three coordinates [unit of the file]) to the mesh m and returns its index. label: its number in
  * the file, -1 for nodes that are not in the file. The number of nodes is not checked. */
-int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *X, int64_t label);
+int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *coordinates, int64_t label);
 
-/* Appends an element of the kind `kind` to the mesh m. node: its corners, as indices of nodes or, in Abaqus files, as
- * node numbers of the file that are replaced later; label: number of the element in the file; file: for the message.
- * Returns REFUSED, with a message, if there are too many elements. */
+/* Appends an element of the kind `kind` to the mesh m. corner_node: its corners, as indices of nodes or, in Abaqus
+ * files, as node numbers of the file that are replaced later; label: number of the element in the file; file: for the
+ * message. Returns REFUSED, with a message, if there are too many elements. */
 status element_mesh_add_element(struct element_mesh *m, const struct source *file, enum element_kind kind,
-                                const int32_t *node, int64_t label);
+                                const int32_t *corner_node, int64_t label);
 
-/* Sets the middle nodes (on edges and sides) of the last element of the mesh m. middle: as many indices, or node
+/* Sets the middle nodes (on edges and sides) of the last element of the mesh m. middle_node: as many indices, or node
  * numbers of the file, as element_middles has for the kind of the element. */
-void element_mesh_set_middle_nodes(struct element_mesh *m, const int32_t *middle);
+void element_mesh_set_middle_nodes_of_last_element(struct element_mesh *m, const int32_t *middle_node);
 
 /* Returns the index in m->set of the set of nodes (of_nodes true) or elements (false) called `name`, ignoring case;
  * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
-int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_nodes);
+int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bool of_nodes);
 
 /* Appends a node or element to the set number `set` of the mesh m. member: its index, or its number in the file if
  * indices are not known yet. */
@@ -120,7 +120,7 @@ struct label_entry {
 
 /* Creates *map, which maps the numbers that nodes or elements have in a file (labels) to indices: label[k] is mapped to
  * first + k, k = 0 .. n - 1. Release it with label_map_free. */
-void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t n);
+void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t label_count);
 
 /* Releases the entries of `map`. */
 void label_map_free(struct label_map *map);
@@ -151,11 +151,11 @@ status exodus_read(struct element_mesh *m, struct source *file);
 status stl_read(struct element_mesh *m, struct source *file);
 
 /* Creates g: the surface of the body that the elements of m fill, in metres, and the surfaces of the named sets of m.
- * path: file, for messages; dim: dimensions of the space; scale: length of the unit of the file [m]; max_chord_error:
- * largest distance between a curved edge and the chords that approximate it [m], NAN for 1/256 of the largest sagitta.
- * Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the dimension of the body, a 2D
- * mesh is not plane, or curved edges need too many chords. */
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
+ * path: file, for messages; dim: dimensions of the space; unit_length: length of the unit of the file [m];
+ * max_chord_error: largest distance between a curved edge and the chords that approximate it [m], NAN for 1/256 of the
+ * largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the dimension of
+ * the body, a 2D mesh is not plane, or curved edges need too many chords. */
+status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
                               real max_chord_error);
 
 /* ---- faces of a surface (elements_curved.c) ---- */
@@ -176,7 +176,7 @@ struct surface_builder {
     int pieces;   /* pieces per curved edge in 3D */
     int64_t n;    /* number of faces; each face has `dim` node indices */
     int32_t (*face)[DIM_MAX];
-    int64_t patches; /* sides with middle nodes, until surface_builder_divide_sides turns them into faces */
+    int64_t patches; /* sides with middle nodes, until surface_builder_divide_sides_into_faces turns them into faces */
     struct patch *patch;
     int64_t file_nodes;     /* nodes from the file; later ones are on curved sides between the corners `parent` */
     int32_t (*parent)[4];   /* [node - file_nodes] corner nodes of the side, -1: unused */
@@ -185,16 +185,16 @@ struct surface_builder {
 
 /* Appends to the faces of surface b a face with the nodes i, j and, in 3D, k (indices); in 2D it is a segment and k is
  * ignored. */
-void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k);
+void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int32_t second_node, int32_t third_node);
 
-/* Appends the side of an element to the faces of the surface b, as one or two triangles. node[n]: its corners, n = 3 or
- * 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on its other side,
- * if these have triangular sides. */
-void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n);
+/* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[n]: its corners, n
+ * = 3 or 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on its other
+ * side, if these have triangular sides. */
+void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count);
 
-/* Appends a copy of *p, a side of an element with middle nodes, to the surface b. surface_builder_divide_sides divides
- * it into faces later. */
-void surface_builder_add_patch(struct surface_builder *b, const struct patch *p);
+/* Appends a copy of *side, a side of an element with middle nodes, to the surface b.
+ * surface_builder_divide_sides_into_faces divides it into faces later. */
+void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
  * divided, such that chords are at most `max_chord_error` [m] from the curve (NAN: 1/256 of the largest sagitta). path:
@@ -204,6 +204,6 @@ status surface_builder_set_chord_tolerance(struct surface_builder *b, const char
 /* Divides all sides with middle nodes that b has stored into faces, curved ones into several, for which nodes are added
  * to the mesh. remove_shared_sides: true to remove first the sides that two elements share, since they are inside the
  * body. */
-void surface_builder_divide_sides(struct surface_builder *b, bool remove_shared_sides);
+void surface_builder_divide_sides_into_faces(struct surface_builder *b, bool remove_shared_sides);
 
 #endif

@@ -4,10 +4,10 @@
 #include "base/memory.h"
 #include "elements.h"
 
-void surface_builder_add_face(struct surface_builder *b, int32_t i, int32_t j, int32_t k)
+void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int32_t second_node, int32_t third_node)
 {
     GROW("mesh.face", b->face, b->n + 1);
-    const int32_t face[DIM_MAX] = {i, j, k};
+    const int32_t face[DIM_MAX] = {first_node, second_node, third_node};
     memcpy(b->face[b->n++], face, sizeof face);
 }
 
@@ -44,22 +44,27 @@ static void builder_list_edges(struct surface_builder *b)
     memory_free(label);
 }
 
-/* Adds a side of an element to the faces. node[n]: its corners, n = 3 or 4. A quadrilateral is divided into two
+/* Adds a side of an element to the faces. corner_node[n]: its corners, n = 3 or 4. A quadrilateral is divided into two
  * triangles by the diagonal from the corner that is first by position: two elements that share the side but not its
  * nodes then have the same diagonal. The other diagonal is used if it alone is an edge of an element, as where two
  * tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a side that is not plane. */
-void surface_builder_add_side(struct surface_builder *b, const int32_t *node, int n)
+void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count)
 {
     int low = 0;
     real size = 0;
-    for (int d = 0; d < DIM_MAX; d++) size += fabs(b->m->node[node[0]][d] - b->m->node[node[n / 2]][d]);
-    for (int k = 1; k < n; k++)
-        if (point_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
-    if (n == 4 && b->edges.n > 0 && label_map_find(&b->edges, edge_label(node[low], node[(low + 2) % 4])) < 0 &&
-        label_map_find(&b->edges, edge_label(node[(low + 1) % 4], node[(low + 3) % 4])) >= 0)
+    for (int d = 0; d < DIM_MAX; d++)
+        size += fabs(b->m->node[corner_node[0]][d] - b->m->node[corner_node[corner_count / 2]][d]);
+    for (int k = 1; k < corner_count; k++)
+        if (point_before(b->m->node[corner_node[k]], b->m->node[corner_node[low]], size)) low = k;
+    if (corner_count == 4 && b->edges.n > 0 &&
+        label_map_find(&b->edges, edge_label(corner_node[low], corner_node[(low + 2) % 4])) < 0 &&
+        label_map_find(&b->edges, edge_label(corner_node[(low + 1) % 4], corner_node[(low + 3) % 4])) >= 0)
         low = (low + 1) % 4;
-    surface_builder_add_face(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
-    if (n == 4) surface_builder_add_face(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
+    surface_builder_add_face(b, corner_node[low], corner_node[(low + 1) % corner_count],
+                             corner_node[(low + 2) % corner_count]);
+    if (corner_count == 4)
+        surface_builder_add_face(b, corner_node[low], corner_node[(low + 2) % corner_count],
+                                 corner_node[(low + 3) % corner_count]);
 }
 
 /* Adds the sides of element e to the faces. If the dimension of the element is lower than that of the body, adds the
@@ -116,7 +121,7 @@ static struct patch patch_of(const struct surface_builder *b, const struct eleme
     for (int c = 0; c < n; c++) {
         const int from = turned ? corner[n - 1 - c] : corner[c],
                   to = turned ? corner[(2 * n - 2 - c) % n] : corner[(c + 1) % n];
-        const int edge = n > 1 ? element_edge_between(e->kind, from, to) : -1;
+        const int edge = n > 1 ? element_edge_index_between_corners(e->kind, from, to) : -1;
         p.corner[c] = e->node[from];
         if (middle && edge >= 0) p.middle[c] = middle[edge];
     }
@@ -135,13 +140,13 @@ static void builder_add_patches(struct surface_builder *b, const struct element 
     struct patch p;
     if (element_dim[e->kind] < b->dim) {
         p = patch_of(b, e, all, element_corners[e->kind], element_dim[e->kind] == 2 ? edges : -1, turned);
-        surface_builder_add_patch(b, &p);
+        surface_builder_add_side_with_middle_nodes(b, &p);
         return;
     }
     for (int k = 0; k < sides->n; k++) {
         const int n = b->dim == 2 ? 2 : sides->corner[k][3] < 0 ? 3 : 4;
         p = patch_of(b, e, sides->corner[k], n, b->dim == 2 ? -1 : edges + k, turned);
-        surface_builder_add_patch(b, &p);
+        surface_builder_add_side_with_middle_nodes(b, &p);
     }
 }
 
@@ -171,7 +176,7 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
 {
     struct element_mesh *m = b->m;
     const int64_t nodes = m->nodes;
-    surface_builder_divide_sides(b, closed);
+    surface_builder_divide_sides_into_faces(b, closed);
     int32_t *corner_of = NEW("mesh.corners", m->nodes, int32_t), *node = NEW("mesh.corners", m->nodes, int32_t), n = 0;
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) corner_of[b->face[k][c]] = 1;
@@ -182,7 +187,7 @@ static void builder_close(struct surface_builder *b, struct hull *hull, bool clo
         for (int d = 0; d < b->dim; d++) corner[k][d] = b->scale * m->node[node[k]][d];
     for (int64_t k = 0; k < b->n; k++)
         for (int c = 0; c < b->dim; c++) b->face[k][c] = corner_of[b->face[k][c]];
-    (closed ? hull_make : hull_make_open)(hull, b->dim, n, corner, b->n, b->face);
+    (closed ? hull_make_closed_surface : hull_make_open_surface)(hull, b->dim, n, corner, b->n, b->face);
     b->face = NULL, b->n = 0;
     memory_free(corner_of);
     if (node_of) {
@@ -290,10 +295,10 @@ static status check_plane(const struct element_mesh *m, const char *path)
                       path, low[2], high[2]);
 }
 
-status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
+status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
                               real max_chord_error)
 {
-    struct surface_builder b = {.m = m, .dim = dim, .scale = scale, .file_nodes = m->nodes};
+    struct surface_builder b = {.m = m, .dim = dim, .scale = unit_length, .file_nodes = m->nodes};
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));

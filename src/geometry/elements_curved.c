@@ -112,12 +112,12 @@ static void line_add(struct surface_builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
-/* Appends a copy of *p, a side of an element with middle nodes, to the surface. It is divided into faces later, by
- * surface_builder_divide_sides. */
-void surface_builder_add_patch(struct surface_builder *b, const struct patch *p)
+/* Appends a copy of *side, a side of an element with middle nodes, to the surface. It is divided into faces later, by
+ * surface_builder_divide_sides_into_faces. */
+void surface_builder_add_side_with_middle_nodes(struct surface_builder *b, const struct patch *side)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
-    b->patch[b->patches++] = *p;
+    b->patch[b->patches++] = *side;
 }
 
 /* Key by which patches (sides of elements) that coincide are found: their corners in ascending order. */
@@ -389,7 +389,7 @@ static void patch_add(struct surface_builder *b, const struct curves *c, const s
         patch_star(b, c, p);
 }
 
-void surface_builder_divide_sides(struct surface_builder *b, bool remove_shared_sides)
+void surface_builder_divide_sides_into_faces(struct surface_builder *b, bool remove_shared_sides)
 {
     struct curves c = {0};
     if (b->patches == 0) return;

@@ -104,7 +104,7 @@ static status element_add(struct exodus *x, enum element_kind kind, const int64_
         if (slot >= 0) middle[slot] = (int32_t)(label[k] - 1);
     }
     TRY(element_mesh_add_element(x->m, x->s, kind, node, x->elements + 1));
-    if (nodes > corners) element_mesh_set_middle_nodes(x->m, middle);
+    if (nodes > corners) element_mesh_set_middle_nodes_of_last_element(x->m, middle);
     return OK;
 }
 
@@ -125,7 +125,7 @@ static status set_begin(struct exodus *x, const char *names, const char *numbers
         snprintf(name, sizeof name, "%s_%lld", word, (long long)(number ? number[row] : row + 1));
         memory_free(number);
     }
-    *set = element_mesh_find_set(x->m, name, of_nodes);
+    *set = element_mesh_find_or_create_set(x->m, name, of_nodes);
     return *set >= 0 ? OK : exodus_report_fault(&x->file, "more than %d blocks and sets", ELEMENT_SETS_MAX);
 }
 
@@ -169,7 +169,8 @@ static status side_edge_add(struct exodus *x, const struct element *e, int edge)
     const int32_t node[2] = {e->node[corner[0]], e->node[corner[1]]};
     const int64_t middle = e->middle;
     TRY(element_mesh_add_element(x->m, x->s, ELEMENT_LINE, node, -1));
-    if (middle >= 0) element_mesh_set_middle_nodes(x->m, (const int32_t[]){x->m->middle[middle + edge]});
+    if (middle >= 0)
+        element_mesh_set_middle_nodes_of_last_element(x->m, (const int32_t[]){x->m->middle[middle + edge]});
     return OK;
 }
 
@@ -181,14 +182,14 @@ static status side_face_add(struct exodus *x, const struct element *e, int side)
     const int n = corner[3] < 0 ? 3 : 4, edges = element_edges[e->kind].n;
     int32_t node[4], middle[5];
     for (int c = 0; c < n; c++) {
-        const int edge = element_edge_between(e->kind, corner[c], corner[(c + 1) % n]);
+        const int edge = element_edge_index_between_corners(e->kind, corner[c], corner[(c + 1) % n]);
         node[c] = e->node[corner[c]];
         middle[c] = e->middle < 0 ? -1 : x->m->middle[e->middle + edge];
     }
     middle[n] = e->middle < 0 ? -1 : x->m->middle[e->middle + edges + side];
     const bool curved = e->middle >= 0;
     TRY(element_mesh_add_element(x->m, x->s, n == 3 ? ELEMENT_TRIANGLE : ELEMENT_QUAD, node, -1));
-    if (curved) element_mesh_set_middle_nodes(x->m, middle);
+    if (curved) element_mesh_set_middle_nodes_of_last_element(x->m, middle);
     return OK;
 }
 

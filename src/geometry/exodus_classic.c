@@ -164,13 +164,13 @@ status exodus_classic_open(struct exodus_file *f)
     return arrays_check(f);
 }
 
-void exodus_classic_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *real_value,
-                         int64_t *whole_value)
+void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_array *array, int64_t count,
+                               real *real_value, int64_t *whole_value)
 {
-    const int bytes = type_bytes[a->type];
-    const bool is_signed = a->type <= EXODUS_INT || a->type == EXODUS_INT64;
-    for (int64_t k = 0; k < n; k++) {
-        const uint8_t *from = f->text + a->at + k * bytes;
+    const int bytes = type_bytes[array->type];
+    const bool is_signed = array->type <= EXODUS_INT || array->type == EXODUS_INT64;
+    for (int64_t k = 0; k < count; k++) {
+        const uint8_t *from = f->text + array->at + k * bytes;
         uint64_t bits = 0;
         for (int b = 0; b < bytes; b++) bits = bits << 8 | from[b];
         const int unused = 64 - 8 * bytes;
@@ -180,8 +180,8 @@ void exodus_classic_read(const struct exodus_file *f, const struct exodus_array 
         real value;
         memcpy(&single, &low, sizeof single);
         memcpy(&value, &bits, sizeof value);
-        if (a->type == EXODUS_FLOAT) value = single;
-        if (a->type != EXODUS_FLOAT && a->type != EXODUS_DOUBLE) value = (real)whole;
+        if (array->type == EXODUS_FLOAT) value = single;
+        if (array->type != EXODUS_FLOAT && array->type != EXODUS_DOUBLE) value = (real)whole;
         if (real_value)
             real_value[k] = value;
         else

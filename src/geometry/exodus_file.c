@@ -80,7 +80,7 @@ status exodus_open_from_memory(struct exodus_file *f, const char *path, const ch
 status exodus_open_from_path(struct exodus_file *f, const char *path)
 {
     struct source s;
-    TRY(source_open(&s, path));
+    TRY(source_read_whole_file(&s, path));
     const status opened = exodus_open_from_memory(f, path, s.text, s.length);
     if (opened == OK)
         f->owned = s.text;
@@ -113,7 +113,7 @@ int64_t exodus_read_dimension_length(const struct exodus_file *f, const char *na
 {
     char called[NAME_MAX_LENGTH];
     name_numbered(called, name, name_suffix);
-    if (f->hdf5 >= 0) return exodus_hdf5_dimension(f, called);
+    if (f->hdf5 >= 0) return exodus_hdf5_length_of_dimension(f, called);
     for (int64_t k = 0; k < f->dimensions; k++)
         if (strcmp(f->dimension[k].name, called) == 0) return f->dimension[k].length;
     return 0;
@@ -122,7 +122,7 @@ int64_t exodus_read_dimension_length(const struct exodus_file *f, const char *na
 /* Finds the array `name` of the file and describes it in *a. Returns false if there is none. */
 static bool array_find(const struct exodus_file *f, const char *name, struct exodus_array *a)
 {
-    if (f->hdf5 >= 0) return exodus_hdf5_find(f, name, a);
+    if (f->hdf5 >= 0) return exodus_hdf5_find_array(f, name, a);
     for (int64_t k = 0; k < f->arrays; k++)
         if (strcmp(f->array[k].name, name) == 0) {
             *a = f->array[k];
@@ -170,8 +170,8 @@ static status array_read(const struct exodus_file *f, const char *name, int64_t 
     int64_t *whole_value = integers ? NEW("exodus.numbers", n, int64_t) : NULL;
     status s = OK;
     if (f->hdf5 < 0)
-        exodus_classic_read(f, &a, n, real_value, whole_value);
-    else if (n > 0 && !exodus_hdf5_read(f, &a, real_value, whole_value, NULL))
+        exodus_classic_read_array(f, &a, n, real_value, whole_value);
+    else if (n > 0 && !exodus_hdf5_read_array(f, &a, real_value, whole_value, NULL))
         s = exodus_report_fault(f, "array %s cannot be read: the file is damaged", called);
     for (int64_t k = 0; k < n && s == OK && real_value; k++)
         if (!isfinite(real_value[k]))
@@ -197,18 +197,18 @@ status exodus_read_integers(const struct exodus_file *f, const char *name, int64
     return array_read(f, name, name_suffix, count, NULL, value);
 }
 
-status exodus_read_coordinates(const struct exodus_file *f, real *axis[DIM_MAX])
+status exodus_read_coordinates(const struct exodus_file *f, real *coordinates[DIM_MAX])
 {
     static const char *const names[DIM_MAX] = {"coordx", "coordy", "coordz"};
     real *all;
     if (!exodus_has_array(f, "coord", 0)) {
-        for (int d = 0; d < f->dim; d++) TRY(exodus_read_reals(f, names[d], 0, f->nodes, &axis[d]));
+        for (int d = 0; d < f->dim; d++) TRY(exodus_read_reals(f, names[d], 0, f->nodes, &coordinates[d]));
         return OK;
     }
     TRY(exodus_read_reals(f, "coord", 0, f->nodes * f->dim, &all)); /* as in files of the first versions */
     for (int d = 0; d < f->dim; d++) {
-        axis[d] = NEW("exodus.numbers", f->nodes, real);
-        array_copy(axis[d], all + d * f->nodes, f->nodes, sizeof *all);
+        coordinates[d] = NEW("exodus.numbers", f->nodes, real);
+        array_copy(coordinates[d], all + d * f->nodes, f->nodes, sizeof *all);
     }
     memory_free(all);
     return OK;
@@ -226,7 +226,7 @@ void exodus_read_text_row(const struct exodus_file *f, const char *name, int64_t
     const char *from = f->hdf5 < 0 ? (const char *)f->text + a.at + row * length : NULL;
     if (!from && rows * length <= f->length * UNPACKED_MOST) {
         all = NEW("exodus.names", rows * length, char);
-        if (exodus_hdf5_read(f, &a, NULL, NULL, all)) from = all + row * length;
+        if (exodus_hdf5_read_array(f, &a, NULL, NULL, all)) from = all + row * length;
     }
     if (from) snprintf(text, NAME_MAX_LENGTH, "%.*s", (int)length, from);
     memory_free(all);

@@ -44,13 +44,13 @@ static hid_t dataset_open(const struct exodus_file *f, const char *name, int64_t
     return -1;
 }
 
-int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name)
+int64_t exodus_hdf5_length_of_dimension(const struct exodus_file *f, const char *dimension_name)
 {
     int64_t extent[2] = {0};
     hid_t set = -1;
     H5E_BEGIN_TRY
     {
-        set = dataset_open(f, name, extent);
+        set = dataset_open(f, dimension_name, extent);
         if (set >= 0) H5Dclose(set);
     }
     H5E_END_TRY;
@@ -68,18 +68,18 @@ static enum exodus_type dataset_type(hid_t set)
     return class == H5T_FLOAT ? EXODUS_DOUBLE : class == H5T_INTEGER ? EXODUS_INT64 : 0;
 }
 
-bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exodus_array *a)
+bool exodus_hdf5_find_array(const struct exodus_file *f, const char *array_name, struct exodus_array *a)
 {
     bool found = false;
     *a = (struct exodus_array){0};
-    snprintf(a->name, sizeof a->name, "%s", name);
+    snprintf(a->name, sizeof a->name, "%s", array_name);
     H5E_BEGIN_TRY
     {
-        const hid_t set = dataset_open(f, name, a->extent);
+        const hid_t set = dataset_open(f, array_name, a->extent);
         if (set >= 0) {
             a->type = dataset_type(set);
             found = a->type != 0;
-            hdf_read_text_attribute(f->hdf5, name, "elem_type", a->elements, sizeof a->elements);
+            hdf_read_text_attribute(f->hdf5, array_name, "elem_type", a->elements, sizeof a->elements);
             H5Dclose(set);
         }
     }
@@ -87,8 +87,8 @@ bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exod
     return found;
 }
 
-bool exodus_hdf5_read(const struct exodus_file *f, const struct exodus_array *a, real *real_value, int64_t *whole_value,
-                      char *letters)
+bool exodus_hdf5_read_array(const struct exodus_file *f, const struct exodus_array *a, real *real_value,
+                            int64_t *whole_value, char *letters)
 {
     int64_t extent[2];
     bool good = false;

@@ -46,9 +46,10 @@ static inline void exodus_text_make_printable(char *text)
  * file is shorter than its arrays. */
 status exodus_classic_open(struct exodus_file *f);
 
-/* Copies n numbers of the array `a` of a classic file to real_value[n], or to whole_value[n] if real_value is NULL. */
-void exodus_classic_read(const struct exodus_file *f, const struct exodus_array *a, int64_t n, real *real_value,
-                         int64_t *whole_value);
+/* Copies n numbers of the array `array` of a classic file to real_value[n], or to whole_value[n] if real_value is NULL.
+ */
+void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_array *array, int64_t count,
+                               real *real_value, int64_t *whole_value);
 
 /* Opens the netCDF-4 file f->path with HDF5 and stores its handle in f. Returns REFUSED, with a message, if HDF5 cannot
  * read it. */
@@ -57,16 +58,17 @@ status exodus_hdf5_open(struct exodus_file *f);
 /* Closes the netCDF-4 file of f, opened by exodus_hdf5_open. */
 void exodus_hdf5_close(struct exodus_file *f);
 
-/* Returns the length of the dimension called `name` of a netCDF-4 file, or 0 if there is none of this name. */
-int64_t exodus_hdf5_dimension(const struct exodus_file *f, const char *name);
+/* Returns the length of the dimension called `dimension_name` of a netCDF-4 file, or 0 if there is none of this name.
+ */
+int64_t exodus_hdf5_length_of_dimension(const struct exodus_file *f, const char *dimension_name);
 
-/* Finds the array called `name` of a netCDF-4 file, and stores its properties in *a. Returns false if there is none of
- * this name, if it has other than one or two dimensions, or if its numbers are not in the file. */
-bool exodus_hdf5_find(const struct exodus_file *f, const char *name, struct exodus_array *a);
+/* Finds the array called `array_name` of a netCDF-4 file, and stores its properties in *a. Returns false if there is
+ * none of this name, if it has other than one or two dimensions, or if its numbers are not in the file. */
+bool exodus_hdf5_find_array(const struct exodus_file *f, const char *array_name, struct exodus_array *a);
 
 /* Reads all numbers of the array `a` of a netCDF-4 file into one of the arrays real_value, whole_value and letters. The
  * caller passes NULL for the other two. Returns false if HDF5 cannot read them. */
-bool exodus_hdf5_read(const struct exodus_file *f, const struct exodus_array *a, real *real_value, int64_t *whole_value,
-                      char *letters);
+bool exodus_hdf5_read_array(const struct exodus_file *f, const struct exodus_array *a, real *real_value,
+                            int64_t *whole_value, char *letters);
 
 #endif

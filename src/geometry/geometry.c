@@ -58,7 +58,7 @@ static status check_closed(const struct hull *s, const char *path)
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
     TRY(check_not_plane(s, path));
-    const real doubt = s->open_edges > 0 ? hull_ambiguous_inside_fraction(s) : 0;
+    const real doubt = s->open_edges > 0 ? hull_sample_fraction_with_unclear_inside(s) : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
@@ -79,7 +79,7 @@ static status read_elements(struct geometry *g, const char *path, int dim, real 
     struct source source;
     if (!format)
         return status_set(REFUSED, "%s: a file that ends in .stl, .msh, .inp or .exo (.e, .g) is expected", path);
-    TRY(source_open(&source, path));
+    TRY(source_read_whole_file(&source, path));
     status s = format->read(&m, &source);
     source_close(&source);
     if (s == OK) s = geometry_from_elements(g, &m, path, dim, scale, fine);
@@ -95,7 +95,7 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
     return s;
 }
 
-const struct geometry_set *geometry_find_set(const struct geometry *g, const char *name)
+const struct geometry_set *geometry_find_named_part(const struct geometry *g, const char *name)
 {
     for (int k = 0; k < g->sets; k++)
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];

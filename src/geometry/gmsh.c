@@ -86,7 +86,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
         snprintf(name, sizeof name, "%lld", (long long)tag);
         for (int64_t k = 0; k < g->names; k++)
             if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
-        g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_set(g->m, name, false);
+        g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_or_create_set(g->m, name, false);
     }
     if (g->last_set < 0) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     element_mesh_add_to_set(g->m, g->last_set, element);
@@ -141,7 +141,7 @@ static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t
             TRY(check_straight(g, type, node, between / (type->order - 1), other));
     }
     TRY(element_mesh_add_element(g->m, g->s, type->kind, node, label));
-    if (type->order == 2) element_mesh_set_middle_nodes(g->m, middle);
+    if (type->order == 2) element_mesh_set_middle_nodes_of_last_element(g->m, middle);
     return OK;
 }
 
@@ -242,7 +242,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
 {
     g->s->binary = false;
     TRY(source_read_integer(g->s, what, n));
-    source_next_line(g->s);
+    source_skip_to_next_line(g->s);
     g->s->binary = g->bytes;
     return source_check_count_fits_file(g->s, what, *n, bytes);
 }
@@ -397,7 +397,7 @@ static status format_read(struct gmsh *g)
     if (size != 8) return source_report_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
-    source_next_line(g->s);
+    source_skip_to_next_line(g->s);
     g->s->binary = true;
     TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
@@ -430,7 +430,7 @@ static status section_read(struct gmsh *g, const char *name)
     if (strcmp(name, "$Nodes") == 0 && g->node.entry) return source_report_fault(g->s, "nodes are given twice");
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
-        if (!g->old && g->bytes && k > 0) source_next_line(g->s);
+        if (!g->old && g->bytes && k > 0) source_skip_to_next_line(g->s);
         g->s->binary = !g->old && g->bytes && k > 0; /* names are text also in binary files */
         const status s = (g->old ? sections[k].old : sections[k].new)(g);
         g->s->binary = false;

@@ -10,7 +10,7 @@ enum { BYTES_A_VOXEL = 16 };            /* memory for grey values and levels per
 
 int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.5); }
 
-status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **page)
+status pages_append_page(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **grey_values)
 {
     const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
@@ -29,7 +29,7 @@ status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t
                           s->path, all);
     const int64_t size = width * height;
     p->grey = memory_resize("image.grey", p->grey, p->n * size, (p->n + 1) * size, sizeof *p->grey);
-    *page = p->grey + p->n * size;
+    *grey_values = p->grey + p->n * size;
     p->width = width, p->height = height, p->n++;
     return OK;
 }
@@ -38,7 +38,7 @@ status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t
 static status file_read(struct pages *p, const char *path)
 {
     struct source s;
-    TRY(source_open(&s, path));
+    TRY(source_read_whole_file(&s, path));
     const bool png = s.length > 4 && memcmp(s.text, "\x89PNG", 4) == 0;
     const bool tiff = s.length > 4 && (memcmp(s.text, "II", 2) == 0 || memcmp(s.text, "MM", 2) == 0);
     const status result = png    ? png_read_pages(p, &s)
@@ -72,11 +72,11 @@ static void rows_flip(struct pages *p)
         }
 }
 
-status image_read_voxels(struct voxels *v, int files, char *const *path, int dim, const real *voxel_size,
+status image_read_voxels(struct voxels *v, int file_count, char *const *file_paths, int dim, const real *voxel_size,
                          const real *lower_corner)
 {
     struct pages p = {0};
-    const status result = files_read(&p, files, path, dim);
+    const status result = files_read(&p, file_count, file_paths, dim);
     *v = (struct voxels){0};
     if (result != OK) {
         memory_free(p.grey);

@@ -47,7 +47,7 @@ static status page_read(png_structp png, png_infop info, struct pages *p, const 
     uint16_t *page;
     png_read_info(png, info);
     const int64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    TRY(pages_add(p, s, width, height, &page));
+    TRY(pages_append_page(p, s, width, height, &page));
     make_grey(png, info);
     const int64_t row = (int64_t)png_get_rowbytes(png, info);
     const bool wide = png_get_bit_depth(png, info) == 16;

@@ -209,7 +209,7 @@ static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
     const struct samples a = samples_of(tiff);
     uint16_t *page;
     TRY(check_samples(&a, s->path));
-    TRY(pages_add(p, s, a.width, a.height, &page));
+    TRY(pages_append_page(p, s, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
     return good
                ? OK

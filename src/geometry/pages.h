@@ -11,10 +11,11 @@ struct pages {
     uint16_t *grey;           /* [n][height][width], top row first */
 };
 
-/* Appends a page of width x height pixels to p and sets *page to its first grey value; the caller fills it. file: for
- * the message. Returns REFUSED, with a message, if the size differs from that of earlier pages, or is too large for a
- * file of this length (compressed at most 1100-fold) or for the memory. */
-status pages_add(struct pages *p, const struct source *file, int64_t width, int64_t height, uint16_t **page);
+/* Appends a page of width x height pixels to p and sets *grey_values to its first grey value; the caller fills it.
+ * file: for the message. Returns REFUSED, with a message, if the size differs from that of earlier pages, or is too
+ * large for a file of this length (compressed at most 1100-fold) or for the memory. */
+status pages_append_page(struct pages *p, const struct source *file, int64_t width, int64_t height,
+                         uint16_t **grey_values);
 
 /* Returns the grey value of a colour by the weights of ITU-R Rec. 709, on the scale of its components `red`, `green`,
  * `blue`. */

@@ -12,7 +12,7 @@
 
 enum { FILE_SHARE = 8 }; /* a file may take up to an eighth of the memory, because its data need more */
 
-status source_open(struct source *s, const char *path)
+status source_read_whole_file(struct source *s, const char *path)
 {
     FILE *file;
     *s = (struct source){.path = path};
@@ -127,15 +127,16 @@ status source_read_int64(struct source *s, const char *quantity, int64_t *value)
     return s->binary ? bytes_take(s, quantity, value, sizeof *value) : source_read_integer(s, quantity, value);
 }
 
-status source_check_count_fits_file(const struct source *s, const char *items, int64_t count, int64_t bytes)
+status source_check_count_fits_file(const struct source *s, const char *item_name, int64_t count,
+                                    int64_t bytes_per_item)
 {
-    if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
+    if (count >= 0 && count <= (s->length - s->at) / bytes_per_item) return OK;
     return source_report_fault(
         s, "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
-        (long long)count, items);
+        (long long)count, item_name);
 }
 
-void source_next_line(struct source *s)
+void source_skip_to_next_line(struct source *s)
 {
     const char *end = memchr(s->text + s->at, '\n', (size_t)(s->length - s->at));
     s->at = end ? end - s->text + 1 : s->length;

@@ -15,7 +15,7 @@ struct source {
 
 /* Reads the whole file `path` into s and sets the reading position to its start. Release s with source_close. Returns
  * REFUSED, with a message and nothing to release, if the file is unreadable, empty, or too large for the memory. */
-status source_open(struct source *s, const char *path);
+status source_read_whole_file(struct source *s, const char *path);
 
 /* Sets the message `path:line: text` for the reading position of s (`path: text` for binary files) and returns REFUSED.
  * format: text as in printf. */
@@ -45,13 +45,14 @@ status source_read_int32(struct source *s, const char *quantity, int64_t *value)
  * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
 status source_read_int64(struct source *s, const char *quantity, int64_t *value);
 
-/* Checks that `count` items of at least `bytes` bytes each can follow in the file s, before memory is allocated for
- * them. items: name of the items, for the message. Returns REFUSED, with a message, if the rest of the file is
- * shorter. */
-status source_check_count_fits_file(const struct source *s, const char *items, int64_t count, int64_t bytes);
+/* Checks that `count` items of at least `bytes_per_item` bytes each can follow in the file s, before memory is
+ * allocated for them. item_name: name of the items, for the message. Returns REFUSED, with a message, if the rest of
+ * the file is shorter. */
+status source_check_count_fits_file(const struct source *s, const char *item_name, int64_t count,
+                                    int64_t bytes_per_item);
 
 /* Moves the reading position of s to the beginning of the next line. */
-void source_next_line(struct source *s);
+void source_skip_to_next_line(struct source *s);
 
 /* Releases the content of the file s. */
 void source_close(struct source *s);

@@ -63,7 +63,7 @@ static status words_read(struct element_mesh *m, struct source *s)
 {
     char word[32];
     bool ended = false;
-    source_next_line(s); /* solid NAME, possibly several words */
+    source_skip_to_next_line(s); /* solid NAME, possibly several words */
     while (source_skip_blanks(s)) {
         source_read_word(s, word, sizeof word);
         if (strcasecmp(word, "vertex") == 0) {
@@ -75,7 +75,7 @@ static status words_read(struct element_mesh *m, struct source *s)
                                        (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
-            source_next_line(s);
+            source_skip_to_next_line(s);
         }
     }
     if (m->nodes % 3 != 0 || !ended) return source_report_fault(s, "ends within a solid: it is cut off");

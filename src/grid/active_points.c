@@ -94,7 +94,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
                                const struct grid *g)
 {
     struct transfer_order *a = &r->active;
-    transfer_order_reserve(a, all->n, all->blocks, all->cells);
+    transfer_order_reserve_arrays(a, all->n, all->blocks, all->cells);
     memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
     a->blocks = all->blocks, a->cells = 0, a->n = 0;
     for (int block = 0; block < all->blocks; block++) {
@@ -111,11 +111,12 @@ static void active_points_take(struct active_points *r, const struct transfer_or
     a->cell_start[a->cells] = (int32_t)a->n;
 }
 
-const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *full_order,
-                                                  const struct transfer_order *previous_order,
-                                                  const struct particles *p, const struct grid *grid,
-                                                  const struct bonds *b, const struct loads *l, enum shape shape,
-                                                  enum transfer transfer)
+const struct transfer_order *active_points_update_transfer_order(struct active_points *r,
+                                                                 const struct transfer_order *full_order,
+                                                                 const struct transfer_order *previous_order,
+                                                                 const struct particles *p, const struct grid *grid,
+                                                                 const struct bonds *b, const struct loads *l,
+                                                                 enum shape shape, enum transfer transfer)
 {
     const int64_t reach = active_points_reach_of(grid, shape, transfer);
     make_room(r, grid);

@@ -167,16 +167,16 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 /* ---- the list of a step ------------------------------------------------------------------------------------------ */
 
-/* Allocates the sums of the energy dissipated by contact, one for each pair of the `sides` bodies, all 0. */
-void grid_contact_make(struct grid_contact *c, int sides)
+/* Allocates the sums of the energy dissipated by contact, one for each pair of the `body_count` bodies, all 0. */
+void grid_contact_make(struct grid_contact *c, int body_count)
 {
     memory_free(c->dissipated);
-    c->sides = sides;
-    c->dissipated = NEW("contact.taken", sides * sides, real);
+    c->sides = body_count;
+    c->dissipated = NEW("contact.taken", body_count * body_count, real);
 }
 
-void grid_contact_side_make(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
-                            const struct particles *p)
+void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
+                                     const struct particles *p)
 {
     *side = (struct grid_contact_side){.grid = g, .order = order};
     for (int d = 0; d < DIM_MAX; d++) side->from[d] = INT32_MAX, side->to[d] = INT32_MIN; /* empty range */
@@ -274,7 +274,7 @@ static real mass_against(const struct grid *g, int64_t I, const real *normal, re
     return held2 > 0.5 ? INFINITY : g->mass[I];
 }
 
-real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_contact_side *side)
+real grid_contact_apply_impulses_and_return_loss(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     c->touching = 0, c->begun = 0;
@@ -311,7 +311,7 @@ real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_co
     return lost;
 }
 
-real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_contact_side *side)
+real grid_contact_energy_lost_by_second_mapping(struct grid_contact *c, const struct grid_contact_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {
@@ -326,7 +326,7 @@ real grid_contact_remap_energy_loss(struct grid_contact *c, const struct grid_co
     return lost;
 }
 
-void grid_contact_record_first_and_last_time(struct grid_contact *c, real t)
+void grid_contact_record_first_and_last_contact(struct grid_contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;

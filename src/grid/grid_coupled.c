@@ -48,14 +48,14 @@ static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct
     return false;
 }
 
-void grid_coupled_release_particles(struct grid_coupled *c, struct particles *p)
+void grid_coupled_clear_particles_moved_by_grid(struct grid_coupled *c, struct particles *p)
 {
     for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_GRID_COUPLED;
     c->n = p->n_grid_coupled = 0;
 }
 
-void grid_coupled_select_particles(struct grid_coupled *c, enum coupling coupling, struct particles *p,
-                                   const struct grid *g)
+void grid_coupled_select_particles_moved_by_grid(struct grid_coupled *c, enum coupling coupling, struct particles *p,
+                                                 const struct grid *g)
 {
     const bool unified = coupling_has_one_grid(coupling);
     int64_t k[DIM_MAX] = {0};
@@ -69,7 +69,7 @@ void grid_coupled_select_particles(struct grid_coupled *c, enum coupling couplin
         if (on) c->list[c->n++] = i;
     }
     p->n_grid_coupled = c->n;
-    transfer_order_sort(&c->order, p, c->list, c->n, g);
+    transfer_order_sort_points_by_cell(&c->order, p, c->list, c->n, g);
 }
 
 void grid_coupled_free(struct grid_coupled *c)

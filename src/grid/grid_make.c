@@ -23,15 +23,17 @@ static real between_particles(real anchor, real site, real spacing)
     return anchor + (steps - nearbyint(steps)) * spacing;
 }
 
-void grid_choose_anchor(const struct scene *s, const real *body_corner, const real *site, bool meshed, real *anchor)
+void grid_choose_reference_node_position(const struct scene *s, const real *body_corner, const real *lattice_site,
+                                         bool midway_between_particles, real *node_position)
 {
     for (int d = 0; d < s->dim; d++) {
-        anchor[d] = node_coordinate(s, d, body_corner[d]);
-        if (meshed && anchor[d] == body_corner[d]) anchor[d] = between_particles(anchor[d], site[d], s->spacing);
+        node_position[d] = node_coordinate(s, d, body_corner[d]);
+        if (midway_between_particles && node_position[d] == body_corner[d])
+            node_position[d] = between_particles(node_position[d], lattice_site[d], s->spacing);
     }
 }
 
-int joined_bodies_first_body(const struct scene *s, int k)
+int joined_bodies_first_body_of_group(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -45,7 +47,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     const bool meet = !scene_is_single_equilibrium(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     grid->fields = 1;
-    while (meet && joined_bodies_first_body(s, grid->fields) >= 0) grid->fields++;
+    while (meet && joined_bodies_first_body_of_group(s, grid->fields) >= 0) grid->fields++;
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
@@ -59,17 +61,19 @@ static real shape_reach(const struct scene *s)
                                          : 0.5 * s->spacing;
 }
 
-/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: true
- * if bodies have meshes of the reference frame. Unless mpm.origin or a mirror determines the position of the nodes, a
- * node is at the lower corner of the first body's shape, or of the particles of its list. */
-void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
+/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids.
+ * nodes_midway_between_particles: true if bodies have meshes of the reference frame. Unless mpm.origin or a mirror
+ * determines the position of the nodes, a node is at the lower corner of the first body's shape, or of the particles of
+ * its list. */
+void background_grids_make(struct grid_method *mpm, const struct scene *s, const struct particles *p,
+                           bool nodes_midway_between_particles)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
     if (!mpm->field) make_fields(s, mpm);
     struct grid *g = &mpm->field[0].grid;
     g->dim = s->dim;
     g->h = s->cell * s->spacing;
-    bool bounded = s->body[0].shape.n > 0 && region_bounding_box(&s->body[0].shape, s->dim, from, to);
+    bool bounded = s->body[0].shape.n > 0 && region_compute_bounding_box_if_finite(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
             particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
@@ -77,7 +81,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
         }
         site[d] = p->X[d][0];
     }
-    grid_choose_anchor(s, from, site, meshed, g->anchor);
+    grid_choose_reference_node_position(s, from, site, nodes_midway_between_particles, g->anchor);
     real section = scene_section_or_thickness(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_is_single_equilibrium(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
@@ -86,7 +90,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
         mpm->field[k].grid = *g;
-        mpm->field[k].grid.body = 1 + joined_bodies_first_body(s, k);
+        mpm->field[k].grid.body = 1 + joined_bodies_first_body_of_group(s, k);
     }
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
@@ -100,7 +104,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     mpm->sort_needed = true;
 }
 
-bool grid_has_mirror_off_nodes(const struct grid *g, const struct scene *s)
+bool grid_has_mirror_plane_between_nodes(const struct grid *g, const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;

@@ -50,7 +50,7 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
         }
     int64_t most = 64 * p->n + 1000000; /* more than any run in sound condition needs; node indices have 32 bits */
     if (n > 0 || !f->list) TRY(grid_extend_box(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
-    transfer_order_sort(&f->order, p, list, n, &f->grid);
+    transfer_order_sort_points_by_cell(&f->order, p, list, n, &f->grid);
     return OK;
 }
 
@@ -73,22 +73,23 @@ static void update_active_points(struct run *e)
     if (!e->scene->active_set || mpm->active.over || mpm->fields > 1 || mpm->turning.groups > 0 ||
         coupling_moves_by_grid(e->coupling_kind) || !scene_is_dynamic(e->scene))
         return;
-    e->grid->transfer.order =
-        active_points_update(&e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part,
-                             &e->grid->field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
+    e->grid->transfer.order = active_points_update_transfer_order(
+        &e->grid->active, &e->grid->field[0].order, e->grid->transfer.order, &e->part, &e->grid->field[0].grid,
+        &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
-status grid_sort_points_into_cells(struct run *e, bool *not_finite)
+status grid_sort_points_into_cells(struct run *e, bool *position_not_finite)
 {
-    *not_finite = false;
+    *position_not_finite = false;
     if (e->part.n_free == 0 && !coupling_has_one_grid(e->coupling_kind)) {
-        grid_coupled_release_particles(&e->grid->coupled, &e->part);
+        grid_coupled_clear_particles_moved_by_grid(&e->grid->coupled, &e->part);
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
-    TRY(points_sort(e->grid, &e->part, e->coupling_kind, not_finite));
+    TRY(points_sort(e->grid, &e->part, e->coupling_kind, position_not_finite));
     if (coupling_moves_by_grid(e->coupling_kind))
-        grid_coupled_select_particles(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
+        grid_coupled_select_particles_moved_by_grid(&e->grid->coupled, e->coupling_kind, &e->part,
+                                                    &e->grid->field[0].grid);
     return OK;
 }
 
@@ -134,7 +135,7 @@ static struct grid_contact_side *meeting_find(struct grid_method *mpm, struct pa
     if (mpm->fields < 2) return NULL;
     struct grid_contact_side *side = NEW("engine.sides", mpm->fields, struct grid_contact_side);
     for (int k = 0; k < mpm->fields; k++)
-        grid_contact_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
+        grid_contact_side_make_for_body(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
     grid_contact_find_shared_nodes(&mpm->contact, side, part);
     return side;
 }
@@ -152,7 +153,7 @@ static void grids_move(struct run *e, const struct grid_contact_side *side, real
                                         middle, e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->damped += grid_contact_exchange_momentum(&mpm->contact, side);
+    if (side) e->damped += grid_contact_apply_impulses_and_return_loss(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
@@ -175,10 +176,10 @@ static void grids_remap(struct run *e, const struct grid_contact_side *side)
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
     }
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
-    timer_add_elapsed(&e->timers, TIMER_SCATTER);
+    timer_add_elapsed_to_section(&e->timers, TIMER_SCATTER);
     for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
-    if (side) e->damped += grid_contact_remap_energy_loss(&e->grid->contact, side);
-    timer_add_elapsed(&e->timers, TIMER_GRID);
+    if (side) e->damped += grid_contact_energy_lost_by_second_mapping(&e->grid->contact, side);
+    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
 }
 
 void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
@@ -189,10 +190,10 @@ void grid_map_points_to_nodes(struct grid_method *mpm, struct particles *p, cons
         return;
     }
     grid_receive(mpm, p, kernels);
-    timer_add_elapsed(timers, TIMER_SCATTER);
+    timer_add_elapsed_to_section(timers, TIMER_SCATTER);
 }
 
-void grid_advance_points(struct run *e, real t_middle)
+void grid_advance_material_points_one_step(struct run *e, real t_middle)
 {
     struct particles *p = &e->part;
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -200,9 +201,9 @@ void grid_advance_points(struct run *e, real t_middle)
     if (!grid_holds(&e->part)) return;
     struct grid_contact_side *side = meeting_find(e->grid, &e->part);
     grids_move(e, side, t_middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
-    timer_add_elapsed(&e->timers, TIMER_GRID);
+    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
-    if (side) grid_contact_record_first_and_last_time(&e->grid->contact, e->clock.t);
+    if (side) grid_contact_record_first_and_last_contact(&e->grid->contact, e->clock.t);
     for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */
         const struct transfer_data own = field_data(e->grid, k);
         moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);

@@ -51,9 +51,9 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 {
     if (b->active.level[row_block] >= level) return;
     b->active.level[row_block] = (uint8_t)level;
-    for (int64_t k = 0; k < row_block_column_count(b, row_block) && level > 1; k++) {
+    for (int64_t k = 0; k < bond_row_block_column_count(b, row_block) && level > 1; k++) {
         struct column_copy column;
-        bond_column_read(&column, b, row_block, k);
+        bond_column_read_eight_bonds(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
             const int64_t next = row_block_of(b, p, l, &column, lane);
             if (next >= 0) row_block_activate(b, p, l, next, level - 1);
@@ -66,9 +66,9 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
-    for (int64_t k = 0; k < row_block_column_count(b, row_block); k++) {
+    for (int64_t k = 0; k < bond_row_block_column_count(b, row_block); k++) {
         struct column_copy column;
-        bond_column_read(&column, b, row_block, k);
+        bond_column_read_eight_bonds(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
             const int64_t next = row_block_of(b, p, l, &column, lane);
             if (next >= 0 && b->active.level[next] == level) return true;
@@ -115,32 +115,32 @@ static void active_set_follow(struct bonds *b, const struct particles *p, const 
     if (moved == 0 && !r->resumed) return;
     for (int64_t k = 0; k < r->active; k++)
         if (r->moved[r->list[k]]) row_block_activate(b, p, l, r->list[k], most);
-    active_set_rebuild_list(r);
+    active_set_rebuild_active_block_list(r);
     r->resumed = false;
 }
 
-void active_rows_update(struct bonds *b, const struct particles *p, const struct loads *l)
+void active_rows_update_after_step(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     if (b->active.is_current) {
         active_set_follow(b, p, l);
         return;
     }
     row_levels_find(b, p, l);
-    active_set_rebuild_list(&b->active);
+    active_set_rebuild_active_block_list(&b->active);
 }
 
-void active_rows_activate_particles(struct bonds *b, const struct particles *p, const struct loads *l,
-                                    const int32_t *list, int64_t n)
+void active_rows_activate_rows_of_particles(struct bonds *b, const struct particles *p, const struct loads *l,
+                                            const int32_t *particle_list, int64_t particle_count)
 {
     bool any = false;
     if (!b->active.is_current) return;
-    for (int64_t k = 0; k < n; k++) {
-        const int32_t row = b->row_of[list[k]];
+    for (int64_t k = 0; k < particle_count; k++) {
+        const int32_t row = b->row_of[particle_list[k]];
         if (row < 0 || b->active.level[row / LANES] >= most_of(b)) continue;
         row_block_activate(b, p, l, row / LANES, most_of(b));
         any = true;
     }
     if (!any) return;
     b->active.over = false;
-    active_set_rebuild_list(&b->active);
+    active_set_rebuild_active_block_list(&b->active);
 }

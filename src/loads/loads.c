@@ -37,12 +37,13 @@ status loads_make(struct loads *l, const struct boundary *boundary, int boundari
     l->spacing = spacing;
     l->load = NEW("loads.load", boundaries, struct load);
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place, load_find_particles(&l->load[b], &boundary[b], p, spacing)));
+        TRY(status_prepend_location(boundary[b].place,
+                                    load_find_particles_of_boundary(&l->load[b], &boundary[b], p, spacing)));
     for (int b = 0; b < boundaries; b++)
         TRY(status_prepend_location(boundary[b].place,
                                     load_find_pressure_faces(&l->load[b], boundary, boundaries, b, p, spacing)));
     for (int b = 0; b < boundaries; b++)
-        TRY(status_prepend_location(boundary[b].place, load_prepare_varying_shares(&l->load[b], p)));
+        TRY(status_prepend_location(boundary[b].place, load_prepare_varying_particle_shares(&l->load[b], p)));
     TRY(absorbing_boundaries_check(l, p));
     loads_merge_equal_particle_lists(l, p->dim);
     TRY(loads_make_mirror_images(l, p, mirror_reach, optional_arrays));

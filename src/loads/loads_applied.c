@@ -207,7 +207,7 @@ void loads_add_applied_forces(struct loads *l, struct particles *p, real t, real
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
-    loads_update_shares_for_velocity_update(l, p, t, dt_velocity);
+    loads_average_shares_over_velocity_update(l, p, t, dt_velocity);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : kick_factor(&load->boundary->time, t, dt_velocity);
@@ -234,7 +234,7 @@ void loads_add_work_of_applied_forces(struct loads *l, struct particles *p, real
 {
     real factor[BOUNDARIES_MAX], done;
     struct push a;
-    loads_update_shares_for_work(l, p, t, dt);
+    loads_average_shares_over_step_for_work(l, p, t, dt);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : drift_factor(&load->boundary->time, t, dt);
@@ -259,7 +259,7 @@ static void clear_run(const struct load *load, struct particles *p, int64_t firs
             for (int64_t k = first; k < end; k++) p->f[d][load->particle[k]] = 0;
 }
 
-void loads_clear_forces(struct loads *l, struct particles *p)
+void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];

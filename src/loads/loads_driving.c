@@ -169,7 +169,7 @@ static real velocity_jump_at(const struct load *l, const struct particles *p, in
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
 }
 
-real load_largest_velocity_jump(const struct load *l, const struct particles *p, real t_end)
+real load_largest_jump_from_initial_velocity(const struct load *l, const struct particles *p, real t_end)
 {
     const struct boundary *b = l->boundary;
     real most = 0;
@@ -186,7 +186,7 @@ real load_largest_velocity_jump(const struct load *l, const struct particles *p,
 real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end)
 {
     return l->boundary->displaces ? load_largest_displacement_speed(l, p, t_end)
-                                  : load_largest_velocity_jump(l, p, t_end);
+                                  : load_largest_jump_from_initial_velocity(l, p, t_end);
 }
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */

@@ -50,7 +50,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
         }
         if (pass == 0) GROW("loads.image", l->image, have + images);
     }
-    particles_add_mirror_images(p, images, optional);
+    particles_extend_arrays_for_mirror_images(p, images, optional);
     l->images += images;
     for (int64_t k = have; k < l->images; k++) {
         int64_t g = p->n + k, i = l->image[k].source;

@@ -42,7 +42,7 @@ static status formula_finite(const struct load *l, const struct particles *p, re
     return OK;
 }
 
-status loads_check_finite(const struct loads *l, const struct particles *p, real t)
+status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
@@ -66,7 +66,7 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
     }
 }
 
-status load_prepare_varying_shares(struct load *l, const struct particles *p)
+status load_prepare_varying_particle_shares(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
     bool any = false;
@@ -120,7 +120,7 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     }
 }
 
-void loads_update_shares_for_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity)
+void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity)
 {
     moving_update(l, p, t, dt_velocity, 1);
 }
@@ -130,7 +130,7 @@ void loads_update_shares_for_velocity_update(struct loads *l, const struct parti
  * formula. The result is the mean of the present shares, used in the velocity update before, and the shares of the
  * velocity update after it. Must be called after the position update, since the latter depend on the new positions. dt:
  * time step [s]. */
-void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
+void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }

@@ -96,7 +96,7 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) chosen[i] |= area[d][i] != 0;
-    load_set_particles(l, chosen, p);
+    load_set_particle_list_from_marks(l, chosen, p);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < l->n; k++) l->share[d][k] = -area[d][l->particle[k]];
     memory_free(chosen);

@@ -61,7 +61,7 @@ static bool needs_face(const struct boundary *b)
            (b->kind == BOUNDARY_VELOCITY && b->side != 0);
 }
 
-void load_set_particles(struct load *l, const uint8_t *selected, struct particles *p)
+void load_set_particle_list_from_marks(struct load *l, const uint8_t *selected, struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) l->n += selected[i] > 0;
     l->particle = NEW("loads.particle", l->n, int32_t);
@@ -83,7 +83,7 @@ static void select_face(struct load *l, const uint8_t *selected, struct particle
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.normal[i] != 0 || face.along[i] != 0;
-    load_set_particles(l, chosen, p);
+    load_set_particle_list_from_marks(l, chosen, p);
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++)
             l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
@@ -101,7 +101,7 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     exposed_face_compute_areas(&face, l->boundary, p, selected, spacing, true);
     for (int64_t i = 0; i < p->n; i++) chosen[i] = face.along[i] != 0;
-    load_set_particles(l, chosen, p);
+    load_set_particle_list_from_marks(l, chosen, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
     for (int64_t k = 0; k < l->n; k++)
         l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
@@ -114,8 +114,8 @@ static void select_absorbing(struct load *l, const uint8_t *selected, struct par
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
-    face_mark_layer(l->boundary, p, selected, spacing, taken);
-    load_set_particles(l, taken, p);
+    face_mark_particles_in_layer(l->boundary, p, selected, spacing, taken);
+    load_set_particle_list_from_marks(l, taken, p);
     memory_free(taken);
 }
 
@@ -136,7 +136,7 @@ static bool is_in_plane(const struct boundary *b, const struct particles *p, int
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;
 }
 
-status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing)
+status load_find_particles_of_boundary(struct load *l, const struct boundary *b, struct particles *p, real spacing)
 {
     const bool clamp = boundary_is_clamped_mirror(b, p->dim);
     bool any = false;
@@ -154,7 +154,7 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
     else if (needs_face(b))
         select_layer(l, selected, p, spacing);
     else
-        load_set_particles(l, selected, p);
+        load_set_particle_list_from_marks(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_applies_force(b) || needs_face(b)))

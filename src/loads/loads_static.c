@@ -6,8 +6,8 @@
 
 #define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
-void static_boundaries_make(struct boundary *static_boundary, const struct boundary *boundary, int boundaries,
-                            real duration, real ramp_time)
+void static_boundaries_make_from_dynamic(struct boundary *static_boundary, const struct boundary *boundary,
+                                         int boundaries, real duration, real ramp_time)
 {
     for (int b = 0; b < boundaries; b++) {
         real factor = 1;

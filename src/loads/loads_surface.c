@@ -373,7 +373,7 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     corners_make(a, s, all, f);
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int64_t q = 0; q < a->first[a->corners]; q++) chosen[a->particle[q]] = 1;
-    load_set_particles(l, chosen, p);
+    load_set_particle_list_from_marks(l, chosen, p);
     a->particles = l->n;
     shares_transpose(a, l, p->n);
     a->x = NEW("loads.corner_x", a->corners * a->dim, real);
@@ -384,24 +384,24 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     memory_free(all);
 }
 
-status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all_boundaries,
-                         int boundaries, struct particles *p, real spacing)
+status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
+                         int boundary_count, struct particles *p, real spacing)
 {
-    struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundaries, .spacing = spacing};
-    if (faces->n == 0)
+    struct sites s = {.p = p, .all = all_boundaries, .boundaries = boundary_count, .spacing = spacing};
+    if (free_faces->n == 0)
         return status_set(REFUSED,
                           "boundary %s: no particle in its region has a free face; let the region hold some "
                           "of the body's surface",
                           l->boundary->name);
-    status made = sites_make(&s, faces);
-    if (made == OK) made = mirrors_between(&s, faces);
+    status made = sites_make(&s, free_faces);
+    if (made == OK) made = mirrors_between(&s, free_faces);
     if (made == OK) {
         l->surface = NEW("loads.surface", 1, struct surface);
         *l->surface = (struct surface){.dim = p->dim,
                                        .section = l->boundary->section > 0 ? l->boundary->section : 1,
                                        .longest = TORN * spacing,
-                                       .faces = faces->n};
-        surface_fill(l->surface, l, &s, faces, p);
+                                       .faces = free_faces->n};
+        surface_fill(l->surface, l, &s, free_faces, p);
     }
     memory_free(s.site);
     return made;

@@ -88,16 +88,16 @@ static bool wall_is_fixed(const struct loads *l, const struct wall *w)
     return b->kind == BOUNDARY_MIRROR || b->value[w->component] == 0;
 }
 
-void active_nodes_add_exposed_points(struct mesh *mesh)
+void active_nodes_add_blocks_at_exposed_points(struct mesh *mesh)
 {
     const int dim = mesh->grid.dim;
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
         for (int c = 0; c < 1 << dim; c++)
             mesh_activate(mesh, mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, mesh->exposed_list[k].cell, c)));
-    active_set_rebuild_list(&mesh->active);
+    active_set_rebuild_active_block_list(&mesh->active);
 }
 
-void active_nodes_activate_all(struct mesh *mesh)
+void active_nodes_activate_all_blocks(struct mesh *mesh)
 {
     mesh->active.is_current = false;
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
@@ -119,10 +119,10 @@ static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
     for (int64_t k = 0; k < mesh->grid.walls; k++)
         if (!wall_is_fixed(l, &mesh->grid.wall[k]))
             mesh_activate(mesh, mesh_block_of_node(mesh, mesh->grid.wall[k].node));
-    active_nodes_add_exposed_points(mesh); /* makes the list */
+    active_nodes_add_blocks_at_exposed_points(mesh); /* makes the list */
 }
 
-void active_nodes_update(struct mesh *mesh, const struct loads *l)
+void active_nodes_update_block_list(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;
     if (!r->is_current) {
@@ -138,6 +138,6 @@ void active_nodes_update(struct mesh *mesh, const struct loads *l)
     }
     for (int64_t k = 0; k < r->active && moved; k++)
         if (r->moved[r->list[k]]) mesh_activate(mesh, r->list[k]);
-    if (moved || r->resumed) active_set_rebuild_list(r);
+    if (moved || r->resumed) active_set_rebuild_active_block_list(r);
     r->resumed = false;
 }

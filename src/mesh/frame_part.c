@@ -90,27 +90,29 @@ static void warn_of_plane_apart(const struct reference_frame *r, const struct pa
 {
     const struct boundary *b = plane_with_fit(p, s, body, r->hollow.absent, PLANE_APART);
     if (b)
-        warnings_add(to,
-                     "boundary %s: body %s does not touch this plane of symmetry at the start, and the reference frame "
-                     "does not stop it there later; if they meet, choose mpm.frame: current",
-                     b->name, s->body[body].name);
+        warnings_add_if_new(
+            to,
+            "boundary %s: body %s does not touch this plane of symmetry at the start, and the reference frame "
+            "does not stop it there later; if they meet, choose mpm.frame: current",
+            b->name, s->body[body].name);
 }
 
 /* Warns of planes of symmetry that do not fit the nodes. In the current frame they are neither on a node nor midway
  * between two. Measured with inputs/bar_converge.yaml: displacements are 11 to 24 % off if mirrors are 0.15 and 0.25 of
  * a cell from a node, with 50 to 200 points per metre; half the spacing reduces the error by at most a third. */
-void frame_warn_of_mirrors(const struct run *e, struct warnings *to)
+void frame_warn_of_unfitting_mirror_planes(const struct run *e, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->boundaries; b++)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
             !mirror_plane_fits_grid_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
-            warnings_add(to,
-                         "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
-                         "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
-                         s->boundary[b].name);
+            warnings_add_if_new(
+                warning_list,
+                "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
+                "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
+                s->boundary[b].name);
     for (int body = 0; body < s->bodies && s->method != METHOD_PD && scene_is_dynamic(s); body++)
-        if (e->frame->choice[body].reference) warn_of_plane_apart(e->frame, &e->part, s, body, to);
+        if (e->frame->choice[body].reference) warn_of_plane_apart(e->frame, &e->part, s, body, warning_list);
 }
 
 static void take_frame(struct frame_choice *f, bool reference, const char *reason)
@@ -125,8 +127,8 @@ static void frames_mark(struct particles *part, struct reference_frame *frame)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
-                          const struct scene *s)
+status body_frames_choose_mesh_or_grid(struct reference_frame *r, struct grid_method *mpm, struct particles *p,
+                                       const struct scene *s)
 {
     r->bodies = s->bodies;
     r->spacing = s->spacing;
@@ -143,14 +145,14 @@ status body_frames_choose(struct reference_frame *r, struct grid_method *mpm, st
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
-    background_grids_make(mpm, s, p, reference_frame_in_use(r));
+    background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, s, mpm, &r->hollow);
         take_frame(&r->choice[0], !why,
                    why             ? why
                    : s->rigids > 0 ? "it keeps its neighbours and meets no other body but rigid ones"
                                    : "it keeps its neighbours and meets no other body");
-        if (why) background_grids_make(mpm, s, p, reference_frame_in_use(r));
+        if (why) background_grids_make(mpm, s, p, reference_frame_is_in_use(r));
     }
     if (s->method != METHOD_PD) TRY(planes_check(r, p, s));
     frames_mark(p, r);
@@ -163,7 +165,7 @@ bool reference_frame_is_possible(const struct reference_frame *r, const struct p
     return frame_obstacle(p, s, mpm, &r->hollow) == NULL;
 }
 
-bool reference_frame_in_use(const struct reference_frame *r)
+bool reference_frame_is_in_use(const struct reference_frame *r)
 {
     for (int b = 0; b < r->bodies; b++)
         if (r->choice[b].reference) return true;
@@ -188,14 +190,14 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
     return cell;
 }
 
-void reference_frame_find_exposed_points(struct reference_frame *r, const struct particles *p,
-                                         const struct bonds *bonds, struct loads *loads)
+void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
+                                                  const struct bonds *bonds, struct loads *loads)
 {
-    mesh_find_exposed_points(&r->mesh, p, bonds, loads);
+    mesh_list_bonded_or_loaded_points(&r->mesh, p, bonds, loads);
     loads_find_driven_mesh_nodes(loads, &r->mesh, p);
 }
 
-status reference_frame_make(struct run *e, const struct mesh_source *source, bool motion_set_later)
+status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion)
 {
     struct reference_frame *r = e->frame;
     const struct grid *g = &e->grid->field[0].grid;
@@ -207,15 +209,15 @@ status reference_frame_make(struct run *e, const struct mesh_source *source, boo
                                      .hollow = &r->hollow,
                                      .slit = source->slit,
                                      .slits = source->slits,
-                                     .voids = grid_has_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
+                                     .voids = grid_has_mirror_plane_between_nodes(g, e->scene) ? NULL : e->source.voids,
                                      .mirror = e->source.mirror,
                                      .mirrors = e->source.mirrors,
-                                     .still = motion_set_later};
+                                     .still = caller_sets_motion};
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
-    mesh_levels_find_highest_allowed(r, e->scene, e->part.n_body);
-    reference_frame_find_exposed_points(r, &e->part, &e->bonds, &e->loads);
+    mesh_levels_find_highest_allowed_by_thickness(r, e->scene, e->part.n_body);
+    reference_frame_list_bonded_or_loaded_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -236,7 +238,7 @@ real reference_frame_critical_time_step(const struct reference_frame *r, const s
 
 /* Updates the positions of the exposed points from the nodes, and the strain at points with state-based bonds to
  * peridynamic particles. Exposed points are those whose motion is needed in every step, as they have bonds or loads. */
-void reference_frame_update_exposed_points(struct reference_frame *r, struct particles *p)
+void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
     mesh_ends_update(&r->mesh, p, r->finite);
@@ -247,7 +249,8 @@ void reference_frame_compute_forces(struct reference_frame *r, struct particles 
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
     mesh_force(&r->mesh, p, r->elastic, r->finite);
-    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due_in_step(&r->levels, step));
+    levels_compute_forces_of_coarse_cells(&r->levels, p, r->coarse, r->finite,
+                                          levels_highest_level_due_in_step(&r->levels, step));
 }
 
 /* Sets the velocities that boundaries prescribe at nodes of the mesh and of the levels 1 .. due of coarse cells. A step
@@ -276,28 +279,28 @@ static void nodes_react(struct loads *loads, struct reference_frame *frame, real
 void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                                 const struct run_clock *clock, real t_middle, real dt_velocity)
 {
-    const int due = levels_highest_due_in_step(&r->levels, clock->step);
+    const int due = levels_highest_level_due_in_step(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
     nodes_walls(r, loads, t_middle, clock->dt, due);
-    r->speed = r->levels.n > 0
-                   ? levels_move_nodes(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
-                   : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
+    r->speed = r->levels.n > 0 ? levels_move_nodes_return_largest_velocity(&r->levels, clock->dt, dt_velocity, due,
+                                                                           loads->impulse, &loads->constraint_work)
+                               : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
     if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
-    reference_frame_update_exposed_points(r, p);
-    if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
+    reference_frame_move_bonded_or_loaded_points(r, p);
+    if (r->active_set && r->levels.n == 0) active_nodes_update_block_list(&r->mesh, loads);
 }
 
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    levels_prolong_motion_near_points(&r->levels);
+    levels_prolong_motion_to_nodes_near_points(&r->levels);
     mesh_points_move(&r->mesh, p);
     loads_update_mirror_images(loads, p);
 }
 
-void reference_frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void reference_frame_update_motion_and_stress(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
     reference_frame_update_point_motion(r, p, loads);
@@ -305,35 +308,36 @@ void reference_frame_update_points(struct reference_frame *r, struct particles *
 }
 
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
-                                          const int32_t *list, int64_t n)
+                                          const int32_t *point_list, int64_t point_count)
 {
     if (r->mesh.points == 0) return;
-    mesh_listed_move(&r->mesh, p, list, n);
+    mesh_listed_move(&r->mesh, p, point_list, point_count);
     loads_update_mirror_images(loads, p);
 }
 
-bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost)
 {
     if (r->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
-    if (converted == 0 && mesh_update_partial_stiffness(&r->mesh, p, &r->source, partial->touched, partial->touches))
+    if (converted_count == 0 &&
+        mesh_update_stiffness_of_partial_cells(&r->mesh, p, &r->source, partial->touched, partial->touches))
         return false;
     *energy_lost +=
         mesh_remove_points_and_return_lost_energy(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n,
-                                   real *energy_lost)
+void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
+                                   int64_t inserted_count, real *energy_lost)
 {
-    int32_t *own = NEW("engine.own", n, int32_t);
+    int32_t *own = NEW("engine.own", inserted_count, int32_t);
     int64_t m = 0;
-    for (int64_t k = 0; k < n; k++)
-        if (r->mesh.place && r->choice[p->body[list[k]]].reference) own[m++] = list[k];
+    for (int64_t k = 0; k < inserted_count; k++)
+        if (r->mesh.place && r->choice[p->body[inserted_points[k]]].reference) own[m++] = inserted_points[k];
     if (m > 0) {
         *energy_lost += mesh_insert_points_and_return_lost_energy(&r->mesh, p, own, m);
-        active_nodes_activate_all(&r->mesh);
+        active_nodes_activate_all_blocks(&r->mesh);
     }
     memory_free(own);
 }

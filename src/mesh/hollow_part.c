@@ -29,7 +29,7 @@ const char *scene_why_all_particles_needed(const struct scene *s)
     if (s->body[0].file) return "they come from a list";
     if (scene_strength_scatters(s)) return "strength scatters from place to place";
     if (s->body[0].parts > 0) return "the body has parts of other materials";
-    if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_auto(s, 0))
+    if (s->body[0].frame == FRAME_CURRENT || scene_why_reference_frame_not_chosen_by_auto(s, 0))
         return "the body is in the current frame";
     if (s->initials > 0 || dot(s->body[0].velocity, s->body[0].velocity, s->dim) > 0) return "the body moves at first";
     if (s->growths > 0) return "cracks grow by growth";
@@ -55,10 +55,10 @@ static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
     TRY(fill_compute_lattice_site_position(s, 0, site));
-    region_bounding_box(&s->body[0].shape, s->dim, from, to);
+    region_compute_bounding_box_if_finite(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
-    grid_choose_anchor(s, from, site, true, box->anchor);
-    return grid_set_box(box, from, to, INT32_MAX)
+    grid_choose_reference_node_position(s, from, site, true, box->anchor);
+    return grid_set_box_if_not_too_large(box, from, to, INT32_MAX)
                ? OK
                : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
 }
@@ -75,7 +75,7 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
         if (crack_may_cut_bonds_near(c, X, flank, s->dim)) return true;
         for (int a = 0; a < c->n; a++) {
             const real *from = c->corner[a], *to = s->dim == 3 ? c->corner[(a + 1) % c->n] : from;
-            if (segment_distance(from, to, X, s->dim) <= end) return true;
+            if (segment_distance_from_point(from, to, X, s->dim) <= end) return true;
         }
     }
     return false;
@@ -116,10 +116,10 @@ static bool face_loaded(const struct scene *s, const struct cells_without_partic
  * an end of a pre-crack. */
 static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
 {
-    if (probe->has_at) return segment_distance(probe->at, probe->at, X, s->dim) < r;
+    if (probe->has_at) return segment_distance_from_point(probe->at, probe->at, X, s->dim) < r;
     for (int k = 0; k < s->cracks; k++)
         for (int a = 0; a < s->crack[k].n; a++)
-            if (segment_distance(s->crack[k].corner[a], s->crack[k].corner[a], X, s->dim) < r) return true;
+            if (segment_distance_from_point(s->crack[k].corner[a], s->crack[k].corner[a], X, s->dim) < r) return true;
     return false;
 }
 
@@ -154,15 +154,15 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-status cells_without_particles_choose(struct cells_without_particles *h, const struct scene *s,
-                                      const struct bond_source *source)
+status cells_without_particles_choose_for_scene(struct cells_without_particles *h, const struct scene *s,
+                                                const struct bond_source *source)
 {
     int64_t absent = 0;
     if (h->whole || scene_why_all_particles_needed(s)) return OK;
     TRY(box_find(&h->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
-    fill_mark_whole_cells(h, s, 0);
+    fill_mark_cells_inside_body(h, s, 0);
     h->absent = NEW("hollow.absent", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < h->box.n; I++) {
@@ -180,11 +180,11 @@ status cells_without_particles_choose(struct cells_without_particles *h, const s
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if a cell without particles has level 0, the finest, so that the run must be set up again with more
- * particles. level[grid.n]: levels of the cells of the mesh. */
-bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *level)
+ * particles. new_cell_level[grid.n]: levels of the cells of the mesh. */
+bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
-        if (mesh->absent[I] && level[I] == 0) return true;
+        if (mesh->absent[I] && new_cell_level[I] == 0) return true;
     return false;
 }
 
@@ -200,16 +200,16 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     uint8_t *outgrown = NEW("hollow.outgrown", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
         const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
-        keep[I] = level[I] == 0 && (mesh_cell_has_body(&r->mesh, I) || (J >= 0 && h->whole[J]));
+        keep[I] = level[I] == 0 && (mesh_cell_contains_material(&r->mesh, I) || (J >= 0 && h->whole[J]));
         outgrown[I] = keep[I] && r->mesh.absent && r->mesh.absent[I];
     }
-    levels_dilate_marks(&r->levels, keep, margin);
-    levels_dilate_marks(&r->levels, outgrown, ahead);
+    levels_mark_cells_near_marked_cells(&r->levels, keep, margin);
+    levels_mark_cells_near_marked_cells(&r->levels, outgrown, ahead);
     for (int64_t I = 0; I < g->n; I++) {
         const int64_t J = grid_cell_index_in_other_grid(g, I, &h->box);
         keep[I] = keep[I] || outgrown[I] || J < 0 || !h->whole[J];
     }
-    levels_extend_marks_to_coarse_cells(&r->levels, level, keep);
+    levels_mark_all_cells_in_marked_coarse_cells(&r->levels, level, keep);
     for (int64_t I = 0; I < g->n; I++)
         if (!keep[I]) absent[grid_cell_index_in_other_grid(g, I, &h->box)] = 1;
     memory_free(outgrown);
@@ -217,26 +217,26 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-bool initial_levels_have_particles(struct reference_frame *r, const uint8_t *level)
+bool initial_levels_have_all_needed_particles(struct reference_frame *r, const uint8_t *cell_level)
 {
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false; /* the checkpoint contains the levels */
-    if (!level) {                         /* no coarse cells */
+    if (!cell_level) {                    /* no coarse cells */
         memory_free(r->hollow.absent);
         r->hollow.absent = NULL, r->lacks = true;
         return false;
     }
-    r->lacks = levels_need_more_particles(&r->mesh, level);
+    r->lacks = levels_need_more_particles(&r->mesh, cell_level);
     if (!r->lacks) return true;
-    uint8_t *absent = absent_with(r, level, 0, 0);
+    uint8_t *absent = absent_with(r, cell_level, 0, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
     memory_free(absent);
     return false;
 }
 
-void cells_without_particles_update(struct reference_frame *r, const uint8_t *level)
+void cells_without_particles_update_from_levels(struct reference_frame *r, const uint8_t *cell_level)
 {
-    uint8_t *absent = absent_with(r, level, MARGIN, AHEAD);
+    uint8_t *absent = absent_with(r, cell_level, MARGIN, AHEAD);
     memory_free(r->hollow.absent);
     r->hollow.absent = absent;
 }

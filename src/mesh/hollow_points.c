@@ -57,8 +57,8 @@ void coarse_cell_points_free(struct coarse_cell_points *h)
     }
 }
 
-bool coarse_cell_points_make(struct reference_frame *r, const struct particles *body, const struct material *m,
-                             bool gradients)
+bool coarse_cell_points_make_for_output(struct reference_frame *r, const struct particles *body,
+                                        const struct material *m, bool with_gradients)
 {
     struct mesh_levels *l = &r->levels;
     const int dim = body->dim;
@@ -70,7 +70,7 @@ bool coarse_cell_points_make(struct reference_frame *r, const struct particles *
     particles_make(&r->shown.part, dim, points, 0);
     r->shown.part.plane_strain = body->plane_strain;
     r->shown.spacing = NEW("report.spacing", points, real);
-    for (int k = 0; k < dim * dim && gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
+    for (int k = 0; k < dim * dim && with_gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
         levels_list_cells_without_particles(l, level, cell);

@@ -43,20 +43,20 @@ static status level_make(struct mesh_levels *l, int level, const struct mesh_sou
     return OK;
 }
 
-status levels_make(struct mesh_levels *l, int coarse_levels, struct mesh *fine, const struct particles *p,
-                   const struct mesh_source *source, const real *density)
+status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
+                                    const struct particles *p, const struct mesh_source *source, const real *density)
 {
     memset(l, 0, sizeof *l);
-    if (coarse_levels == 0 || fine->points == 0) return OK;
-    l->n = coarse_levels, l->fine = fine;
+    if (coarse_level_count == 0 || finest_mesh->points == 0) return OK;
+    l->n = coarse_level_count, l->fine = finest_mesh;
     corner_find(l, p);
-    l->level =
-        NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_update_after_level_change */
-    l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
-    l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
-    l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
-    fine->level = l->level;
-    for (int level = 1; level <= coarse_levels; level++) TRY(level_make(l, level, source, density));
+    l->level = NEW("levels.level", finest_mesh->grid.n + LANES,
+                   uint8_t); /* with room for marks: mesh_rebuild_cells_after_level_change */
+    l->calm = NEW("levels.calm", finest_mesh->grid.n, uint8_t);
+    l->wanted = NEW("levels.wanted", finest_mesh->grid.n, uint8_t);
+    l->safe = NEW("levels.safe", finest_mesh->grid.n, uint8_t);
+    finest_mesh->level = l->level;
+    for (int level = 1; level <= coarse_level_count; level++) TRY(level_make(l, level, source, density));
     levels_classify_distances_to_coarse_cells(l);
     return OK;
 }
@@ -81,29 +81,29 @@ void levels_free(struct mesh_levels *l)
 
 /* Copies displacement and velocity to all ghosts of coarse levels. A ghost is a node of a coarser mesh at which the
  * next finer mesh has a node, too; it moves with that node. */
-void levels_copy_motion_to_ghosts(struct mesh_levels *l)
+void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
+    for (int level = 1; level <= l->n; level++) levels_copy_motion_to_ghosts_of_one_level(l, level);
 }
 
 void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l)
 {
-    levels_copy_motion_to_ghosts(l);
-    if (l->n > 0) levels_interpolate_to_fine_nodes(l, true);
+    levels_copy_motion_to_ghost_nodes(l);
+    if (l->n > 0) levels_interpolate_motion_to_fine_nodes(l, true);
 }
 
-void levels_prolong_motion_near_points(struct mesh_levels *l)
+void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l)
 {
-    levels_copy_motion_to_ghosts(l);
-    if (l->n > 0) levels_interpolate_to_fine_nodes(l, false);
+    levels_copy_motion_to_ghost_nodes(l);
+    if (l->n > 0) levels_interpolate_motion_to_fine_nodes(l, false);
 }
 
-bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
+bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X)
 {
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
         for (int64_t I = 0; I < mesh->grid.n; I++) {
-            if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_inverted(mesh, I)) continue;
+            if (mesh->kind[I] != CELL_WHOLE || !mesh_cell_is_inverted(mesh, I)) continue;
             for (int d = 0; d < mesh->grid.dim; d++) X[d] = grid_cell_particle_coordinate(&mesh->grid, I, 0, d);
             return true;
         }
@@ -111,23 +111,23 @@ bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
     return false;
 }
 
-int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell)
+int64_t levels_list_cells_without_particles(const struct mesh_levels *l, int level, int64_t *cell_index)
 {
     const struct mesh *mesh = &l->at[level].mesh;
     int64_t n = 0, k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, grid_indices_advance(&mesh->grid, k)) {
+    for (int64_t I = 0; I < mesh->grid.n && l->fine->absent; I++, grid_advance_to_next_node_indices(&mesh->grid, k)) {
         bool absent = false;
         if (mesh->kind[I] != CELL_WHOLE) continue;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !absent; part++)
-            absent =
-                l->fine->absent[levels_fine_cell_of_part(l, level, levels_fine_node_of_coarse_node(l, level, k), part)];
-        if (absent && cell) cell[n] = I;
+            absent = l->fine->absent[levels_fine_cell_in_coarse_cell(
+                l, level, levels_fine_node_of_coarse_node(l, level, k), part)];
+        if (absent && cell_index) cell_index[n] = I;
         n += absent;
     }
     return n;
 }
 
-int64_t levels_count_cells(const struct mesh_levels *l, int level)
+int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level)
 {
     int64_t cells = 0;
     if (level > 0) return l->at[level].cells;
@@ -138,18 +138,19 @@ int64_t levels_count_cells(const struct mesh_levels *l, int level)
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
 /* Returns the kinetic energy of the nodes of all coarse levels [J], without that of level 0, the finest. */
-real levels_kinetic_energy(const struct mesh_levels *l)
+real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kinetic(&l->at[level].mesh);
     return sum;
 }
 
-real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite)
+real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
+                                          bool finite_strain)
 {
     real sum = 0;
-    levels_copy_motion_to_ghosts(l);
-    for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite);
+    levels_copy_motion_to_ghost_nodes(l);
+    for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite_strain);
     return sum;
 }
 
@@ -160,7 +161,7 @@ real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt)
     return sum;
 }
 
-real levels_power_of_forces(const struct mesh_levels *l)
+real levels_power_of_coarse_nodal_forces(const struct mesh_levels *l)
 {
     real power = 0;
     for (int level = 1; level <= l->n; level++) {
@@ -204,11 +205,11 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
  * the meshes of all levels, interfaces between levels, and distances to coarse cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
-    mesh_update_after_level_change(l->fine, p, source, l->level);
-    levels_compute_coarse_cell_data(l, p);
-    levels_find_interfaces(l);
+    mesh_rebuild_cells_after_level_change(l->fine, p, source, l->level);
+    levels_compute_coarse_cells_and_masses(l, p);
+    levels_find_ghost_and_hanging_nodes(l);
     levels_add_masses_of_dependent_nodes(l, false);
-    levels_make_cell_runs(l);
+    levels_make_cell_rows_and_node_spans(l);
     levels_classify_distances_to_coarse_cells(l);
 }
 

@@ -9,7 +9,7 @@
 /* Makes the coarse cells from l->level, the level of each cell of level 0 (the finest): kind and material of the cells,
  * their number, and the masses of their nodes. Transfers no mass between levels; levels_add_masses_of_dependent_nodes
  * does that. */
-void levels_compute_coarse_cell_data(struct mesh_levels *l, const struct particles *p)
+void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
     const int corners = 1 << fine->grid.dim;
@@ -20,7 +20,7 @@ void levels_compute_coarse_cell_data(struct mesh_levels *l, const struct particl
         array_fill_bytes(mesh->grid.mass, 0, mesh->grid.n, sizeof(real));
         l->at[level].cells = 0;
     }
-    for (int64_t I = 0; I < fine->grid.n; I++, grid_indices_advance(&fine->grid, k)) {
+    for (int64_t I = 0; I < fine->grid.n; I++, grid_advance_to_next_node_indices(&fine->grid, k)) {
         const int level = l->level[I];
         if (level == 0 || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
         struct mesh *mesh = &l->at[level].mesh;
@@ -102,7 +102,7 @@ static void interface_find(struct mesh_levels *l, int level)
     const struct mesh *below = level_mesh_read_only(l, level - 1);
     int64_t k[DIM_MAX] = {0}, at[DIM_MAX];
     m->ghosts = m->hangings = 0;
-    for (int64_t I = 0; I < below->grid.n; I++, grid_indices_advance(&below->grid, k)) {
+    for (int64_t I = 0; I < below->grid.n; I++, grid_advance_to_next_node_indices(&below->grid, k)) {
         unsigned odd = 0;
         int64_t J = 0;
         if (!node_acts(below, I)) continue;
@@ -138,7 +138,7 @@ static void matched_find(struct mesh *mesh)
     }
 }
 
-void levels_find_interfaces(struct mesh_levels *l)
+void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         interface_find(l, level);
@@ -162,7 +162,7 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta)
+void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
@@ -171,14 +171,14 @@ void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta)
             const struct mesh_ghost s = m->ghost[k];
             give(coarse->mass, s.coarse, fine->mass, s.fine, 1);
             coarse->mass[s.coarse] = 0;
-            for (int d = 0; d < fine->dim && momenta; d++) {
+            for (int d = 0; d < fine->dim && transfer_momenta; d++) {
                 give(coarse->momentum[d], s.coarse, fine->momentum[d], s.fine, 1);
                 coarse->momentum[d][s.coarse] = 0;
             }
         }
         for (int64_t k = 0; k < m->hangings; k++) {
             const struct mesh_hanging *h = &m->hanging[k];
-            for (int d = 0; d < fine->dim && momenta; d++) hanging_give(fine, h, d);
+            for (int d = 0; d < fine->dim && transfer_momenta; d++) hanging_give(fine, h, d);
             for (int q = 0; q < h->masters; q++) give(fine->mass, h->node, fine->mass, h->master[q], 1.0 / h->masters);
             fine->mass[h->node] = 0;
         }
@@ -190,14 +190,14 @@ void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta)
     }
 }
 
-void levels_make_cell_runs(struct mesh_levels *l)
+void levels_make_cell_rows_and_node_spans(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) mesh_cell_runs_make(&l->at[level].mesh);
-    mesh_node_spans_make(l->fine);
-    mesh_activate_blocks_at_cells(l->fine);
+    for (int level = 1; level <= l->n; level++) mesh_make_cell_rows_and_node_spans(&l->at[level].mesh);
+    mesh_find_node_spans_with_mass(l->fine);
+    mesh_activate_node_blocks_at_cells(l->fine);
 }
 
-void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt)
+void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt)
 {
     l->wave_speed = wave_speed;
     for (int level = 1; level <= l->n; level++) {

@@ -90,7 +90,7 @@ static void row_interpolate(struct mesh_levels *l, int64_t row)
     for (int64_t I = first; I < first + g->count[0]; I++, k[0]++) node_interpolate(l, I, k);
 }
 
-void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
+void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes)
 {
     struct mesh *fine = l->fine;
     if (all_nodes || !fine->absent) {
@@ -120,7 +120,7 @@ static void nodes_sample(struct mesh_levels *l)
     for (int level = 1; level <= l->n; level++) {
         struct mesh *mesh = &l->at[level].mesh;
         int64_t k[DIM_MAX] = {0};
-        for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, k)) {
+        for (int64_t J = 0; J < mesh->grid.n; J++, grid_advance_to_next_node_indices(&mesh->grid, k)) {
             const real mass = mesh->grid.mass[J];
             const int64_t I = mass > 0 ? levels_fine_node_of_coarse_node(l, level, k) : 0;
             for (int d = 0; d < fine->grid.dim; d++) {
@@ -141,7 +141,7 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     real sum = 0;
     for (int part = 0; part < parts; part++)
         for (int c = 0; c < 1 << dim; c++)
-            sum += field[levels_fine_cell_of_part(l, level, first, part) + l->fine->corner[c]];
+            sum += field[levels_fine_cell_in_coarse_cell(l, level, first, part) + l->fine->corner[c]];
     return sum / (real)(parts << dim);
 }
 
@@ -175,9 +175,9 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
         int64_t q[DIM_MAX] = {0};
-        for (int64_t J = 0; J < mesh->grid.n; J++, grid_indices_advance(&mesh->grid, q)) {
+        for (int64_t J = 0; J < mesh->grid.n; J++, grid_advance_to_next_node_indices(&mesh->grid, q)) {
             if (mesh->kind[J] != CELL_WHOLE) continue;
-            if (levels_any_part_is_finer(l, level, levels_fine_node_of_coarse_node(l, level, q), before))
+            if (levels_coarse_cell_contains_finer_level(l, level, levels_fine_node_of_coarse_node(l, level, q), before))
                 merged_correct(l, level, J, q);
         }
     }
@@ -196,7 +196,7 @@ static void velocities_make(struct mesh_levels *l)
                 mesh->grid.momentum[d][I] = mesh->grid.force[d][I] = 0;
             }
     }
-    levels_compute_momenta(l);
+    levels_compute_momenta_from_velocities(l);
 }
 
 /* Number of iterations w <- w + v - B w that solve B w = v to round-off, with the inverse mass matrix B of
@@ -205,7 +205,7 @@ static void velocities_make(struct mesh_levels *l)
 enum { MOMENTA_ROUNDS = 52 };
 #define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 
-void levels_compute_momenta(struct mesh_levels *l)
+void levels_compute_momenta_from_velocities(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         struct grid *g = &l->at[level].mesh.grid;
@@ -233,11 +233,11 @@ void levels_compute_momenta(struct mesh_levels *l)
 }
 
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
-                                       bool finite, real dt)
+                                       bool finite_strain, real dt)
 {
     mesh_clear(l->fine);
-    mesh_force(l->fine, p, m, finite);
-    levels_compute_forces(l, p, m, finite, l->n);
+    mesh_force(l->fine, p, m, finite_strain);
+    levels_compute_forces_of_coarse_cells(l, p, m, finite_strain, l->n);
     for (int level = 0; level <= l->n; level++) {
         struct mesh *mesh = level_mesh(l, level);
         const real half = 0.5 * dt * (real)(1 << level);
@@ -248,30 +248,30 @@ void levels_shift_velocities_half_step(struct mesh_levels *l, const struct parti
         }
         if (level > 0) mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
     }
-    for (int level = 1; level <= l->n; level++) levels_update_hanging(l, level);
-    levels_copy_motion_to_ghosts(l);
+    for (int level = 1; level <= l->n; level++) levels_interpolate_motion_of_hanging_nodes(l, level);
+    levels_copy_motion_to_ghost_nodes(l);
 }
 
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
-                              const uint8_t *level)
+                              const uint8_t *new_cell_level)
 {
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
-    levels_copy_motion_to_ghosts(l);
-    levels_interpolate_to_fine_nodes(l, true);
+    levels_copy_motion_to_ghost_nodes(l);
+    levels_interpolate_motion_to_fine_nodes(l, true);
     array_copy(before, l->level, cells, 1);
-    for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
-    array_copy(l->level, level, cells, 1);
-    mesh_update_after_level_change(l->fine, p, source, dirty);
-    levels_compute_coarse_cell_data(l, p);
-    levels_find_interfaces(l);
+    for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != new_cell_level[I];
+    array_copy(l->level, new_cell_level, cells, 1);
+    mesh_rebuild_cells_after_level_change(l->fine, p, source, dirty);
+    levels_compute_coarse_cells_and_masses(l, p);
+    levels_find_ghost_and_hanging_nodes(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
     levels_add_masses_of_dependent_nodes(l, true);
-    levels_make_cell_runs(l);
+    levels_make_cell_rows_and_node_spans(l);
     velocities_make(l);
-    for (int k = 1; k <= l->n; k++) levels_update_hanging(l, k);
-    levels_copy_motion_to_ghosts(l);
+    for (int k = 1; k <= l->n; k++) levels_interpolate_motion_of_hanging_nodes(l, k);
+    levels_copy_motion_to_ghost_nodes(l);
     levels_classify_distances_to_coarse_cells(l);
     l->changes++;
     memory_free(before);

@@ -96,7 +96,7 @@ static real spacings_across(const struct scene *s, const struct particles *p,
                             const struct cells_without_particles *hollow)
 {
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
-    const bool made = !hollow->absent || !region_bounding_box(&s->body[0].shape, s->dim, low, high);
+    const bool made = !hollow->absent || !region_compute_bounding_box_if_finite(&s->body[0].shape, s->dim, low, high);
     for (int d = 0; d < s->dim; d++) {
         if (made) particles_coordinate_range(p, p->n, d, &low[d], &high[d]), high[d] += s->spacing;
         extent[d] = (high[d] - low[d]) / s->spacing;
@@ -110,17 +110,19 @@ static real spacings_across(const struct scene *s, const struct particles *p,
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
 /* Computes r->room, the highest level that the thickness of the body allows in each cell, if scene s may have coarse
- * cells; otherwise r->room remains NULL. particles: number of particles of the body, including those not created. */
-void mesh_levels_find_highest_allowed(struct reference_frame *r, const struct scene *s, int64_t particles)
+ * cells; otherwise r->room remains NULL. particle_count: number of particles of the body, including those not created.
+ */
+void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
+                                                   int64_t particle_count)
 {
     if (!scene_is_dynamic(s) || r->mesh.points == 0 || s->levels == 0) return;
-    if (s->levels == LEVELS_AUTO && particles < PAYS) return;
+    if (s->levels == LEVELS_AUTO && particle_count < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
     r->room_most = mesh_compute_highest_cell_levels(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
-struct levels_choice mesh_levels_choose_count(const struct reference_frame *r, const struct particles *p,
-                                              const struct scene *s, real dt_critical)
+struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
+                                                    const struct scene *s, real dt_critical)
 {
     struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
                               .particles = p->n_body,
@@ -228,7 +230,7 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  edge, load, c->across, ACROSS);
 }
 
-void mesh_levels_describe_choice(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
+void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text, size_t capacity)
 {
     char why[600];
     automatic_text(c, s, why, sizeof why);
@@ -264,8 +266,8 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t capaci
     return true;
 }
 
-bool mesh_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                              char *reason, size_t capacity)
+bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *r,
+                                       const struct scene *s, char *reason, size_t capacity)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;

@@ -117,27 +117,27 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX] = {0};
     uint8_t *good = NEW("levels.good", g->n, uint8_t);
     bool *inside = NEW("levels.inside", g->n, bool);
-    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k))
+    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_advance_to_next_node_indices(&l->fine->grid, k))
         if (l->fine->kind[I] != CELL_EMPTY) inside[levels_coarse_cell_of_fine_cell(l, level, k, NULL)] = true;
-    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
+    for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, q))
         if (inside[I]) gather_parts(map, l, level, I, q);
-    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, q))
+    for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, q))
         good[I] = map[level].ok[I] && (level > 1 ? ring_allows(map, l, level, q) : ring_of_first(map, l, q));
     array_copy(map[level].ok, good, g->n, 1);
     memory_free(good);
     memory_free(inside);
 }
 
-void levels_compute_coarsest_admissible(const struct mesh_levels *l, const struct particles *p,
-                                        const uint8_t *finest_required, const uint8_t *highest_level,
-                                        uint8_t *admissible)
+void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
+                                               const uint8_t *finest_required, const uint8_t *highest_level,
+                                               uint8_t *admissible)
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
     for (int level = 0; level <= l->n; level++) map[level] = level_map_make(level_mesh_read_only(l, level)->grid.n);
     base_map(&map[0], l, p, finest_required, highest_level);
     for (int level = 1; level <= l->n; level++) level_map_find(map, l, level);
-    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_indices_advance(&l->fine->grid, k)) {
+    for (int64_t I = 0; I < l->fine->grid.n; I++, grid_advance_to_next_node_indices(&l->fine->grid, k)) {
         admissible[I] = 0;
         while (map[0].ok[I] && admissible[I] < l->n &&
                map[admissible[I] + 1].ok[levels_coarse_cell_of_fine_cell(l, admissible[I] + 1, k, NULL)])
@@ -151,13 +151,13 @@ bool levels_are_consistent(const struct mesh_levels *l)
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;
     bool sound = true;
-    for (int64_t I = 0; I < g->n && sound; I++, grid_indices_advance(g, k)) {
+    for (int64_t I = 0; I < g->n && sound; I++, grid_advance_to_next_node_indices(g, k)) {
         const int level = l->level[I];
         coarse += level > 0;
         sound = level <= l->n && (level > 0 || !l->fine->absent || !l->fine->absent[I]);
         if (level == 0 || !sound || !levels_fine_cell_is_at_lower_corner(l, level, k)) continue;
         for (int part = 0; part < levels_fine_cells_per_cell(l, level) && sound; part++, covered++) {
-            const int64_t J = levels_fine_cell_of_part(l, level, I, part);
+            const int64_t J = levels_fine_cell_in_coarse_cell(l, level, I, part);
             sound = J < g->n && l->level[J] == level &&
                     (l->fine->kind[J] == CELL_WHOLE || (l->fine->absent && l->fine->absent[J]));
         }
@@ -181,33 +181,36 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
     }
 }
 
-void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach)
+void grid_mark_cells_near_marked_cells(const struct grid *g, uint8_t *cell_is_marked, int reach_in_cells)
 {
     for (int d = 0; d < g->dim; d++) { /* lines start in blocks of one stride, separated by the length of a line */
         const int64_t stride = g->stride[d], lines = g->n / g->count[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < lines; k++)
-            line_dilate(mark + k / stride * stride * g->count[d] + k % stride, g->count[d], stride, reach);
+            line_dilate(cell_is_marked + k / stride * stride * g->count[d] + k % stride, g->count[d], stride,
+                        reach_in_cells);
     }
 }
 
-void levels_dilate_marks(const struct mesh_levels *l, uint8_t *mark, int reach)
+void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells)
 {
-    grid_dilate_marks(&l->fine->grid, mark, reach);
+    grid_mark_cells_near_marked_cells(&l->fine->grid, cell_is_marked, reach_in_cells);
 }
 
-void levels_extend_marks_to_coarse_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
+void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, const uint8_t *cell_level,
+                                                  uint8_t *cell_is_marked)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
-        const int parts = level[I] > 0 && levels_fine_cell_is_at_lower_corner(l, level[I], k)
-                              ? levels_fine_cells_per_cell(l, level[I])
+    for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
+        const int parts = cell_level[I] > 0 && levels_fine_cell_is_at_lower_corner(l, cell_level[I], k)
+                              ? levels_fine_cells_per_cell(l, cell_level[I])
                               : 0;
         bool any = false;
         for (int part = 0; part < parts && !any; part++)
-            any = mark[levels_fine_cell_of_part(l, level[I], I, part)] != 0;
-        for (int part = 0; part < parts && any; part++) mark[levels_fine_cell_of_part(l, level[I], I, part)] = 1;
+            any = cell_is_marked[levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] != 0;
+        for (int part = 0; part < parts && any; part++)
+            cell_is_marked[levels_fine_cell_in_coarse_cell(l, cell_level[I], I, part)] = 1;
     }
 }
 
@@ -222,8 +225,8 @@ void levels_classify_distances_to_coarse_cells(struct mesh_levels *l)
     const int64_t n = l->fine->grid.n;
     uint8_t *near = NEW("levels.near", n, uint8_t);
     for (int64_t I = 0; I < n; I++) l->safe[I] = near[I] = l->level[I] > 0;
-    levels_dilate_marks(l, l->safe, l->safe_cells);
-    levels_dilate_marks(l, near, l->roomy_cells);
+    levels_mark_cells_near_marked_cells(l, l->safe, l->safe_cells);
+    levels_mark_cells_near_marked_cells(l, near, l->roomy_cells);
     for (int64_t I = 0; I < n; I++)
         l->safe[I] = l->safe[I] ? DISTANCE_UNSAFE : near[I] ? DISTANCE_SAFE : DISTANCE_ROOMY;
     memory_free(near);

@@ -138,16 +138,16 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     uint8_t *flank = NEW("levels.flank", n, uint8_t);
     for (int64_t I = 0; I < n; I++) demand[I] = l->wanted[I] != WANTED_NOT;
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
-    levels_dilate_marks(l, demand, l->roomy_cells + more);
+    levels_mark_cells_near_marked_cells(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    levels_dilate_marks(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    levels_mark_cells_near_marked_cells(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
     for (int b = 0; b < loads->n; b++)
         for (int64_t k = 0; k < loads->load[b].n; k++) fixed[cell_of(l->fine, p, loads->load[b].particle[k])] = 1;
     demand_mirrors(r, loads, fixed);
     rings_cells(r, fixed);
-    levels_dilate_marks(l, fixed, 1);
+    levels_mark_cells_near_marked_cells(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
     return demand;
@@ -168,7 +168,7 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
                  g->stride[d];
         own[I] = mark[J];
     }
-    levels_dilate_marks(l, own, AROUND_STRESS);
+    levels_mark_cells_near_marked_cells(l, own, AROUND_STRESS);
     for (int64_t I = 0; I < fine->n; I++) demand[I] |= own[I];
     memory_free(own);
 }
@@ -217,12 +217,12 @@ static void next_levels(struct reference_frame *r, const struct particles *p, re
                         uint8_t *limit, uint8_t *level)
 {
     struct mesh_levels *l = &r->levels;
-    levels_compute_coarsest_admissible(l, p, demand, limit, level);
+    levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
     const real most = ROUGH * (reference_frame_kinetic_energy(r) + reference_frame_strain_energy(r, p)) / mass;
     levels_prolong_motion_to_fine_nodes(l);
     while (levels_forbid_lossy_coarsening(l, level, most, limit))
-        levels_compute_coarsest_admissible(l, p, demand, limit, level);
+        levels_compute_coarsest_admissible_levels(l, p, demand, limit, level);
 }
 
 void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
@@ -230,7 +230,7 @@ void mesh_levels_update_node_lists(struct reference_frame *r, const struct parti
 {
     struct mesh_levels *l = &r->levels;
     for (int k = 1; k <= l->n; k++) loads_find_driven_coarse_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
-    reference_frame_find_exposed_points(r, p, bonds, loads);
+    reference_frame_list_bonded_or_loaded_points(r, p, bonds, loads);
 }
 
 /* Changes the levels of cells to level[I]. The kinetic and strain energy that the change loses is added to e->damped,
@@ -248,14 +248,14 @@ static void change(struct run *e, const uint8_t *level)
     levels_shift_velocities_half_step(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
-status mesh_levels_make_coarse_cells(struct run *e, bool restored)
+status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint)
 {
     struct reference_frame *r = e->frame;
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    const struct levels_choice choice = mesh_levels_choose_count(r, &e->part, s, e->clock.dt_critical);
-    TRY(levels_make(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
+    const struct levels_choice choice = mesh_levels_choose_level_count(r, &e->part, s, e->clock.dt_critical);
+    TRY(levels_make_over_finest_mesh(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
@@ -264,10 +264,10 @@ status mesh_levels_make_coarse_cells(struct run *e, bool restored)
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (r->levels.n == 0) {
-        initial_levels_have_particles(r, NULL);
+        initial_levels_have_all_needed_particles(r, NULL);
         return OK;
     }
-    levels_match_dispersion(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
+    levels_match_wave_dispersion_of_bonds(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
     /* a point converts with its neighbours, these get bonds, and the families at their other ends extend one horizon
      * more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
@@ -275,7 +275,7 @@ status mesh_levels_make_coarse_cells(struct run *e, bool restored)
     levels_set_conversion_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
         loads_find_driven_coarse_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
-    if (restored) return OK;
+    if (levels_from_checkpoint) return OK;
     uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
     uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
     marks_add(&r->levels, stressed, demand);
@@ -283,7 +283,7 @@ status mesh_levels_make_coarse_cells(struct run *e, bool restored)
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
     limit_by_room(r, limit);
     next_levels(r, &e->part, e->mass, demand, limit, level);
-    if (initial_levels_have_particles(r, level)) change(e, level);
+    if (initial_levels_have_all_needed_particles(r, level)) change(e, level);
     memory_free(limit);
     e->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
@@ -337,17 +337,17 @@ static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
     array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
-bool mesh_levels_may_change(const struct mesh_levels *l, int64_t step)
+bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step)
 {
     return l->n > 0 && step > 0 && step % levels_steps_per_cycle(l) == 0;
 }
 
-uint8_t *mesh_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                                 int64_t step, real mass)
+uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
+                                           const struct loads *loads, int64_t step, real mass)
 {
     struct mesh_levels *l = &r->levels;
     const bool checks = step % CHECK_STEPS == 0;
-    levels_copy_motion_to_ghosts(l);
+    levels_copy_motion_to_ghost_nodes(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
     if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
@@ -362,10 +362,10 @@ uint8_t *mesh_levels_choose_next(struct reference_frame *r, const struct particl
     return level;
 }
 
-void mesh_levels_apply(struct run *e, const uint8_t *level)
+void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level)
 {
     struct mesh_levels *l = &e->frame->levels;
-    if (!arrays_equal(level, l->level, l->fine->grid.n, 1)) change(e, level);
+    if (!arrays_equal(new_cell_level, l->level, l->fine->grid.n, 1)) change(e, new_cell_level);
     lost_bonds_return(l, &e->part);
     l->any_wanted = false;
 }
@@ -385,7 +385,7 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void mesh_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
+void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p)
 {
     l->returned = false;
     if (l->n == 0 || !particles_any_is_flagged_for_conversion(p)) return;
@@ -400,10 +400,11 @@ void mesh_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
 /* Returns the kinetic energy of all nodes of the reference frame, over all levels [J]. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference)
 {
-    return mesh_kinetic(&reference->mesh) + levels_kinetic_energy(&reference->levels);
+    return mesh_kinetic(&reference->mesh) + levels_kinetic_energy_of_coarse_levels(&reference->levels);
 }
 
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p)
 {
-    return mesh_strain(&r->mesh, p, r->elastic, r->finite) + levels_strain_energy(&r->levels, p, r->elastic, r->finite);
+    return mesh_strain(&r->mesh, p, r->elastic, r->finite) +
+           levels_strain_energy_of_coarse_cells(&r->levels, p, r->elastic, r->finite);
 }

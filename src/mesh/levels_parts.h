@@ -5,18 +5,18 @@
 #include "mesh/levels.h"
 #include "mesh_parts.h"
 
-/* Computes the indices `index` of node `node` along the axes of grid g, index[d] = 0 ... g->count[d] - 1; 0 for axes
- * beyond g->dim. */
-static inline void grid_indices_of_node(const struct grid *g, int64_t node, int64_t *index)
+/* Computes the indices `axis_index` of node `node` along the axes of grid g, axis_index[d] = 0 ... g->count[d] - 1; 0
+ * for axes beyond g->dim. */
+static inline void grid_indices_of_node(const struct grid *g, int64_t node, int64_t *axis_index)
 {
-    for (int d = 0; d < DIM_MAX; d++) index[d] = d < g->dim ? node / g->stride[d] % g->count[d] : 0;
+    for (int d = 0; d < DIM_MAX; d++) axis_index[d] = d < g->dim ? node / g->stride[d] % g->count[d] : 0;
 }
 
-/* Advances the indices `index` of a node along the axes of grid g to those of the next node, first axis fastest, for a
- * loop over all nodes that starts with `index` = 0. */
-static inline void grid_indices_advance(const struct grid *g, int64_t *index)
+/* Advances the indices `axis_index` of a node along the axes of grid g to those of the next node, first axis fastest,
+ * for a loop over all nodes that starts with `axis_index` = 0. */
+static inline void grid_advance_to_next_node_indices(const struct grid *g, int64_t *axis_index)
 {
-    for (int d = 0; d < g->dim && ++index[d] == g->count[d]; d++) index[d] = 0;
+    for (int d = 0; d < g->dim && ++axis_index[d] == g->count[d]; d++) axis_index[d] = 0;
 }
 
 /* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). fine_index:
@@ -64,33 +64,33 @@ static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int le
     return 1 << l->fine->grid.dim * level;
 }
 
-/* Returns the index of cell number `cell_number` of those cells of level 0 (the finest) that form one cell of
+/* Returns the index of cell number `number_in_coarse_cell` of those cells of level 0 (the finest) that form one cell of
  * refinement level `level`. first_cell: index of the one at the lower corner. */
-static inline int64_t levels_fine_cell_of_part(const struct mesh_levels *l, int level, int64_t first_cell,
-                                               int cell_number)
+static inline int64_t levels_fine_cell_in_coarse_cell(const struct mesh_levels *l, int level, int64_t first_cell,
+                                                      int number_in_coarse_cell)
 {
-    for (int d = 0; d < l->fine->grid.dim; d++, cell_number >>= level)
-        first_cell += (cell_number & ((1 << level) - 1)) * l->fine->grid.stride[d];
+    for (int d = 0; d < l->fine->grid.dim; d++, number_in_coarse_cell >>= level)
+        first_cell += (number_in_coarse_cell & ((1 << level) - 1)) * l->fine->grid.stride[d];
     return first_cell;
 }
 
 /* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
  * `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0 at the lower
  * corner. */
-static inline bool levels_any_part_is_finer(const struct mesh_levels *l, int level, int64_t first_cell,
-                                            const uint8_t *cell_level)
+static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_levels *l, int level, int64_t first_cell,
+                                                           const uint8_t *cell_level)
 {
     bool any = false;
     for (int part = 0; part < levels_fine_cells_per_cell(l, level) && !any; part++)
-        any = cell_level[levels_fine_cell_of_part(l, level, first_cell, part)] < level;
+        any = cell_level[levels_fine_cell_in_coarse_cell(l, level, first_cell, part)] < level;
     return any;
 }
 
 /* Returns the material number of cell `cell` of level 0 (the finest), which must be completely filled. If the particles
  * of the cell are not made, the body has only one material, and that one is returned. */
-static inline uint8_t mesh_whole_cell_material(const struct mesh *fine, const struct particles *p, int64_t cell)
+static inline uint8_t mesh_whole_cell_material(const struct mesh *finest_mesh, const struct particles *p, int64_t cell)
 {
-    const int32_t i = fine->point[cell << fine->grid.dim];
+    const int32_t i = finest_mesh->point[cell << finest_mesh->grid.dim];
     return p->material[i >= 0 ? i : 0];
 }
 
@@ -102,39 +102,39 @@ static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t ce
 
 /* Copies displacement and velocity to the ghosts of a refinement level, the nodes at positions of nodes of the next
  * finer level, from these nodes. */
-void levels_update_ghosts(struct mesh_levels *l, int level);
+void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level);
 
 /* Sets displacement and velocity of the hanging nodes of level - 1, the nodes in the middle of edges or faces of cells
  * of `level`, to the mean of the nodes at the ends or corners. */
-void levels_update_hanging(struct mesh_levels *l, int level);
+void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level);
 
 /* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
  * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
  * between levels follows in levels_add_masses_of_dependent_nodes. */
-void levels_compute_coarse_cell_data(struct mesh_levels *l, const struct particles *p);
+void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
 
 /* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
  * hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose inertia is
- * matched to the dispersion of the bonds (levels_match_dispersion). */
-void levels_find_interfaces(struct mesh_levels *l);
+ * matched to the dispersion of the bonds (levels_match_wave_dispersion_of_bonds). */
+void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
 
 /* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
- * of an edge or face of a coarser cell) to the nodes that determine their motion. momenta: true to transfer their
- * momentum in grid.momentum [kg m/s], too. */
-void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool momenta);
+ * of an edge or face of a coarser cell) to the nodes that determine their motion. transfer_momenta: true to transfer
+ * their momentum in grid.momentum [kg m/s], too. */
+void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
 /* Finds the runs of all refinement levels (rows of consecutive cells of equal material), the spans of nodes with mass,
  * and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
-void levels_make_cell_runs(struct mesh_levels *l);
+void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
  * cell of level 0. all_nodes: true for all such nodes, false for those with particles in an adjacent cell. */
-void levels_interpolate_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
+void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nodes);
 
 /* Computes grid.momentum of the nodes of coarse cells, their momentum divided by their mass [m/s], from their
  * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
  * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
-void levels_compute_momenta(struct mesh_levels *l);
+void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 
 /* Returns true if the refinement levels are consistent: all cells of level 0 in a coarse cell have its level, and
  * coarse cells are completely filled. */

@@ -41,21 +41,22 @@ static real departure(const struct mesh_levels *l, int level, const int64_t *q)
     return real_max(sum / nodes, 0.5 * fabs(squares));
 }
 
-bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *level, real max_energy,
+bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *intended_cell_level, real max_energy,
                                     uint8_t *highest_level)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, q[DIM_MAX];
     bool any = false;
-    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
-        if (level[I] == 0 || !levels_fine_cell_is_at_lower_corner(l, level[I], k) ||
-            !levels_any_part_is_finer(l, level[I], I, l->level))
+    for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
+        if (intended_cell_level[I] == 0 || !levels_fine_cell_is_at_lower_corner(l, intended_cell_level[I], k) ||
+            !levels_coarse_cell_contains_finer_level(l, intended_cell_level[I], I, l->level))
             continue;
-        levels_coarse_cell_of_fine_cell(l, level[I], k, q);
-        if (!(departure(l, level[I], q) > max_energy)) continue;
+        levels_coarse_cell_of_fine_cell(l, intended_cell_level[I], k, q);
+        if (!(departure(l, intended_cell_level[I], q) > max_energy)) continue;
         any = true;
-        for (int part = 0; part < levels_fine_cells_per_cell(l, level[I]); part++)
-            highest_level[levels_fine_cell_of_part(l, level[I], I, part)] = level[I] - 1;
+        for (int part = 0; part < levels_fine_cells_per_cell(l, intended_cell_level[I]); part++)
+            highest_level[levels_fine_cell_in_coarse_cell(l, intended_cell_level[I], I, part)] =
+                intended_cell_level[I] - 1;
     }
     return any;
 }

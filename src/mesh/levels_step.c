@@ -3,7 +3,7 @@
 
 #include "levels_parts.h"
 
-int levels_highest_due_in_step(const struct mesh_levels *l, int64_t step)
+int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step)
 {
     int due = 0;
     while (due < l->n && step % ((int64_t)2 << due) == 0) due++;
@@ -22,7 +22,7 @@ static void ghosts_displace(struct mesh_levels *l, int level)
             m->mesh.displacement[d][m->ghost[k].coarse] = fine->displacement[d][m->ghost[k].fine];
 }
 
-void levels_update_ghosts(struct mesh_levels *l, int level)
+void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
     const struct mesh *fine = level_mesh(l, level - 1);
@@ -41,7 +41,7 @@ static real mean_of(const struct mesh_hanging *h, const real *field)
     return sum / h->masters;
 }
 
-void levels_update_hanging(struct mesh_levels *l, int level)
+void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
     struct mesh *fine = level_mesh(l, level - 1);
@@ -84,22 +84,22 @@ static void ghosts_fold(struct mesh_levels *l, int level)
         }
 }
 
-void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
-                           int highest_level)
+void levels_compute_forces_of_coarse_cells(struct mesh_levels *l, const struct particles *p, const struct elastic *m,
+                                           bool finite_strain, int highest_level)
 {
     for (int level = 1; level <= highest_level; level++) {
         struct mesh *mesh = &l->at[level].mesh;
         if (mesh->points == 0) continue;
         ghosts_displace(l, level);
         mesh_clear(mesh);
-        mesh_force(mesh, p, m, finite);
+        mesh_force(mesh, p, m, finite_strain);
     }
     for (int level = 1; level <= highest_level + 1 && level <= l->n; level++) hanging_fold(l, level);
     for (int level = 1; level <= highest_level; level++) ghosts_fold(l, level);
 }
 
-real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int highest_level, real impulse[DIM_MAX],
-                       real *work)
+real levels_move_nodes_return_largest_velocity(struct mesh_levels *l, real dt, real dt_velocity, int highest_level,
+                                               real impulse[DIM_MAX], real *work)
 {
     real most = 0;
     for (int level = 0; level <= highest_level; level++) {
@@ -107,7 +107,7 @@ real levels_move_nodes(struct mesh_levels *l, real dt, real dt_velocity, int hig
         const real longer = (real)(1 << level);
         if (mesh->points == 0) continue;
         most = real_max(most, mesh_move(mesh, longer * dt, longer * dt_velocity, impulse, work));
-        if (level < l->n) levels_update_hanging(l, level + 1);
+        if (level < l->n) levels_interpolate_motion_of_hanging_nodes(l, level + 1);
     }
     return most;
 }

@@ -27,13 +27,13 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-int64_t mesh_cell_and_number_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i)
+int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
     int q = 0;
     for (int d = 0; d < p->dim; d++) {
-        const real at = (p->X[d][i] - g->anchor[d]) / g->h - (real)g->first[d];
+        const real at = (p->X[d][particle] - g->anchor[d]) / g->h - (real)g->first[d];
         const int64_t k = (int64_t)floor(at);
         const bool upper = at - (real)k > 0.5;
         if (fabs(at - (real)k - (upper ? 0.75 : 0.25)) > PLACE_TOLERANCE) return -1;
@@ -53,7 +53,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = mesh_cell_and_number_of_particle(mesh, p, i);
+        const int64_t place = mesh_packed_cell_and_point_of_particle(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
                                "is not one of two particles per grid cell and direction, which require a lattice, "
@@ -152,7 +152,7 @@ static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4
 
 /* Stores in mesh->span for each row of nodes the range from the first to behind the last node with mass. The range may
  * contain nodes without mass. */
-void mesh_node_spans_make(struct mesh *mesh)
+void mesh_find_node_spans_with_mass(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
 #pragma omp parallel for schedule(static)
@@ -199,7 +199,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial old = mesh_partial_remove_all_cells(mesh);
+    struct mesh_partial old = mesh_partial_remove_and_return_cells(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -207,27 +207,27 @@ static void cells_sort_out(struct mesh *mesh, const struct particles *p, const s
         for (int64_t I = next_marked_index(dirty, 0, mesh->grid.n); I < mesh->grid.n;
              I = next_marked_index(dirty, I + 1, mesh->grid.n))
             mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
-    mesh_node_spans_make(mesh);
+    mesh_find_node_spans_with_mass(mesh);
     cells_list(mesh, p);
     mesh_partial_compute_stiffness(mesh, p, s, dirty, &old);
 }
 
-void mesh_activate_blocks_at_cells(struct mesh *mesh)
+void mesh_activate_node_blocks_at_cells(struct mesh *mesh)
 {
     struct active_set *r = &mesh->active;
     array_fill_bytes(r->level, 0, r->blocks, 1);
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
             r->level[mesh_block_of_node(mesh, mesh_cell_corner_node(mesh, I, c))] = 1;
-    active_set_rebuild_list(r);
+    active_set_rebuild_active_block_list(r);
     r->empty = r->blocks - r->active;
 }
 
-void mesh_cell_runs_make(struct mesh *mesh)
+void mesh_make_cell_rows_and_node_spans(struct mesh *mesh)
 {
-    mesh_node_spans_make(mesh);
+    mesh_find_node_spans_with_mass(mesh);
     cells_list(mesh, NULL);
-    mesh_activate_blocks_at_cells(mesh);
+    mesh_activate_node_blocks_at_cells(mesh);
 }
 
 /* Recomputes the masses of the nodes at the corners of coarse cells and of the cells I with dirty[I]: those of the
@@ -244,40 +244,40 @@ static void nodes_weigh(struct mesh *mesh, const struct particles *p, const uint
     memory_free(changed);
 }
 
-void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                    const uint8_t *dirty)
+void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                                           const uint8_t *level_has_changed)
 {
-    nodes_weigh(mesh, p, dirty);
-    cells_sort_out(mesh, p, s, dirty);
+    nodes_weigh(mesh, p, level_has_changed);
+    cells_sort_out(mesh, p, s, level_has_changed);
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates all arrays of a mesh that covers the box `lower` .. `upper` [m], without points or cells. node_grid:
- * dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes, NULL if there are no slits;
- * source: slits and voids. Returns FAILED, with a message, if the mesh has too many nodes. */
-status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
-                         const struct particles *p, const struct mesh_source *source)
+/* Allocates all arrays of a mesh that covers the box `lower_corner` .. `upper_corner` [m], without points or cells.
+ * node_grid: dimension, edge and origin of the nodes; p: particles whose slits divide cells and nodes, NULL if there
+ * are no slits; source: slits and voids. Returns FAILED, with a message, if the mesh has too many nodes. */
+status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
+                         const real *upper_corner, const struct particles *p, const struct mesh_source *source)
 {
     struct grid *g = &mesh->grid;
     const int dim = node_grid->dim;
     real high[DIM_MAX] = {0};
     bool changed;
     g->dim = dim, g->h = node_grid->h;
-    for (int d = 0; d < dim; d++) g->anchor[d] = node_grid->anchor[d], high[d] = upper[d];
+    for (int d = 0; d < dim; d++) g->anchor[d] = node_grid->anchor[d], high[d] = upper_corner[d];
     high[0] += LANES * g->h; /* whole vectors are read and written beyond the last cell of a row */
-    TRY(grid_extend_box(g, lower, high, INT32_MAX >> dim, &changed));
+    TRY(grid_extend_box(g, lower_corner, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
-    if (p) TRY(mesh_slits_double_nodes(mesh, p, source, lower, high));
+    if (p) TRY(mesh_slits_double_nodes(mesh, p, source, lower_corner, high));
     for (int d = 0; d < dim; d++) mesh->displacement[d] = NEW("mesh.displacement", g->n, real);
     mesh->inverse_mass = NEW("mesh.inverse_mass", g->n, real);
     mesh->kind = NEW("mesh.kind", g->n, uint8_t);
     mesh->rows = g->n / g->count[0];
     mesh->span = NEW("mesh.span", 2 * mesh->rows, int32_t);
     mesh->segments = (g->count[0] + LANES - 2) / LANES + 1;
-    active_set_make(&mesh->active, mesh->rows * mesh->segments);
-    mesh_slits_link_blocks(mesh);
+    active_set_make_with_all_blocks_active(&mesh->active, mesh->rows * mesh->segments);
+    mesh_slits_link_blocks_of_doubled_nodes(mesh);
     mesh->rounding = scalbn(1.5, ilogb(g->h) - DISPLACEMENT_BITS + DBL_MANT_DIG - 1);
     mesh->band = NEW("mesh.band", g->count[dim - 1] + 2, int64_t);
     return OK;
@@ -349,7 +349,7 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *node
         if (p->flag[i] & FLAG_MESHED && p->kind[i] != KIND_MPM) p->flag[i] &= (uint8_t)~FLAG_MESHED;
         meshed += (p->flag[i] & FLAG_MESHED) != 0;
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
     if (meshed == 0) return OK;
     TRY(nodes_make(mesh, p, node_grid, source));
     TRY(points_place(mesh, p));
@@ -423,15 +423,15 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
 }
 
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
-                                               const int32_t *changed, int64_t n)
+                                               const int32_t *changed_points, int64_t changed_count)
 {
     real energy = 0;
     if (!mesh->place) return 0;
-    uint8_t *left = mesh_cell_marks_new("mesh.left", mesh),
-            *dirty = changed ? mesh_cell_marks_new("mesh.dirty", mesh) : NULL;
-    for (int64_t k = 0; k < n && changed; k++)
-        if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
-    particles_update_kind_lists(p);
+    uint8_t *left = mesh_allocate_byte_for_each_cell("mesh.left", mesh),
+            *dirty = changed_points ? mesh_allocate_byte_for_each_cell("mesh.dirty", mesh) : NULL;
+    for (int64_t k = 0; k < changed_count && changed_points; k++)
+        if (mesh->place[changed_points[k]] >= 0) dirty[mesh->place[changed_points[k]] >> p->dim] = 1;
+    particles_rebuild_lists_by_kind(p);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         if (mesh->place[i] < 0) continue;
@@ -446,14 +446,15 @@ real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particl
     return energy;
 }
 
-bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                   const int32_t *changed, int64_t n)
+bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
+                                            const struct mesh_source *source, const int32_t *changed_points,
+                                            int64_t changed_count)
 {
     uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
     bool same = true;
-    for (int64_t k = 0; k < n && same; k++) {
-        const int64_t cell = mesh->place[changed[k]] >> p->dim;
-        if (mesh->place[changed[k]] < 0 || dirty[cell]) continue;
+    for (int64_t k = 0; k < changed_count && same; k++) {
+        const int64_t cell = mesh->place[changed_points[k]] >> p->dim;
+        if (mesh->place[changed_points[k]] < 0 || dirty[cell]) continue;
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
@@ -462,7 +463,7 @@ bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p,
     return same;
 }
 
-status mesh_save_or_load(struct mesh *mesh, struct archive *a)
+status mesh_save_or_load_node_motion(struct mesh *mesh, struct archive *a)
 {
     if (mesh->grid.n == 0) return OK;
     for (int d = 0; d < mesh->grid.dim; d++) {

@@ -69,24 +69,25 @@ static unsigned lanes_in_mesh(const struct mesh *mesh, const struct bonds *b, in
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {
-    const unsigned points = row_block_has_eight_pd_particles(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
-    const unsigned intact = points ? points & row_block_lanes_with_intact_bonds(b, g) : 0;
+    const unsigned points = bond_row_block_has_eight_pd_particles(b, g) ? 0 : lanes_in_mesh(mesh, b, g);
+    const unsigned intact = points ? points & bond_row_block_lanes_with_intact_bonds(b, g) : 0;
     struct column_copy column;
     for (int lane = 0; lane < LANES; lane++)
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
-    const int64_t columns = row_block_may_meet_images(b, p, g) ? row_block_column_count(b, g) : 0;
+    const int64_t columns = bond_row_block_may_have_bonds_to_images(b, p, g) ? bond_row_block_column_count(b, g) : 0;
     for (int64_t k = 0; k < columns; k++) {
         if (!meets_images(b, p, g, k)) continue;
-        bond_column_read(&column, b, g, k);
+        bond_column_read_eight_bonds(&column, b, g, k);
         images_expose(e, mesh, p, l->image, column.nbr);
     }
 }
 
-void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
-                              const struct loads *l)
+void mesh_list_bonded_or_loaded_points(struct mesh *mesh, const struct particles *p, const struct bonds *b,
+                                       const struct loads *l)
 {
     if (!mesh->place) return;
-    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t), mesh_cell_marks_new("mesh.exposed_cells", mesh)};
+    struct exposure e = {NEW("mesh.exposed_points", p->n, uint8_t),
+                         mesh_allocate_byte_for_each_cell("mesh.exposed_cells", mesh)};
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < b->row_blocks; g++) row_block_expose(&e, mesh, p, b, l, g);
     for (int k = 0; k < l->n; k++) { /* driven points and absorbing faces act on nodes */
@@ -100,5 +101,5 @@ void mesh_find_exposed_points(struct mesh *mesh, const struct particles *p, cons
         cell_expose(mesh, e.point, I);
     memory_free(e.point);
     memory_free(e.cell);
-    active_nodes_add_exposed_points(mesh);
+    active_nodes_add_blocks_at_exposed_points(mesh);
 }

@@ -20,7 +20,8 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     uint8_t *mark = NEW("mesh_insert.mark", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < n; k++)
         for (int c = 0; c < 1 << p->dim; c++)
-            mark[mesh_cell_corner_node(mesh, mesh_cell_and_number_of_particle(mesh, p, list[k]) >> p->dim, c)] = 1;
+            mark[mesh_cell_corner_node(mesh, mesh_packed_cell_and_point_of_particle(mesh, p, list[k]) >> p->dim, c)] =
+                1;
     for (int64_t I = 0; I < mesh->grid.n; I++) t->n += mark[I];
     t->at = NEW("mesh_insert.node", t->n, int32_t);
     t->n = 0;
@@ -50,7 +51,7 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
     for (int64_t k = 0; k < n; k++) {
         const int32_t i = list[k];
-        const int64_t place = mesh_cell_and_number_of_particle(mesh, p, i);
+        const int64_t place = mesh_packed_cell_and_point_of_particle(mesh, p, i);
         mesh->place[i] = (int32_t)place;
         mesh->point[place] = i;
         mesh->points++;
@@ -85,25 +86,27 @@ static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p
     }
 }
 
-real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n)
+real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
+                                               int64_t inserted_count)
 {
     struct nodes t = {0};
     real *u[DIM_MAX], energy = 0;
-    nodes_find(&t, mesh, p, list, n);
+    nodes_find(&t, mesh, p, inserted_points, inserted_count);
     mesh_points_move(mesh, p); /* displacements are fitted to these points, too */
-    for (int64_t k = 0; k < n; k++)
-        for (int d = 0; d < p->dim; d++) energy += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
+    for (int64_t k = 0; k < inserted_count; k++)
+        for (int d = 0; d < p->dim; d++)
+            energy += 0.5 * p->mass[inserted_points[k]] * square(p->v[d][inserted_points[k]]);
     energy += kinetic_of(mesh, &t);
     uint8_t *light = NEW("mesh_insert.light", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < t.n; k++) light[t.at[k]] = mesh->grid.mass[t.at[k]] == 0;
-    points_enter(mesh, p, &t, list, n);
+    points_enter(mesh, p, &t, inserted_points, inserted_count);
     energy -= kinetic_of(mesh, &t);
     for (int d = 0; d < p->dim; d++) {
         u[d] = NEW("mesh_insert.u", p->n, real);
         for (int64_t i = 0; i < p->n; i++) u[d][i] = p->x[d][i] - p->X[d][i];
     }
-    mesh_insert_nodes_start(mesh, p, light, list, n);
-    mesh_fit_listed_nodes(mesh, p, u, mesh->displacement, t.at, t.n);
+    mesh_insert_nodes_start(mesh, p, light, inserted_points, inserted_count);
+    mesh_fit_values_of_listed_nodes(mesh, p, u, mesh->displacement, t.at, t.n);
     for (int d = 0; d < p->dim; d++) memory_free(u[d]);
     memory_free(light);
     memory_free(t.at);

@@ -48,7 +48,7 @@ static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64
     return first;
 }
 
-bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell)
+bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell)
 {
     const int dim = mesh->grid.dim;
     bool inverted = false;
@@ -57,7 +57,7 @@ bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell)
     return inverted;
 }
 
-int64_t mesh_find_inverted_point(const struct mesh *mesh, const struct particles *p)
+int64_t mesh_first_particle_in_inverted_cell(const struct mesh *mesh, const struct particles *p)
 {
     int64_t first = p->n;
 #pragma omp parallel for schedule(static) reduction(min : first)

@@ -18,7 +18,7 @@ static void put_levels(const struct run *e, struct json *j)
     if (l->n == 0) return;
     json_open(j, "levels", '{');
     json_open(j, "cells", '[');
-    for (int level = 0; level <= l->n; level++) json_write_integer(j, NULL, levels_count_cells(l, level));
+    for (int level = 0; level <= l->n; level++) json_write_integer(j, NULL, levels_count_cells_of_level(l, level));
     json_close(j, ']');
     json_write_integer(j, "changes", l->changes);
     json_close(j, '}');
@@ -28,10 +28,10 @@ static status frame_state(struct run *e, struct archive *a)
 {
     struct reference_frame *f = e->frame;
     if (a->scope == ARCHIVE_REBUILD) return OK;
-    TRY(mesh_save_or_load(&f->mesh, a));
+    TRY(mesh_save_or_load_node_motion(&f->mesh, a));
     TRY(levels_save_or_load(&f->levels, &e->part, &f->source, a));
     return active_set_save_or_load(&f->mesh.active, "mesh", a);
 }
 
 const struct part part_frame = {PART(frame, reference_frame), .free = frame_free_all, .summary = put_levels,
-                                .state = frame_state, .warn = frame_warn_of_mirrors};
+                                .state = frame_state, .warn = frame_warn_of_unfitting_mirror_planes};

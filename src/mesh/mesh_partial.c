@@ -305,7 +305,7 @@ void mesh_partial_add_cell(struct mesh *mesh, int64_t I)
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_partial mesh_partial_remove_all_cells(struct mesh *mesh)
+struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh)
 {
     const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
@@ -440,7 +440,7 @@ static void alike_find(struct mesh *mesh, int modes)
 }
 
 void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                    const uint8_t *dirty, struct mesh_partial *old)
+                                    const uint8_t *cell_needs_update, struct mesh_partial *previous_cells)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2, unknowns = (1 << c.dim) * c.dim;
@@ -452,20 +452,20 @@ void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p
     mesh->partial_material = NEW("mesh.partial_material", groups * LANES, uint8_t);
     for (int64_t k = 0; k < groups * LANES; k++)
         mesh->partial_material[k] = partial_material(mesh, p, s, mesh->partial_cell[k]);
-    int64_t *from = origins(mesh, old, dirty);
+    int64_t *from = origins(mesh, previous_cells, cell_needs_update);
 #pragma omp parallel for schedule(dynamic, 2)
     for (int64_t g = 0; g < groups; g++) {
-        group_copy(mesh->stiffness, old->stiffness, from + g * LANES, g, half);
+        group_copy(mesh->stiffness, previous_cells->stiffness, from + g * LANES, g, half);
         for (int64_t k = g * LANES; k < (g + 1) * LANES && k < mesh->partial_cells; k++)
             if (from[k] < 0) mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
     }
     alike_find(mesh, c.modes);
-    mesh_slits_store_corners(mesh);
+    mesh_slits_store_corner_nodes_of_cells(mesh);
     mesh_partial_ends_make(mesh, &c);
     memory_free(from);
     memory_free(c.whole);
-    memory_free(old->partial_cell);
-    memory_free(old->stiffness);
+    memory_free(previous_cells->partial_cell);
+    memory_free(previous_cells->stiffness);
 }
 
 /* Ends the sharing of stiffness by groups of partial cells of which one has changed. Sets mesh->alike[g] = g for each
@@ -477,17 +477,17 @@ static void alike_part(struct mesh *mesh, const uint8_t *changed)
 }
 
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                                         const uint8_t *dirty)
+                                         const uint8_t *cell_is_marked)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;
     uint8_t *changed = NEW("mesh.changed", mesh_partial_cell_group_count(mesh), uint8_t);
-    for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= dirty[mesh->partial_cell[k]];
+    for (int64_t k = 0; k < mesh->partial_cells; k++) changed[k / LANES] |= cell_is_marked[mesh->partial_cell[k]];
     alike_part(mesh, changed);
     memory_free(changed);
 #pragma omp parallel for schedule(dynamic, 16)
     for (int64_t k = 0; k < mesh->partial_cells; k++)
-        if (dirty[mesh->partial_cell[k]])
+        if (cell_is_marked[mesh->partial_cell[k]])
             mesh_partial_cell_make(&c, mesh->partial_cell[k], lane_of(mesh->stiffness, k, half));
     ends_free(mesh);
     mesh_partial_ends_make(mesh, &c);

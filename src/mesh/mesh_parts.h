@@ -10,7 +10,7 @@
  * coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_remove_all_cells before its cells are
+/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_remove_and_return_cells before its cells are
  * classified again. mesh_partial_compute_stiffness copies the stiffness of unchanged cells from here and frees the
  * arrays. */
 struct mesh_partial {
@@ -21,92 +21,93 @@ struct mesh_partial {
 
 /* Removes all partial cells (cells with missing points, partial stresses, several materials or doubled nodes) from the
  * mesh, and returns their list with their stiffness, for mesh_partial_compute_stiffness. */
-struct mesh_partial mesh_partial_remove_all_cells(struct mesh *mesh);
+struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
 
 /* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
  * materials or doubled nodes; the stiffness is computed later (mesh_partial_compute_stiffness). */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
- * materials or doubled nodes). source: material constants and partial stresses; dirty: a byte for each cell, not 0
- * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_remove_all_cells, from
- * which the stiffness of all other cells is copied, and which is freed. */
+ * materials or doubled nodes). source: material constants and partial stresses; cell_needs_update: a byte for each
+ * cell, not 0 where the stiffness must be computed anew, NULL for all cells; previous_cells: result of
+ * mesh_partial_remove_and_return_cells, from which the stiffness of all other cells is copied, and which is freed. */
 void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                    const uint8_t *dirty, struct mesh_partial *old);
+                                    const uint8_t *cell_needs_update, struct mesh_partial *previous_cells);
 
 /* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
- * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. source: material
- * constants and partial stresses. */
+ * doubled nodes) marked in `cell_is_marked`, a byte for each cell. The list of partial cells is unchanged. source:
+ * material constants and partial stresses. */
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                         const uint8_t *dirty);
+                                         const uint8_t *cell_is_marked);
 
 /* Frees the list of partial cells of the mesh and their stiffness. */
 void mesh_partial_free(struct mesh *mesh);
 
 /* Finds the nodes that slits or voids of `source` divide, because the points around them are separated, and gives them
- * second nodes. The box of nodes, which covers the range between the corners `lower` and `upper` [m], is extended by
- * rows for these. Returns FAILED, with a message, if there are too many nodes. Release with mesh_slits_free. */
+ * second nodes. The box of nodes, which covers the range between the corners `lower_corner` and `upper_corner` [m], is
+ * extended by rows for these. Returns FAILED, with a message, if there are too many nodes. Release with
+ * mesh_slits_free. */
 status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                               const real *lower, const real *upper);
+                               const real *lower_corner, const real *upper_corner);
 
 /* Connects each block of nodes (eight along x) beside slits with the blocks of the second nodes at the same positions,
  * so that motion spreads from one to the other. To be called after the blocks are made. */
-void mesh_slits_link_blocks(struct mesh *mesh);
+void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
 /* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Slits
  * divide nodes, so the corners of such cells are not at fixed index distances from the cell. To be called after the
  * groups are made. */
-void mesh_slits_store_corners(struct mesh *mesh);
+void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
 /* Frees the arrays of s. */
 void mesh_slits_free(struct mesh_slits *s);
 
 /* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
- * the iteration starts from the lumped projection. value: dim arrays with a value for each particle; nodal_value: dim
- * arrays, receives a value for each node. */
-void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value,
+ * the iteration starts from the lumped projection. point_value: dim arrays with a value for each particle; nodal_value:
+ * dim arrays, receives a value for each node. */
+void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value);
 
 /* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for n listed nodes only; the iteration
- * starts from their present values, and all other nodes are unchanged. list: node indices. */
-void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value,
-                           real *const *nodal_value, const int32_t *list, int64_t n);
+ * starts from their present values, and all other nodes are unchanged. node_list: node indices. */
+void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
+                                     real *const *nodal_value, const int32_t *node_list, int64_t node_count);
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
-int64_t mesh_cell_and_number_of_particle(const struct mesh *mesh, const struct particles *p, int64_t i);
+int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
 /* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
  * mesh->level, the refinement level of each cell, has changed in some cells. source: material constants and partial
- * stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these cells. */
-void mesh_update_after_level_change(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                                    const uint8_t *dirty);
+ * stresses; level_has_changed: mesh->grid.n + LANES bytes, not 0 for these cells. */
+void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
+                                           const struct mesh_source *source, const uint8_t *level_has_changed);
 
 /* Groups the cells of a mesh without points (a coarse level) into rows of consecutive cells of equal material, the runs
  * of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes. Input: kinds and
  * materials of the cells and masses of the nodes. */
-void mesh_cell_runs_make(struct mesh *mesh);
+void mesh_make_cell_rows_and_node_spans(struct mesh *mesh);
 
 /* Finds in each row of nodes along the first axis the span of nodes with mass (first node, and the one after the
  * last), to which loops over nodes are limited. */
-void mesh_node_spans_make(struct mesh *mesh);
+void mesh_find_node_spans_with_mass(struct mesh *mesh);
 
 /* Makes the blocks of nodes (eight along x) next to cells active, i.e. included in computations, and all other blocks
  * inactive. */
-void mesh_activate_blocks_at_cells(struct mesh *mesh);
+void mesh_activate_node_blocks_at_cells(struct mesh *mesh);
 
 /* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation gradient
  * is 0 or negative at one of its 2^dim points at a quarter or three quarters of each edge. */
-bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
+bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell);
 
-/* Allocates all arrays of a mesh that covers the box between the corners `lower` and `upper` [m], without points or
- * cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and voids that
- * double nodes, p = NULL for none. Returns FAILED, with a message, if there are too many nodes. */
-status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower, const real *upper,
-                         const struct particles *p, const struct mesh_source *source);
+/* Allocates all arrays of a mesh that covers the box between the corners `lower_corner` and `upper_corner` [m], without
+ * points or cells. node_grid: grid whose anchor and cell size define the nodes; p, source: particles and the slits and
+ * voids that double nodes, p = NULL for none. Returns FAILED, with a message, if there are too many nodes. */
+status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
+                         const real *upper_corner, const struct particles *p, const struct mesh_source *source);
 
 /* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
  * particles are not made. */
@@ -117,7 +118,7 @@ static inline bool mesh_cell_is_part_of_coarse_cell(const struct mesh *mesh, int
 
 /* Allocates an array with a byte for each cell of the mesh, all 0, and some padding at its end. label: name of the
  * array for messages about memory. The caller frees it. */
-static inline uint8_t *mesh_cell_marks_new(const char *label, const struct mesh *mesh)
+static inline uint8_t *mesh_allocate_byte_for_each_cell(const char *label, const struct mesh *mesh)
 {
     return NEW(label, mesh->grid.n + LANES, uint8_t);
 }

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-bool mesh_cell_has_body(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
+bool mesh_cell_contains_material(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
 /* Initialises *box as a box of nodes around the particles, aligned with the nodes of the grid `like`; arrays over the
  * nodes are not allocated. Returns false if the box has too many nodes. */
@@ -19,7 +19,7 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
         particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
         g->anchor[d] = like->anchor[d];
     }
-    if (!grid_set_box(g, from, to, INT32_MAX >> p->dim)) return false;
+    if (!grid_set_box_if_not_too_large(g, from, to, INT32_MAX >> p->dim)) return false;
     for (int c = 0; c < 1 << p->dim; c++)
         for (int d = 0; d < p->dim; d++) box->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     return true;
@@ -59,7 +59,7 @@ static void hollow_join(int32_t *above, const struct mesh *box, const struct cel
 }
 
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
-                                   const struct cells_without_particles *hollow)
+                                   const struct cells_without_particles *empty_cells)
 {
     struct mesh box;
     int64_t pieces = 0, last = -1;
@@ -67,13 +67,13 @@ int64_t mesh_count_connected_parts(const struct particles *p, const struct grid 
     if (!fits) return 0;
     int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
     for (int64_t i = 0; i < p->n && fits; i++) {
-        const int64_t place = mesh_cell_and_number_of_particle(&box, p, i), cell = place >> p->dim;
+        const int64_t place = mesh_packed_cell_and_point_of_particle(&box, p, i), cell = place >> p->dim;
         fits = place >= 0;
         for (int c = 0; c < 1 << p->dim && fits && cell != last; c++)
             join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);
         last = cell;
     }
-    if (fits) hollow_join(above, &box, hollow);
+    if (fits) hollow_join(above, &box, empty_cells);
     for (int64_t I = 0; I < box.grid.n && fits; I++) pieces += above[I] == I + 1;
     memory_free(above);
     return pieces;

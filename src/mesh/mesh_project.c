@@ -289,17 +289,17 @@ static void project_all(struct projection m, real *const *value, real *const *no
     memory_free(m.row);
 }
 
-void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *value,
+void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value)
 {
-    project_all((struct projection){.mesh = mesh, .p = p}, value, nodal_value);
+    project_all((struct projection){.mesh = mesh, .p = p}, point_value, nodal_value);
 }
 
-void mesh_fit_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *value,
-                           real *const *nodal_value, const int32_t *list, int64_t n)
+void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
+                                     real *const *nodal_value, const int32_t *node_list, int64_t node_count)
 {
     uint8_t *mark = NEW("mesh.unknown", mesh->grid.n, uint8_t);
-    for (int64_t k = 0; k < n; k++) mark[list[k]] = 1;
-    project_all((struct projection){.mesh = mesh, .p = p, .node = mark}, value, nodal_value);
+    for (int64_t k = 0; k < node_count; k++) mark[node_list[k]] = 1;
+    project_all((struct projection){.mesh = mesh, .p = p, .node = mark}, point_value, nodal_value);
     memory_free(mark);
 }

@@ -255,7 +255,7 @@ static void slits_divide(struct slit_maker *m)
     const int dim = m->p->dim;
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
-        const int64_t place = mesh_cell_and_number_of_particle(m->mesh, m->p, i);
+        const int64_t place = mesh_packed_cell_and_point_of_particle(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
         if (particle_is_beside_void(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
@@ -387,7 +387,7 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
 }
 
 status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                               const real *lower, const real *upper)
+                               const real *lower_corner, const real *upper_corner)
 {
     const int64_t n = mesh->grid.n;
     status result = OK;
@@ -403,7 +403,7 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
     slits_divide(&m);
     const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
                      memchr(m.open, 1 << 2, (size_t)n); /* of several mirrors: a node is on one only */
-    if (any) result = box_extend(&mesh->grid, lower, upper, m.node.n > m.cell.n ? m.node.n : m.cell.n);
+    if (any) result = box_extend(&mesh->grid, lower_corner, upper_corner, m.node.n > m.cell.n ? m.node.n : m.cell.n);
     if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);
     memory_free(m.piece);
@@ -430,7 +430,7 @@ static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
     s->link[s->links++] = link;
 }
 
-void mesh_slits_link_blocks(struct mesh *mesh)
+void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     int64_t extras = s->nodes;
@@ -445,7 +445,7 @@ void mesh_slits_link_blocks(struct mesh *mesh)
         for (int64_t cell = s->next[I]; cell >= 0; cell = s->next[cell]) link_add(mesh, cell, I);
 }
 
-void mesh_slits_store_corners(struct mesh *mesh)
+void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;

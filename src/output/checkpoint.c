@@ -83,7 +83,7 @@ static status state_write(struct output *o, const char *path, const char *scene_
 {
     static const int32_t version = CHECKPOINT_VERSION;
     struct hdf f;
-    hdf_create(&f, file_begin_temporary(path).text, false);
+    hdf_create(&f, file_begin_writing_temporary(path).text, false);
     hdf_create_group(&f, "/Cleave");
     hdf_write_scalar_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     hdf_write_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);
@@ -105,14 +105,14 @@ static status history_sync(const struct output *o)
     return file_report_write_failure(path_join(o->folder, "history.csv").text, errno);
 }
 
-status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
+status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
     TRY(output_wait_for_frame(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
     TRY(history_sync(o));
-    TRY(state_write(o, newest.text, scene_text, archive_all, context));
+    TRY(state_write(o, newest.text, scene_text, save_or_load_all, context));
     /* The new file is whole and on the disk before the older one is renamed; a kill between the two renames leaves the
      * older one as checkpoint.previous.h5. */
     TRY(file_append_checksum_footer(newest.text));
@@ -165,17 +165,17 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     return s;
 }
 
-status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
+status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
     const char *fault = file_describe_damage(newest.text);
-    if (!fault) return state_read(newest.text, scene_text, archive_all, context);
+    if (!fault) return state_read(newest.text, scene_text, save_or_load_all, context);
     const char *older_fault = file_describe_damage(previous.text);
     if (older_fault)
         return status_set(FAILED, "cannot resume: in %s %s %s and %s %s", o->folder, newest_name, fault, previous_name,
                           older_fault);
     fprintf(stderr, "%s %s: resuming from %s\n", printable_name(newest.text).text, fault, previous_name);
-    TRY(state_read(previous.text, scene_text, archive_all, context));
+    TRY(state_read(previous.text, scene_text, save_or_load_all, context));
     /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */
     if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)
         return file_report_write_failure(newest.text, errno);

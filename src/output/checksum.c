@@ -69,11 +69,11 @@ static uint64_t hash_value(const struct hash *h)
     return value;
 }
 
-uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length)
+uint64_t bytes_hash(uint64_t previous_hash, const void *bytes, size_t length)
 {
     struct hash h;
     hash_start(&h);
-    hash_add(&h, (const unsigned char *)&start, sizeof start);
+    hash_add(&h, (const unsigned char *)&previous_hash, sizeof previous_hash);
     hash_add(&h, bytes, length);
     return hash_value(&h);
 }
@@ -167,7 +167,7 @@ status file_append_checksum_footer(const char *path)
 {
     struct stat s;
     struct footer end = {{0}, 0, 0};
-    const int fd = open(path_temporary(path).text, O_RDONLY | O_CLOEXEC);
+    const int fd = open(path_of_temporary_file(path).text, O_RDONLY | O_CLOEXEC);
     int fault = fd < 0 || fstat(fd, &s) != 0 ? errno : 0;
     memcpy(end.magic, footer_magic, sizeof end.magic);
     if (!fault) fault = hash_file(fd, end.length = (uint64_t)s.st_size, &end.hash);

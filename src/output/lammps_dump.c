@@ -122,16 +122,16 @@ static status steps_read(struct dump *d, int *n, int64_t **step)
     }
 }
 
-status lammps_list_steps(const char *path, int *n, int64_t **step_numbers)
+status lammps_list_step_numbers(const char *path, int *step_count, int64_t **step_numbers)
 {
     struct dump d;
-    *n = 0, *step_numbers = NULL;
+    *step_count = 0, *step_numbers = NULL;
     TRY(dump_open(&d, path));
-    const status s = steps_read(&d, n, step_numbers);
+    const status s = steps_read(&d, step_count, step_numbers);
     fclose(d.file);
-    if (s == OK && *n > 0) return OK;
+    if (s == OK && *step_count > 0) return OK;
     memory_free(*step_numbers);
-    *step_numbers = NULL, *n = 0;
+    *step_numbers = NULL, *step_count = 0;
     return s != OK
                ? s
                : status_set(FAILED, "%s holds no complete time step of a LAMMPS dump yet", printable_name(path).text);

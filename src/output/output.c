@@ -320,8 +320,9 @@ static status run_each(const char *folder, file_visit_fn *each)
  * `cleave plot` that is drawing a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
-    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_temporary(path_join(folder, made[k].name).text).text);
-    unlink(path_temporary(path_join(folder, "scene.yaml").text).text);
+    for (size_t k = 0; k < COUNT_OF(made); k++)
+        unlink(path_of_temporary_file(path_join(folder, made[k].name).text).text);
+    unlink(path_of_temporary_file(path_join(folder, "scene.yaml").text).text);
     files_visit(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
     files_visit(path_join(folder, "frames").text, is_rigid_file, ASIDE_ENDING, file_remove);
     regions_each(folder, ASIDE_ENDING, file_remove);
@@ -419,9 +420,9 @@ static struct path series_folder(const char *folder, const char *name)
     return path_join(folder, inner);
 }
 
-status output_check_series_folder(const char *folder, const char *name)
+status output_check_series_folder_is_free(const char *folder, const char *series_name)
 {
-    const struct path path = series_folder(folder, name);
+    const struct path path = series_folder(folder, series_name);
     if (path_is_link(path.text))
         return status_set(REFUSED, "%s is a symbolic link: frames would be written to another folder; remove it",
                           path.text);
@@ -430,14 +431,14 @@ status output_check_series_folder(const char *folder, const char *name)
     return OK;
 }
 
-status output_add_frame_series(struct output *o, const char *name, const struct region *region)
+status output_add_frame_series(struct output *o, const char *series_name, const struct region *region)
 {
     INVARIANT(o->n_series < SERIES_MOST);
-    TRY(output_check_series_folder(o->folder, name));
-    TRY(folder_make(series_folder(o->folder, name).text));
+    TRY(output_check_series_folder_is_free(o->folder, series_name));
+    TRY(folder_make(series_folder(o->folder, series_name).text));
     struct frame_series *s = &o->series[++o->n_series];
     *s = (struct frame_series){.region = region, .particles.number = -1};
-    snprintf(s->name, sizeof s->name, "%s", name);
+    snprintf(s->name, sizeof s->name, "%s", series_name);
     return OK;
 }
 
@@ -453,10 +454,10 @@ void output_close(struct output *o)
     *o = (struct output){0};
 }
 
-status output_write_text(const struct output *o, const char *name, const char *text, size_t length)
+status output_write_text(const struct output *o, const char *file_name, const char *text, size_t length)
 {
     TRY(folder_check_lock(&o->lock, o->folder));
-    return file_write_whole(path_join(o->folder, name).text, text, length);
+    return file_write_whole(path_join(o->folder, file_name).text, text, length);
 }
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */

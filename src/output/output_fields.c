@@ -312,11 +312,11 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     return true;
 }
 
-unsigned frame_field_set_of(const struct frame_source *s)
+unsigned frame_field_bits_of_source(const struct frame_source *source)
 {
     unsigned found = 0;
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (field_exists(&frame_fields[k], s)) found |= 1u << k;
+        if (field_exists(&frame_fields[k], source)) found |= 1u << k;
     return found;
 }
 
@@ -327,7 +327,7 @@ static int field_stored(const struct frame_field *field, int dim)
     return field->row == ROW_VECTOR ? dim : field->row == ROW_TENSOR ? tensor_stored(dim) : field->columns;
 }
 
-size_t frame_field_bytes(const struct frame_field *field, int dim)
+size_t frame_field_bytes_per_row(const struct frame_field *field, int dim)
 {
     return hdf_type_size(field->type) * (size_t)field_stored(field, dim);
 }
@@ -340,40 +340,40 @@ static void copy_rows(const struct frame_field *field, const struct frame_source
     if (field->copy)
         field->copy(source, row, first, end, rows);
     else
-        copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, row, first, end, rows);
+        copy_derived(derived_field_find_by_name(strrchr(field->path, '/') + 1), source, row, first, end, rows);
 }
 
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
-                           const struct frame_rows *order, char *rows)
+                           const struct frame_rows *row_order, char *rows)
 {
     enum { BLOCK = 4096 }; /* rows that a thread copies at a time */
-    const int64_t own = order->own, others = order->n - own;
+    const int64_t own = row_order->own, others = row_order->n - own;
     struct frame_source more = {source->extra.more, source->extra};
 #pragma omp parallel for schedule(static)
     for (int64_t first = 0; first < own; first += BLOCK)
-        copy_rows(field, source, order->index, first, first + BLOCK < own ? first + BLOCK : own, rows);
+        copy_rows(field, source, row_order->index, first, first + BLOCK < own ? first + BLOCK : own, rows);
     if (others == 0) return;
     more.extra.push = NULL, more.extra.fragment = NULL, more.extra.state = source->extra.more_state;
-    rows += (size_t)own * frame_field_bytes(field, source->p->dim);
+    rows += (size_t)own * frame_field_bytes_per_row(field, source->p->dim);
     if (field_exists(field, &more))
-        copy_rows(field, &more, order->index + own, 0, others, rows);
+        copy_rows(field, &more, row_order->index + own, 0, others, rows);
     else
-        array_fill_bytes(rows, 0, others, frame_field_bytes(field, source->p->dim));
+        array_fill_bytes(rows, 0, others, frame_field_bytes_per_row(field, source->p->dim));
 }
 
-void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows)
+void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows)
 {
-    hdf_write_rows_zero_padded(h, field->path, field->type, n, field->columns ? field->columns : dim,
+    hdf_write_rows_zero_padded(file, field->path, field->type, row_count, field->columns ? field->columns : dim,
                                field_stored(field, dim), rows);
-    hdf_write_text_attribute(h, field->path, "unit", field->unit[0] ? field->unit : "1");
+    hdf_write_text_attribute(file, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
-void frame_units_text(unsigned fields, char *text, size_t capacity)
+void frame_units_write_text(unsigned field_bits, char *text, size_t capacity)
 {
     size_t used = 0;
     text[0] = '\0';
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (fields >> k & 1 && frame_fields[k].unit[0] && used < capacity)
+        if (field_bits >> k & 1 && frame_fields[k].unit[0] && used < capacity)
             used += (size_t)snprintf(text + used, capacity - used, "%s [%s]\n", strrchr(frame_fields[k].path, '/') + 1,
                                      frame_fields[k].unit);
 }

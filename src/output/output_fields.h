@@ -42,22 +42,23 @@ extern const struct frame_field frame_cells[CELL_LISTS];
 /* Returns the set of fields that a frame from the source s contains, as bits in the order of the table frame_fields:
  * the basic ones, plastic strain if a material yields, contact force if the scene has contact, fragments if bodies can
  * break, and those that the scene requests. */
-unsigned frame_field_set_of(const struct frame_source *s);
+unsigned frame_field_bits_of_source(const struct frame_source *source);
 
-/* Copies the stored numbers of a field to `rows`, which has frame_field_bytes bytes per row. order: which particle each
- * row shows. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such points lack. */
+/* Copies the stored numbers of a field to `rows`, which has frame_field_bytes_per_row bytes per row. row_order: which
+ * particle each row shows. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such
+ * points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
-                           const struct frame_rows *order, char *rows);
+                           const struct frame_rows *row_order, char *rows);
 
 /* Writes a field as a dataset with its unit to the file h. rows: stored numbers of the field at n points, as
  * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in h->failed. */
-void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows);
+void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
-/* Writes one line `field [unit]` for every field with a unit to text[capacity]. fields: set of fields, one bit per
+/* Writes one line `field [unit]` for every field with a unit to text[capacity]. field_bits: set of fields, one bit per
  * entry of the table frame_fields. */
-void frame_units_text(unsigned fields, char *text, size_t capacity);
+void frame_units_write_text(unsigned field_bits, char *text, size_t capacity);
 
 /* Returns the size of the stored numbers in one row of a field [byte]. dim: dimension of the space. */
-size_t frame_field_bytes(const struct frame_field *field, int dim);
+size_t frame_field_bytes_per_row(const struct frame_field *field, int dim);
 
 #endif

@@ -28,7 +28,7 @@ static struct path path_compose(const char *first, const char *between, const ch
 
 struct path path_join(const char *folder, const char *name) { return path_compose(folder, "/", name); }
 
-struct path path_temporary(const char *path) { return path_compose(path, "", ASIDE_ENDING); }
+struct path path_of_temporary_file(const char *path) { return path_compose(path, "", ASIDE_ENDING); }
 
 bool path_exists(const char *path)
 {
@@ -91,15 +91,15 @@ static void unfinished_replace(const char *from, const char *to)
     pthread_mutex_unlock(&unfinished_lock);
 }
 
-struct path file_begin_temporary(const char *path)
+struct path file_begin_writing_temporary(const char *path)
 {
-    const struct path aside = path_temporary(path);
+    const struct path aside = path_of_temporary_file(path);
     unfinished_replace(aside.text, "");
     unfinished_replace("", aside.text);
     return aside;
 }
 
-static void file_end(const char *path) { unfinished_replace(path_temporary(path).text, ""); }
+static void file_end(const char *path) { unfinished_replace(path_of_temporary_file(path).text, ""); }
 
 void files_unfinished_remove(void)
 {
@@ -140,7 +140,7 @@ status file_report_write_failure(const char *path, int cause)
 
 void file_discard_temporary(const char *path)
 {
-    struct path aside = path_temporary(path);
+    struct path aside = path_of_temporary_file(path);
     /* After a failed write HDF5 keeps the file open: only truncation frees the disk. */
     if (path_is_file(aside.text) && truncate(aside.text, 0) != 0) errno = 0;
     unlink(aside.text);
@@ -243,7 +243,7 @@ static status outcome(const char *path, int fault)
 
 status file_append_and_sync(const char *path, const void *tail, size_t length)
 {
-    return outcome(path, write_synced(path_temporary(path).text, O_APPEND, tail, length));
+    return outcome(path, write_synced(path_of_temporary_file(path).text, O_APPEND, tail, length));
 }
 
 static status file_rename(const char *path)
@@ -251,7 +251,7 @@ static status file_rename(const char *path)
     status s = file_check_replaceable(path);
     if (s != OK) file_discard_temporary(path);
     TRY(s);
-    s = outcome(path, rename(path_temporary(path).text, path) != 0 ? errno : 0);
+    s = outcome(path, rename(path_of_temporary_file(path).text, path) != 0 ? errno : 0);
     file_end(path);
     return s;
 }
@@ -272,7 +272,7 @@ status file_replace_by_temporary(const char *path)
 status file_write_whole_unsynced(const char *path, const void *bytes, size_t length)
 {
     if (input_file_was_read(path) && file_has_contents(path, bytes, length)) return OK;
-    TRY(outcome(path, write_synced(file_begin_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
+    TRY(outcome(path, write_synced(file_begin_writing_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }
 
@@ -309,7 +309,7 @@ status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-status folder_make_above(const char *path)
+status folder_make_for_file(const char *path)
 {
     struct path above = {{0}};
     const char *end = strrchr(path, '/');

@@ -54,7 +54,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     struct output *o = job->o;
     int64_t at = 0, length = 0;
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (has_rows(job, k)) length += job->n * (int64_t)frame_field_bytes(&frame_fields[k], job->dim);
+        if (has_rows(job, k)) length += job->n * (int64_t)frame_field_bytes_per_row(&frame_fields[k], job->dim);
     if (o->frame_copy_bytes < length) {
         memory_free(o->frame_copy);
         o->frame_copy = NEW("output.frame", length, char);
@@ -63,7 +63,7 @@ static void job_copy_fields(struct frame_job *job, const struct frame_source *so
     for (int k = 0; k < FRAME_FIELDS; k++) {
         if (!has_rows(job, k)) continue;
         job->field[k] = o->frame_copy + at;
-        at += job->n * (int64_t)frame_field_bytes(&frame_fields[k], job->dim);
+        at += job->n * (int64_t)frame_field_bytes_per_row(&frame_fields[k], job->dim);
         frame_field_copy_rows(&frame_fields[k], source, &job->series->rows, job->field[k]);
     }
 }
@@ -89,7 +89,7 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
     struct frame_series *s = job->series;
     char name[PATH_NAME_ROOM];
     if (s->particles.number < 0 || !s->particles.current || source->extra.more) {
-        particles_file_make(&job->particles, s, source, job->fields, scene_text);
+        particles_file_collect_contents(&job->particles, s, source, job->fields, scene_text);
         if (s->particles.number >= 0 && s->particles.content == job->particles.content)
             particles_file_free(&job->particles);
         else
@@ -111,7 +111,7 @@ static struct frame_job *job_make(struct output *o, struct frame_series *series,
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
     job->o = o, job->series = series;
     job->n = series->rows.n, job->step = step, job->dim = source->p->dim, job->t = t;
-    job->compress = o->compress, job->fields = frame_field_set_of(source);
+    job->compress = o->compress, job->fields = frame_field_bits_of_source(source);
     job_copy_fields(job, source);
     job_choose_particles_file(job, source, scene_text);
     job_drop_contact(job);
@@ -121,7 +121,7 @@ static struct frame_job *job_make(struct output *o, struct frame_series *series,
 static void job_free(struct frame_job *job)
 {
     particles_file_free(&job->particles);
-    frame_indices_free(&job->index);
+    frame_index_files_free_texts(&job->index);
     memory_free(job);
 }
 
@@ -229,12 +229,12 @@ static status frame_write(struct frame_job *job)
 {
     struct hdf f;
     if (job->particles.rows) TRY(particles_file_write(&job->particles, &job->broken));
-    hdf_create(&f, file_begin_temporary(job->path.text).text, job->compress);
+    hdf_create(&f, file_begin_writing_temporary(job->path.text).text, job->compress);
     write_marks(&f, job);
     particles_file_create_links(&f, &job->particles, job->fields);
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
-    TRY(hdf_close_written(&f, job->path.text, &job->broken));
+    TRY(hdf_close_written_file(&f, job->path.text, &job->broken));
     TRY(file_append_checksum_footer(job->path.text));
     return file_replace_by_temporary(job->path.text);
 }
@@ -247,7 +247,7 @@ static status job_write(struct frame_job *job)
     TRY(frame_write(job));
     struct path folder = job->path;
     for (int k = 0; k < 2; k++) *strrchr(folder.text, '/') = '\0';
-    return frame_indices_write(&job->index, folder.text, job->series);
+    return frame_index_files_write(&job->index, folder.text, job->series);
 }
 
 /* ---- one frame at a time ----------------------------------------------------------------------------------------- */
@@ -306,12 +306,12 @@ status output_frame_begin(struct output *o, int number, const struct particles *
     TRY(output_wait_for_frame(o));
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
-    frame_name(series, name, sizeof name, series->frames);
+    frame_write_file_name(series, name, sizeof name, series->frames);
     if (!rows_make(series, &source)) return file_report_write_failure(path_join(o->folder, name).text, ENOMEM);
     struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
     job->path = path_join(o->folder, name);
     frame_count(series, job);
-    job->ended = frame_indices_make(&job->index, o->folder, series);
+    job->ended = frame_index_files_compose(&job->index, o->folder, series);
     if (job->ended != OK)
         snprintf(job->message, sizeof job->message, "%s", status_message());
     else
@@ -393,7 +393,7 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
     struct particles_seen seen = {.number = -1};
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], fault[PATH_NAME_ROOM + 100];
-        frame_name(s, name, sizeof name, k);
+        frame_write_file_name(s, name, sizeof name, k);
         particles_file_look(&seen, o->folder, s, s->entry[k].particles);
         const struct path path = path_join(o->folder, name);
         s->entry[k].fields &= ~FRAME_LOST;
@@ -409,23 +409,24 @@ static void series_check(const struct output *o, struct frame_series *s, int *lo
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};
-    status s = frame_indices_make(&index, o->folder, series);
-    if (s == OK) s = frame_indices_write(&index, o->folder, series);
-    frame_indices_free(&index);
+    status s = frame_index_files_compose(&index, o->folder, series);
+    if (s == OK) s = frame_index_files_write(&index, o->folder, series);
+    frame_index_files_free_texts(&index);
     return s;
 }
 
-status output_index_drop_lost_frames(struct output *o, int *lost_frames, char *message, size_t capacity)
+status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity)
 {
-    *lost_frames = 0;
+    *lost_frame_count = 0;
     for (int k = 0; k <= o->n_series; k++) {
         if (o->series[k].frames == 0) continue;
-        series_check(o, &o->series[k], lost_frames, message, capacity);
+        series_check(o, &o->series[k], lost_frame_count, message, capacity);
         TRY(series_index(o, &o->series[k]));
     }
-    if (*lost_frames == 0) return OK;
+    if (*lost_frame_count == 0) return OK;
     const size_t used = strlen(message);
-    if (*lost_frames > 1) snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost_frames - 1);
+    if (*lost_frame_count > 1)
+        snprintf(message + used, capacity - used, ", and %d frames more are lost", *lost_frame_count - 1);
     strncat(message, ": the indices leave out what is lost; a run of its own would make it again",
             capacity - strlen(message) - 1);
     return OK;

@@ -105,11 +105,11 @@ void hdf_close(struct hdf *f)
     f->file = -1;
 }
 
-status hdf_close_written(struct hdf *f, const char *path, bool *broken)
+status hdf_close_written_file(struct hdf *f, const char *path, bool *write_failed)
 {
     if (!f->failed) hdf_close(f);
     if (!f->failed) return OK;
-    *broken = true;
+    *write_failed = true;
     file_discard_temporary(path);
     return file_report_write_failure(path, f->cause);
 }
@@ -220,22 +220,22 @@ void hdf_write_rows_zero_padded(struct hdf *f, const char *name, enum hdf_type t
 
 /* ---- links ------------------------------------------------------------------------------------------------------- */
 
-void hdf_create_link(struct hdf *f, const char *name, const char *file)
+void hdf_create_external_link(struct hdf *f, const char *name, const char *target_file)
 {
-    if (ready(f)) good(f, H5Lcreate_external(file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
+    if (ready(f)) good(f, H5Lcreate_external(target_file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
 }
 
-bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t capacity)
+bool hdf_read_external_link_target(struct hdf *f, const char *name, char *target_file, size_t capacity)
 {
     H5L_info_t link;
     char value[1024];
     const char *target = NULL;
-    file[0] = '\0';
+    target_file[0] = '\0';
     if (!ready(f) || !good(f, H5Lget_info(f->file, name, &link, H5P_DEFAULT)) || link.type != H5L_TYPE_EXTERNAL)
         return false;
     if (link.u.val_size <= sizeof value && good(f, H5Lget_val(f->file, name, value, sizeof value, H5P_DEFAULT)) &&
         good(f, H5Lunpack_elink_val(value, link.u.val_size, NULL, &target, NULL)))
-        snprintf(file, capacity, "%s", target);
+        snprintf(target_file, capacity, "%s", target);
     return true;
 }
 
@@ -253,20 +253,22 @@ static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name,
            good(f, H5Pset_virtual(list, space, source->file, name, from)) && good(f, H5Sclose(from));
 }
 
-void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
-                       const struct hdf_source *source, int sources, int extra_rows)
+void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type type, int columns,
+                               const struct hdf_source *source_files, int source_count, int extra_rows)
 {
     hsize_t all[2] = {0, (hsize_t)columns}, at[2] = {0, 0};
     const int rank = columns > 1 ? 2 : 1;
     hid_t space = -1, list = -1, set = -1;
     if (!ready(f)) return;
-    for (int k = 0; k < sources; k++) all[0] += (hsize_t)(source[k].rows + extra_rows);
+    for (int k = 0; k < source_count; k++) all[0] += (hsize_t)(source_files[k].rows + extra_rows);
     if (!good(f, space = H5Screate_simple(rank, all, NULL)) || !good(f, list = H5Pcreate(H5P_DATASET_CREATE)) ||
         !good(f, H5Pset_obj_track_times(list, false)))
         return;
-    for (int k = 0; k < sources; k++) {
-        const hsize_t shape[2] = {(hsize_t)(source[k].rows + extra_rows), (hsize_t)columns};
-        if (source[k].file && shape[0] > 0 && !source_map(f, list, space, name, at, &source[k], shape, rank)) return;
+    for (int k = 0; k < source_count; k++) {
+        const hsize_t shape[2] = {(hsize_t)(source_files[k].rows + extra_rows), (hsize_t)columns};
+        if (source_files[k].file && shape[0] > 0 &&
+            !source_map(f, list, space, name, at, &source_files[k], shape, rank))
+            return;
         at[0] += shape[0];
     }
     (void)(good(f, H5Sselect_all(space)) &&
@@ -408,11 +410,11 @@ bool hdf_is_link(hid_t file, const char *name)
     return H5Lget_info(file, name, &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD;
 }
 
-void hdf_read_text_attribute(hid_t file, const char *object, const char *name, char *text, size_t capacity)
+void hdf_read_text_attribute(hid_t file, const char *object_path, const char *name, char *text, size_t capacity)
 {
     text[0] = '\0';
-    if (H5Aexists_by_name(file, object, name, H5P_DEFAULT) <= 0) return;
-    hid_t held = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(held);
+    if (H5Aexists_by_name(file, object_path, name, H5P_DEFAULT) <= 0) return;
+    hid_t held = H5Aopen_by_name(file, object_path, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(held);
     char *long_text = NULL;
     if (H5Tget_class(type) == H5T_STRING && H5Aget_storage_size(held) > 0) {
         if (H5Tis_variable_str(type) > 0) {

@@ -100,11 +100,11 @@ static FILE *history_file(const char *path, bool resume)
     return to;
 }
 
-status output_history_open(struct output *o, const struct column *column, int columns, bool resume)
+status output_history_open(struct output *o, const struct column *column, int column_count, bool resume)
 {
-    INVARIANT(columns > 0 && !o->history);
+    INVARIANT(column_count > 0 && !o->history);
     struct path path = history_path(o);
-    o->columns = columns;
+    o->columns = column_count;
     if (resume) TRY(history_cut(o));
     TRY(file_check_replaceable(path.text));
     o->history = history_file(path.text, resume);

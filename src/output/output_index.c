@@ -10,14 +10,14 @@
 #include "output/output_files.h"
 #include "particles_file.h"
 
-void frame_name(const struct frame_series *s, char *name, size_t capacity, int frame_number)
+void frame_write_file_name(const struct frame_series *series, char *name, size_t capacity, int frame_number)
 {
-    snprintf(name, capacity, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, frame_number);
+    snprintf(name, capacity, "frames%s%s/%06d.hdf", series->name[0] ? "_" : "", series->name, frame_number);
 }
 
-void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *ending)
+void series_write_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending)
 {
-    snprintf(name, capacity, "%s%s", s->name[0] ? s->name : "frames", ending);
+    snprintf(name, capacity, "%s%s", series->name[0] ? series->name : "frames", ending);
 }
 
 /* Writes the index frames.hdf.series of a series of frames, in JSON: name and time [s] of each frame that is not
@@ -29,7 +29,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
         if (s->entry[k].fields & FRAME_LOST) continue;
-        frame_name(s, name, sizeof name, k);
+        frame_write_file_name(s, name, sizeof name, k);
         fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->entry[k].time);
         between = ",";
     }
@@ -86,7 +86,7 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], particles[PATH_NAME_ROOM];
         if (s->entry[k].fields & FRAME_LOST) continue;
-        frame_name(s, name, sizeof name, k);
+        frame_write_file_name(s, name, sizeof name, k);
         particles_file_name(s, particles, sizeof particles, s->entry[k].particles);
         xdmf_grid(out, name, particles, &s->entry[k]);
     }
@@ -101,7 +101,7 @@ static struct path index_path(const char *folder, const struct frame_series *s, 
 {
     static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
     char name[PATH_NAME_ROOM];
-    series_file_name(s, name, sizeof name, end[which]);
+    series_write_index_file_name(s, name, sizeof name, end[which]);
     return path_join(folder, name);
 }
 
@@ -117,20 +117,20 @@ static status index_make(struct frame_indices *index, const char *folder, const 
     return whole ? OK : file_report_write_failure(index_path(folder, s, which).text, ENOMEM);
 }
 
-status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s)
+status frame_index_files_compose(struct frame_indices *index, const char *folder, const struct frame_series *series)
 {
-    for (int k = 0; k < INDICES; k++) TRY(index_make(index, folder, s, k));
+    for (int k = 0; k < INDICES; k++) TRY(index_make(index, folder, series, k));
     return OK;
 }
 
-status frame_indices_write(const struct frame_indices *index, const char *folder, const struct frame_series *s)
+status frame_index_files_write(const struct frame_indices *index, const char *folder, const struct frame_series *series)
 {
     for (int k = 0; k < INDICES; k++)
-        TRY(file_write_whole(index_path(folder, s, k).text, index->text[k], index->length[k]));
+        TRY(file_write_whole(index_path(folder, series, k).text, index->text[k], index->length[k]));
     return OK;
 }
 
-void frame_indices_free(struct frame_indices *index)
+void frame_index_files_free_texts(struct frame_indices *index)
 {
     for (int k = 0; k < INDICES; k++) free(index->text[k]);
     *index = (struct frame_indices){0};

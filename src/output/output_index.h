@@ -13,22 +13,23 @@ struct frame_indices {
 
 /* Composes the texts of both index files of a series of frames, frames.hdf.series and frames.xdmf, in memory. index:
  * must be set to zero before; folder: of the run, for messages. Returns FAILED if memory is exhausted. Release index
- * with frame_indices_free in any case. */
-status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s);
+ * with frame_index_files_free_texts in any case. */
+status frame_index_files_compose(struct frame_indices *index, const char *folder, const struct frame_series *series);
 
 /* Writes the composed texts in *index as the index files of the series s to the folder of the run. Returns FAILED if
  * one cannot be written. */
-status frame_indices_write(const struct frame_indices *index, const char *folder, const struct frame_series *s);
+status frame_index_files_write(const struct frame_indices *index, const char *folder,
+                               const struct frame_series *series);
 
 /* Releases the texts of *index. */
-void frame_indices_free(struct frame_indices *index);
+void frame_index_files_free_texts(struct frame_indices *index);
 
 /* Writes the file name of frame number `frame_number` of a series, relative to the folder of the run, to
  * name[capacity]. */
-void frame_name(const struct frame_series *s, char *name, size_t capacity, int frame_number);
+void frame_write_file_name(const struct frame_series *series, char *name, size_t capacity, int frame_number);
 
 /* Writes the name of an index file of a series, relative to the folder of the run, to name[capacity]: the name of the
  * series followed by the ending `ending`. */
-void series_file_name(const struct frame_series *s, char *name, size_t capacity, const char *ending);
+void series_write_index_file_name(const struct frame_series *series, char *name, size_t capacity, const char *ending);
 
 #endif

@@ -87,7 +87,7 @@ status frame_read(struct output_frame *f, const char *path)
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
     crash_message_set_file_in_use(path);
     hdf_open(&h, path);
-    const status linked = h.failed ? OK : particles_file_check(&h, path);
+    const status linked = h.failed ? OK : particles_file_check_file_linked_by_frame(&h, path);
     if (linked == OK && !h.failed) read_size(f, &h, s.st_size);
     if (linked == OK && !h.failed) read_fields(f, &h);
     bool whole = !h.failed;
@@ -147,14 +147,15 @@ static float *derive_field(const struct output_frame *f, const struct derived_fi
 /* Largest accepted number of components of a field, a guard against damaged files. */
 enum { COLUMNS_MOST = 16 };
 
-status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *columns, float **value)
+status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *component_count,
+                        float **value)
 {
     char place[PATH_NAME_ROOM];
     struct hdf h;
-    const struct derived_field *derived = derived_field_find(name);
-    *value = NULL, *columns = 0;
+    const struct derived_field *derived = derived_field_find_by_name(name);
+    *value = NULL, *component_count = 0;
     if (derived) {
-        *columns = derived->columns, *value = derive_field(f, derived);
+        *component_count = derived->columns, *value = derive_field(f, derived);
         return OK;
     }
     snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
@@ -162,9 +163,9 @@ status frame_field_read(const struct output_frame *f, const char *path, const ch
     hdf_open(&h, path);
     const bool zero = strcmp(name, "contact_force") == 0 && hdf_has_attribute(&h, "/Cleave", "zero");
     const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_size(&h, place), most = f->n * COLUMNS_MOST;
-    if (zero) *columns = DIM_MAX, *value = NEW("frame.field", f->n * DIM_MAX, float);
+    if (zero) *component_count = DIM_MAX, *value = NEW("frame.field", f->n * DIM_MAX, float);
     if (count > 0 && count <= most && count % f->n == 0) {
-        *columns = (int)(count / f->n), *value = NEW("frame.field", count, float);
+        *component_count = (int)(count / f->n), *value = NEW("frame.field", count, float);
         hdf_read_rows(&h, place, HDF_F32, count, *value);
     }
     const bool whole = !h.failed && *value;
@@ -193,23 +194,23 @@ static bool next_frame(const char **at, struct listed_frame *f)
     return end > time + sizeof key - 1;
 }
 
-status run_list_frames(const char *folder, int *n, struct listed_frame **list)
+status run_list_frames(const char *folder, int *frame_count, struct listed_frame **frames)
 {
     struct path path = path_join(folder, "frames.hdf.series");
     char *text = NULL;
     size_t length = 0;
     struct listed_frame f;
-    *n = 0;
-    *list = NULL;
+    *frame_count = 0;
+    *frames = NULL;
     if (!path_exists(path.text)) return status_set(FAILED, "%s holds no frames (no frames.hdf.series)", folder);
     TRY(file_read_whole(path.text, &text, &length));
     int count = 0;
     for (const char *at = text; next_frame(&at, &f);) count++;
-    *list = NEW("frames.list", count, struct listed_frame);
-    for (const char *at = text; *n < count && next_frame(&at, &(*list)[*n]);) ++*n;
+    *frames = NEW("frames.list", count, struct listed_frame);
+    for (const char *at = text; *frame_count < count && next_frame(&at, &(*frames)[*frame_count]);) ++*frame_count;
     memory_free(text);
     if (count > 0) return OK;
-    memory_free(*list);
-    *list = NULL;
+    memory_free(*frames);
+    *frames = NULL;
     return status_set(FAILED, "%s lists no frames", path.text);
 }

@@ -14,9 +14,9 @@ static const char *const linked[] = {
     "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
     "/VTKHDF/FieldData/units", "/VTKHDF/FieldData/scene", "/Cleave/scene"};
 
-void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int file_number)
+void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number)
 {
-    snprintf(name, capacity, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, file_number);
+    snprintf(name, capacity, "frames%s%s/particles_%06d.h5", series->name[0] ? "_" : "", series->name, file_number);
 }
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
@@ -27,25 +27,26 @@ static bool is_inside(const struct particles_file *f, int k) { return f->fields 
 /* Returns the size of all rows of field k (FIELD_*) in the particles file [byte]. */
 static size_t field_bytes(const struct particles_file *f, int k)
 {
-    return (size_t)f->n * frame_field_bytes(&frame_fields[k], f->dim);
+    return (size_t)f->n * frame_field_bytes_per_row(&frame_fields[k], f->dim);
 }
 
-void particles_file_make(struct particles_file *f, const struct frame_series *s, const struct frame_source *source,
-                         unsigned fields, const char *scene_text)
+void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
+                                     const struct frame_source *source, unsigned field_bits, const char *scene_text)
 {
     char units[1000];
     size_t length = 0;
-    *f = (struct particles_file){.n = s->rows.n, .dim = source->p->dim, .fields = fields, .scene_text = scene_text};
+    *f = (struct particles_file){
+        .n = series->rows.n, .dim = source->p->dim, .fields = field_bits, .scene_text = scene_text};
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (is_inside(f, k)) length += field_bytes(f, k);
     f->rows = NEW("output.fixed", (int64_t)length, char);
     f->cells = NEW("output.cells", f->n + 1, int32_t);
-    frame_units_text(fields, units, sizeof units);
+    frame_units_write_text(field_bits, units, sizeof units);
     uint64_t hash = bytes_hash(bytes_hash((uint64_t)f->n, units, strlen(units)), scene_text, strlen(scene_text));
     char *rows = f->rows;
     for (int k = 0; k < FRAME_FIELDS; k++) {
         if (!is_inside(f, k)) continue;
-        frame_field_copy_rows(&frame_fields[k], source, &s->rows, rows);
+        frame_field_copy_rows(&frame_fields[k], source, &series->rows, rows);
         hash = bytes_hash(hash, rows, field_bytes(f, k));
         rows += field_bytes(f, k);
     }
@@ -83,7 +84,7 @@ static void particles_write_contents(struct hdf *h, const struct particles_file 
     static const int32_t version = PARTICLES_VERSION;
     const char *rows = f->rows;
     char units[1000];
-    frame_units_text(f->fields, units, sizeof units);
+    frame_units_write_text(f->fields, units, sizeof units);
     hdf_create_group(h, "/VTKHDF"), hdf_create_group(h, "/VTKHDF/PointData"), hdf_create_group(h, "/VTKHDF/FieldData");
     hdf_create_group(h, "/Cleave");
     hdf_write_scalar_attribute(h, "/Cleave", "version", HDF_I32, &version);
@@ -99,56 +100,57 @@ static void particles_write_contents(struct hdf *h, const struct particles_file 
     }
 }
 
-status particles_file_write(const struct particles_file *f, bool *broken)
+status particles_file_write(const struct particles_file *f, bool *hdf5_failed)
 {
     struct hdf h;
     int64_t content = 0;
     if (!particles_file_describe_damage(f->path.text, &content) && content == f->content) return OK;
-    hdf_create(&h, file_begin_temporary(f->path.text).text, f->compress);
+    hdf_create(&h, file_begin_writing_temporary(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
-    TRY(hdf_close_written(&h, f->path.text, broken));
+    TRY(hdf_close_written_file(&h, f->path.text, hdf5_failed));
     TRY(file_append_checksum_footer(f->path.text));
     return file_replace_by_temporary(f->path.text);
 }
 
-void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned fields)
+void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits)
 {
     const char *file = strrchr(f->path.text, '/') + 1;
-    for (size_t k = 0; k < COUNT_OF(linked); k++) hdf_create_link(frame, linked[k], file);
+    for (size_t k = 0; k < COUNT_OF(linked); k++) hdf_create_external_link(frame, linked[k], file);
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (fields >> k & 1 && frame_fields[k].fixed) hdf_create_link(frame, frame_fields[k].path, file);
+        if (field_bits >> k & 1 && frame_fields[k].fixed) hdf_create_external_link(frame, frame_fields[k].path, file);
     hdf_write_scalar_attribute(frame, "/Cleave", "content", HDF_I64, &f->content);
 }
 
 /* ---- checking ---------------------------------------------------------------------------------------------------- */
 
-bool particles_file_read_content_hash(const char *path, int64_t *content)
+bool particles_file_read_content_hash(const char *path, int64_t *content_hash)
 {
     struct hdf h;
     char target[PATH_NAME_ROOM];
-    *content = 0;
+    *content_hash = 0;
     hdf_open(&h, path);
-    if (hdf_has_attribute(&h, "/Cleave", "content") && !hdf_read_link_file(&h, "/VTKHDF/Types", target, sizeof target))
-        hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content);
+    if (hdf_has_attribute(&h, "/Cleave", "content") &&
+        !hdf_read_external_link_target(&h, "/VTKHDF/Types", target, sizeof target))
+        hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content_hash);
     hdf_close(&h);
     return !h.failed;
 }
 
-const char *particles_file_describe_damage(const char *path, int64_t *content)
+const char *particles_file_describe_damage(const char *path, int64_t *content_hash)
 {
     const char *fault = file_describe_damage(path);
     if (fault) return fault;
-    return particles_file_read_content_hash(path, content) ? NULL : "is no particles file";
+    return particles_file_read_content_hash(path, content_hash) ? NULL : "is no particles file";
 }
 
-status particles_file_check(struct hdf *h, const char *path)
+status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path)
 {
     struct path file = {{0}};
     char name[PATH_NAME_ROOM];
     int64_t content = 0, found = 0;
-    if (!hdf_read_link_file(h, "/VTKHDF/Types", name, sizeof name)) return OK;
-    hdf_read_attribute(h, "/Cleave", "content", HDF_I64, &content);
-    if (h->failed || !name[0] || strchr(name, '/'))
+    if (!hdf_read_external_link_target(frame, "/VTKHDF/Types", name, sizeof name)) return OK;
+    hdf_read_attribute(frame, "/Cleave", "content", HDF_I64, &content);
+    if (frame->failed || !name[0] || strchr(name, '/'))
         return status_set(FAILED, "cannot read %s: frames/NNNNNN.hdf of a results folder is expected", path);
     const char *slash = strrchr(path, '/');
     const int folder = slash ? (int)(slash + 1 - path) : 0;

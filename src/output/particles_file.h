@@ -25,36 +25,37 @@ struct particles_file {
 
 /* Writes the name of particles file number `file_number` of a series, relative to the folder of the run, to
  * name[capacity]. */
-void particles_file_name(const struct frame_series *s, char *name, size_t capacity, int file_number);
+void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from frame to frame: copies the
- * fields in the set `fields` (one bit per entry of frame_fields) from *source for the rows that the series s shows, and
- * computes a hash of the contents. scene_text: text of the scene, which the file contains. Release f with
+ * fields in the set `field_bits` (one bit per entry of frame_fields) from *source for the rows that the series s shows,
+ * and computes a hash of the contents. scene_text: text of the scene, which the file contains. Release f with
  * particles_file_free. */
-void particles_file_make(struct particles_file *f, const struct frame_series *s, const struct frame_source *source,
-                         unsigned fields, const char *scene_text);
+void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
+                                     const struct frame_source *source, unsigned field_bits, const char *scene_text);
 
-/* Writes the particles file f->path, unless a complete file with the same contents exists. Sets *broken to true if HDF5
- * failed and must not be called again. Returns FAILED if the file cannot be written. */
-status particles_file_write(const struct particles_file *f, bool *broken);
+/* Writes the particles file f->path, unless a complete file with the same contents exists. Sets *hdf5_failed to true if
+ * HDF5 failed and must not be called again. Returns FAILED if the file cannot be written. */
+status particles_file_write(const struct particles_file *f, bool *hdf5_failed);
 
 /* Releases the contents of *f. */
 void particles_file_free(struct particles_file *f);
 
-/* Creates in the file `frame` the links to the data in the particles file f. fields: fields of the frame, one bit per
- * entry of the table frame_fields. */
-void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned fields);
+/* Creates in the file `frame` the links to the data in the particles file f. field_bits: fields of the frame, one bit
+ * per entry of the table frame_fields. */
+void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits);
 
-/* Reads the hash of the contents of the particles file `path` into *content. If the file is a frame or another file of
- * a run, *content is 0, which is the hash of no particles file. Returns false if the file cannot be read. */
-bool particles_file_read_content_hash(const char *path, int64_t *content);
+/* Reads the hash of the contents of the particles file `path` into *content_hash. If the file is a frame or another
+ * file of a run, *content_hash is 0, which is the hash of no particles file. Returns false if the file cannot be read.
+ */
+bool particles_file_read_content_hash(const char *path, int64_t *content_hash);
 
-/* Checks the particles file `path` and stores the hash of its contents in *content. Returns NULL if the file is
+/* Checks the particles file `path` and stores the hash of its contents in *content_hash. Returns NULL if the file is
  * complete and unchanged, else a static text that completes "PATH ..." in a message. */
-const char *particles_file_describe_damage(const char *path, int64_t *content);
+const char *particles_file_describe_damage(const char *path, int64_t *content_hash);
 
 /* Checks the particles file to which the frame h, the open file `path`, links. Returns OK if it is complete and belongs
  * to the frame, or if the frame needs none, as frames of earlier versions; else FAILED. */
-status particles_file_check(struct hdf *h, const char *path);
+status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path);
 
 #endif

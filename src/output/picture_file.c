@@ -95,7 +95,7 @@ static int mark_and_sync(int fd, const struct picture_end *e)
 
 status picture_replace_by_temporary(const char *path, enum picture_format format)
 {
-    const int fd = open(path_temporary(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    const int fd = open(path_of_temporary_file(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     int fault = fd < 0 ? errno : mark_and_sync(fd, &ends[format]);
     if (fd >= 0 && close(fd) != 0 && !fault) fault = errno;
     if (!fault) return file_replace_by_temporary(path);

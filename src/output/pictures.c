@@ -13,7 +13,7 @@ static const char *const picture_name[DRAWN_KINDS] = {
 };
 static const char field_prefix[] = "field_";
 
-struct path pictures_folder(const char *dir) { return path_join(dir, "pictures"); }
+struct path pictures_folder(const char *run_folder) { return path_join(run_folder, "pictures"); }
 
 /* Composes the path of a picture in a folder of pictures. of: base name of the picture; number: "" or the number of its
  * frame as "_000012"; ending: extension without the point. The path is empty if it is too long. */
@@ -24,16 +24,16 @@ static struct path picture_place(const char *folder, const char *of, const char 
     return *folder ? path_join(folder, name) : (struct path){{0}};
 }
 
-struct path picture_path(const char *folder, enum picture which, const char *ending)
+struct path picture_path(const char *folder, enum picture kind, const char *ending)
 {
-    return picture_place(folder, picture_name[which], "", ending);
+    return picture_place(folder, picture_name[kind], "", ending);
 }
 
-struct path picture_path_of_frame(const char *folder, enum picture which, int frame_number)
+struct path picture_path_of_frame(const char *folder, enum picture kind, int frame_number)
 {
     char text[16];
     snprintf(text, sizeof text, "_%06d", frame_number);
-    return picture_place(folder, picture_name[which], text, "png");
+    return picture_place(folder, picture_name[kind], text, "png");
 }
 
 struct path picture_path_of_field(const char *folder, const char *field, const char *ending)

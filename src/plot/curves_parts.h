@@ -14,9 +14,9 @@ struct series {
     bool bar;             /* the run has one dimension */
 };
 
-/* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
+/* Returns the largest absolute value in the column with index `column_index` of the history h; 0 if the column has no
  * values. */
-double history_largest_magnitude(const struct history *h, int column);
+double history_largest_magnitude(const struct history *history, int column_index);
 
 /* Smallest and largest value of a set of numbers. */
 struct value_range {
@@ -24,13 +24,14 @@ struct value_range {
 };
 
 /* Returns the smallest and the largest finite value in the columns of the history h whose indices are
- * column[columns]. */
-struct value_range history_value_range(const struct history *h, const int *column, int columns);
+ * column_index[columns]. */
+struct value_range history_value_range(const struct history *history, const int *column_index, int column_count);
 
-/* Writes the time and the columns with the indices column[columns] of the history s->h to gnuplot (the stream `to`) as
- * the data block $data. Values of column[k] are divided by factor[k]. Long histories are reduced to a few thousand
- * rows, the last one included. */
-void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
+/* Writes the time and the columns with the indices column_index[columns] of the history s->h to gnuplot (the stream
+ * `gnuplot`) as the data block $data. Values of column_index[k] are divided by factor[k]. Long histories are reduced to
+ * a few thousand rows, the last one included. */
+void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
+                       int column_count);
 
 /* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
  * [pixel]; columns and lines of its key, and whether the key is below the panels. */
@@ -41,39 +42,42 @@ struct curves_layout {
     bool key_below;
 };
 
-/* Returns the layout of the picture that g draws. entries: number of texts of the key (legend), 0 for a picture without
- * key; longest: number of letters of the longest text; second_axis: true if there is a second vertical axis on the
- * right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key), or with a second axis, it is
- * below them. */
-struct curves_layout curves_layout_make(const struct gnuplot *g, int entries, size_t longest, bool second_axis);
+/* Returns the layout of the picture that g draws. key_entry_count: number of texts of the key (legend), 0 for a picture
+ * without key; longest_key_entry: number of letters of the longest text; has_second_axis: true if there is a second
+ * vertical axis on the right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key), or with
+ * a second axis, it is below them. */
+struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
+                                        bool has_second_axis);
 
 /* Returns the height between the upper edge of the first panel and the lower edge of the last one [pixel]. */
-double curves_layout_inner_height(const struct curves_layout *layout);
+double curves_layout_height_of_all_panels(const struct curves_layout *layout);
 
-/* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. from, end: distances of
- * the upper and the lower edge of this panel from the upper edge of the first panel [pixel]. */
-void curves_write_panel(FILE *to, const struct curves_layout *layout, double from, double end);
+/* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. from, lower_edge:
+ * distances of the upper and the lower edge of this panel from the upper edge of the first panel [pixel]. */
+void curves_write_panel_margins(FILE *gnuplot, const struct curves_layout *layout, double upper_edge,
+                                double lower_edge);
 
 /* Writes the gnuplot command for the position of the key (legend) in the layout. */
-void curves_write_key(FILE *to, const struct curves_layout *layout);
+void curves_write_key_position(FILE *gnuplot, const struct curves_layout *layout);
 
 /* Writes the gnuplot commands for the margins and the key (legend) of a picture with one panel. */
-void curves_write_margins(FILE *to, const struct curves_layout *layout);
+void curves_write_margins_and_key(FILE *gnuplot, const struct curves_layout *layout);
 
 /* Edges of two panels, one above the other, measured from the upper edge of the first one [pixel]. The lower panel has
  * about a fourth of the height. */
 struct two_panels {
     double upper_end, lower_from, lower_end;
 };
-struct two_panels curves_two_panels(const struct curves_layout *layout);
+struct two_panels curves_layout_edges_of_two_panels(const struct curves_layout *layout);
 
-/* Returns the distance of tics, 1, 2 or 5 times a power of ten, for an axis whose values extend over `range` and that
- * is `pixels` pixels long. Tics are at least `least_distance` pixels apart, and there are at most about ten. */
-double tic_distance(double range, double pixels, double least_distance);
+/* Returns the distance of tics, 1, 2 or 5 times a power of ten, for an axis whose values extend over `value_extent` and
+ * that is `axis_length` pixels long. Tics are at least `least_distance` pixels apart, and there are at most about ten.
+ */
+double tic_distance(double value_extent, double axis_length, double least_distance);
 
 /* Writes the gnuplot command for the tics of the vertical axis "y" or "y2" of a panel of the given height [pixel],
  * whose values extend from `low` to `high`. */
-void curves_write_tics(FILE *to, const char *axis, double low, double high, double pixels);
+void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height);
 
 /* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
  * `123.4 µs`. */
@@ -81,59 +85,61 @@ enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
 
 /* Writes the gnuplot commands for a heading above the picture: `title`, followed by `quantity` if it ends in a space.
  */
-void curves_write_title(struct gnuplot *g, const char *title, const char *quantity);
+void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
- * range and label. s: history that is drawn. */
-void curves_write_time_axis(FILE *to, const struct series *s);
+ * range and label. series: history that is drawn. */
+void curves_write_time_axis(FILE *gnuplot, const struct series *series);
 
 /* Draws the stress-intensity factors of all probes of this kind over time and, below, the relative differences between
- * their integration contours, as the picture `sif`. title: heading of the picture; s: history of the run. Returns OK
- * without a picture if the run has no such probe, FAILED if gnuplot fails. */
-status sif_curves_draw(const char *title, const struct series *s);
+ * their integration contours, as the picture `sif`. title: heading of the picture; series: history of the run. Returns
+ * OK without a picture if the run has no such probe, FAILED if gnuplot fails. */
+status sif_curves_draw(const char *title, const struct series *series);
 
 /* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
- * measured in an experiment if the scene states one. title: heading of the picture; s: history of the run. Returns OK
- * without a picture if the run has no growth probe, FAILED if gnuplot fails. */
-status crack_paths_draw(const char *folder, const char *title, const struct series *s);
+ * measured in an experiment if the scene states one. title: heading of the picture; series: history of the run. Returns
+ * OK without a picture if the run has no growth probe, FAILED if gnuplot fails. */
+status crack_paths_draw(const char *folder, const char *title, const struct series *series);
 
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
 
 /* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
- * marked, to the file `sheet`. title: heading of the picture; h: history of the run; in_steps: true for a run with load
- * steps. If no support or body carries a force or moves, prints this instead of drawing, and names the probe that would
- * record it. Returns FAILED if gnuplot fails. */
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps);
+ * marked, to the file `sheet`. title: heading of the picture; history: history of the run; has_load_steps: true for a
+ * run with load steps. If no support or body carries a force or moves, prints this instead of drawing, and names the
+ * probe that would record it. Returns FAILED if gnuplot fails. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history,
+                              bool has_load_steps);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve) to the file `sheet`, with
- * lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture; h:
- * history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if gnuplot fails. */
-status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
+ * lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;
+ * history: history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if gnuplot fails.
+ */
+status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history);
 
 /* Draws all pictures of the history of the run in r->folder into the folder r->pictures: crack, energy, sif, path and
  * load_displacement, for load steps also r_curve (names in output/pictures.h). title: heading of each picture. Returns
  * FAILED if history.csv cannot be read or gnuplot fails. */
-status history_curves_draw(const struct plot_request *r, const char *title);
+status history_curves_draw(const struct plot_request *request, const char *title);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
  * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frames);
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count);
 
 /* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames], to the file
- * `sheet`. title: heading of the picture; value[k]: values of the field at the particles of frame k. Returns FAILED if
- * gnuplot fails. */
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
-                           const struct output_frame *frame, int frames);
+ * `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the particles of frame k. Returns
+ * FAILED if gnuplot fails. */
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+                           float *const *value_of_frame, const struct output_frame *frame, int frame_count);
 
 /* Finds an EXACT probe, which compares a bar with a closed-form solution, by its profiles in the folder of a run.
- * Stores the name of the probe in `name`. Returns false if there is none. */
-bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH]);
+ * Stores the name of the probe in `probe_name`. Returns false if there is none. */
+bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH]);
 
-/* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
- * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in
- * `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
-status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
-                                   const struct listed_frame *show, int frames);
+/* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe_name`,
+ * with the closed-form solution, to the file `sheet`. title: heading of the picture; shown_frame[frames]: frames of the
+ * run in `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
+status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe_name,
+                                   const struct listed_frame *shown_frame, int frame_count);
 
 #endif

@@ -29,7 +29,7 @@ struct ffmpeg {
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
-    interrupt_cleanup_prepare_child();
+    interrupt_cleanup_prepare_child_process();
     signal(SIGPIPE, SIG_DFL);
     dup2(from < 0 ? nothing : from, STDIN_FILENO);
     dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
@@ -38,7 +38,7 @@ static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
     _exit(NOT_FOUND);
 }
 
-status film_check_encoder(void)
+status film_check_encoder_is_installed(void)
 {
     char *word[] = {"ffmpeg", "-version", NULL};
     int ended = 0;
@@ -66,7 +66,7 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet, int fps)
 {
     struct path to;
     char rate[16];
-    const struct path aside = path_temporary(sheet.path);
+    const struct path aside = path_of_temporary_file(sheet.path);
     const bool gif = sheet.format == PICTURE_GIF;
     int ends[2];
     snprintf(rate, sizeof rate, "%d", fps ? fps : FRAMES_PER_SECOND);
@@ -122,7 +122,7 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     if (fed == OK && made)
         fed = picture_replace_by_temporary(sheet.path, sheet.format);
     else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
-        error_message_last_line(f->complaints, reason, sizeof reason);
+        error_message_read_last_line(f->complaints, reason, sizeof reason);
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
     }
     if (fed != OK) file_discard_temporary(sheet.path);
@@ -131,8 +131,8 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     return fed;
 }
 
-status film_draw(struct sheet sheet, int fps, const char *title, enum map map, const struct view *view,
-                 const struct plotted_particles *cloud, int clouds)
+status film_draw_frames_as_video(struct sheet sheet, int fps, const char *title, enum map map, const struct view *view,
+                                 const struct plotted_particles *cloud, int frame_count)
 {
     struct ffmpeg f;
     struct path picture;
@@ -140,11 +140,11 @@ status film_draw(struct sheet sheet, int fps, const char *title, enum map map, c
     if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
         return status_set(FAILED, "%s: the name is too long", sheet.path);
     TRY(file_check_replaceable(sheet.path));
-    unlink(path_temporary(sheet.path).text); /* a link of this name is not followed */
+    unlink(path_of_temporary_file(sheet.path).text); /* a link of this name is not followed */
     status s = ffmpeg_start(&f, sheet, fps);
-    for (int k = 0; s == OK && k < clouds; k++) {
+    for (int k = 0; s == OK && k < frame_count; k++) {
         interrupt_cleanup_register(LEAVING_FRAME, picture.text, 0);
-        s = maps_draw((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
+        s = maps_draw_panels_of_frames((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
         if (s == OK) s = ffmpeg_feed(&f, picture.text);
         unlink(picture.text);
         interrupt_cleanup_register(LEAVING_FRAME, NULL, 0);

@@ -24,21 +24,21 @@ const char *const curve_colour[CURVE_COLOURS] = {
 
 const char *const picture_ending[PICTURE_FORMATS] = {"png", "svg", "pdf", "mp4", "gif"};
 
-void gnuplot_quote(FILE *to, const char *text)
+void gnuplot_write_quoted_string(FILE *file, const char *text)
 {
-    putc('\'', to);
+    putc('\'', file);
     for (; *text != '\0'; text++) {
-        if (*text == '\'') putc('\'', to); /* a quote is written twice */
-        putc(iscntrl((unsigned char)*text) ? ' ' : *text, to);
+        if (*text == '\'') putc('\'', file); /* a quote is written twice */
+        putc(iscntrl((unsigned char)*text) ? ' ' : *text, file);
     }
-    putc('\'', to);
+    putc('\'', file);
 }
 
 /* Replaces the child process by gnuplot, with standard input from the pipe pipe_ends[2]. complaints: descriptor of the
  * file for its output and errors. Does not return. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
-    interrupt_cleanup_prepare_child();
+    interrupt_cleanup_prepare_child_process();
     signal(SIGPIPE, SIG_DFL);
     dup2(pipe_ends[0], STDIN_FILENO);
     dup2(complaints, STDOUT_FILENO);
@@ -128,7 +128,7 @@ static void set_terminal(struct gnuplot *g, enum picture_format format, int widt
                 size[0], size[1], fine * letters, fine * lines, fine * lines, size[0], size[1]);
     }
     fputs("set output ", g->to);
-    gnuplot_quote(g->to, g->aside);
+    gnuplot_write_quoted_string(g->to, g->aside);
     putc('\n', g->to);
 }
 
@@ -206,10 +206,10 @@ status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_for
 /* Least resolution of images in vector formats [pixel/inch]: journals want 300 to 600. */
 static const double IMAGE_DPI = 432;
 
-int gnuplot_image_pixels(enum picture_format format, int pixels)
+int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixels)
 {
     const bool vector = format == PICTURE_SVG || format == PICTURE_PDF;
-    return (int)fmax(lround((vector ? fmax(usual.dpi, IMAGE_DPI) : usual.dpi) / PICTURE_DPI * pixels), 1);
+    return (int)fmax(lround((vector ? fmax(usual.dpi, IMAGE_DPI) : usual.dpi) / PICTURE_DPI * layout_pixels), 1);
 }
 
 bool picture_is_too_narrow_for_key(void) { return usual.width > 0 && usual.width < NARROW; }
@@ -251,13 +251,13 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
         char part[TITLE_ROOM];
         snprintf(part, sizeof part, "%.*s", (int)(line ? length - cut - 1 : cut), line ? text + cut + 1 : text);
         fprintf(g->to, "set label %d ", 1 + line);
-        gnuplot_quote(g->to, part);
+        gnuplot_write_quoted_string(g->to, part);
         fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left_margin / g->width,
                 1 - (upper + (cut < length ? 1.25 * size * (line - 0.5) : 0)) / g->height, size);
     }
 }
 
-void error_message_last_line(FILE *file, char *text, size_t size)
+void error_message_read_last_line(FILE *file, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
@@ -282,7 +282,7 @@ status gnuplot_close(struct gnuplot *g)
                                "(Fedora, macOS)");
     } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char reason[256];
-        error_message_last_line(g->complaints, reason, sizeof reason);
+        error_message_read_last_line(g->complaints, reason, sizeof reason);
         s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
     } else {
         s = picture_replace_by_temporary(g->path, g->format);

@@ -36,7 +36,7 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
     s.tics = tic_distance(s.high - s.low, 300, 50);
     s.format = "%g";
-    plot_field_label(s.label, sizeof s.label, view->field);
+    plot_field_write_label(s.label, sizeof s.label, view->field);
     const size_t length = strlen(s.label);
     if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
     return s;
@@ -64,13 +64,13 @@ static const char *bar_second_line(const struct bar_scale *s, int length)
     return letter_wide() * (double)strlen(s->label) > length ? strstr(s->label, " [") : NULL;
 }
 
-int bar_width_beside(const struct maps_shown *m, int panels)
+int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height)
 {
-    const struct bar_scale s = bar_scale_of(m->view, m->map);
+    const struct bar_scale s = bar_scale_of(shown->view, shown->map);
     double numbers = 0;
     for (int length = 40; length <= BAR_HIGHEST; length *= 2)
-        numbers = fmax(numbers, numbers_width(s.low, s.high, bar_tics(&s, length), s.format));
-    const int length = bar_length(&s, panels, BAR_HIGHEST);
+        numbers = fmax(numbers, tic_numbers_width(s.low, s.high, bar_tics(&s, length), s.format));
+    const int length = bar_length(&s, panels_height, BAR_HIGHEST);
     const double lines = bar_second_line(&s, length) ? 1 : 0;
     return (int)(BAR_FROM_NARROW + BAR_WIDE + NUMBERS_NARROW + numbers + LABEL_HALF + lines * letter_wide());
 }
@@ -110,13 +110,13 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     const double from[2] = {0, s->low}, step[2] = {1.0 / BAR_ACROSS, (s->high - s->low) / BAR_STEPS};
     const double x = l->width - l->right + bar_from(), tics = bar_tics(s, length);
     for (int k = 0; k < BAR_STEPS * BAR_ACROSS; k++)
-        pixel[k] = map_colour(m->view, m->map, (k / BAR_ACROSS + 0.5) / BAR_STEPS);
+        pixel[k] = map_colour_at_scale_position(m->view, m->map, (k / BAR_ACROSS + 0.5) / BAR_STEPS);
     box_write_margins(to, l, x, l->above, BAR_WIDE, length);
     fprintf(to, "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n",
             s->low, s->high, s->low, s->high, tics, s->format);
     draw_bar_label(to, l, s,
                    x + BAR_WIDE + (picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS) +
-                       numbers_width(s->low, s->high, tics, s->format),
+                       tic_numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
         draw_beyond(to, l, m->view, particles, end, picture_is_too_narrow_for_key() ? l->width - 4 : x - 6,
@@ -133,10 +133,10 @@ static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_s
     const double y = l->above + l->rows * l->panel_height + (l->rows - 1) * GAP_Y + l->axes;
     const double from[2] = {s->low, 0}, step[2] = {(s->high - s->low) / BAR_STEPS, 1.0 / BAR_ACROSS};
     for (int k = 0; k < BAR_ACROSS * BAR_STEPS; k++)
-        pixel[k] = map_colour(m->view, m->map, (k % BAR_STEPS + 0.5) / BAR_STEPS);
+        pixel[k] = map_colour_at_scale_position(m->view, m->map, (k % BAR_STEPS + 0.5) / BAR_STEPS);
     box_write_margins(to, l, x, y, wide, BAR_LOW);
     fprintf(to, "set yrange [0:1]\nset xrange [%.9g:%.9g]\nset xtics out %.9g format '%s' offset 0,0.5\n", s->low,
-            s->high, fmax(s->tics, tics_across(s->low, s->high, wide)), s->format);
+            s->high, fmax(s->tics, tic_distance_on_horizontal_axis(s->low, s->high, wide)), s->format);
     fprintf(to, "set label '%s' at screen %.6g,%.6g center textcolor rgb '#333333'\n", s->label,
             (x + 0.5 * wide) / l->width, 1 - (y + UNDER_LABEL) / l->height);
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
@@ -145,13 +145,13 @@ static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_s
     panel_write_image(to, pixel, BAR_STEPS, BAR_ACROSS, from, step, "");
 }
 
-void map_bar_draw(FILE *to, const struct layout *l, const struct maps_shown *m, int64_t particles)
+void map_colour_bar_draw(FILE *gnuplot, const struct layout *l, const struct maps_shown *shown, int64_t particle_count)
 {
-    const struct bar_scale s = bar_scale_of(m->view, m->map);
+    const struct bar_scale s = bar_scale_of(shown->view, shown->map);
     fputs("unset arrow\nunset title\nunset xlabel\nunset ylabel\nunset xtics\nunset ytics\nset border 15\n"
           "unset grid\nunset label\n",
-          to);
-    (l->bar_under ? draw_bar_under : draw_bar_beside)(to, l, m, &s, particles);
+          gnuplot);
+    (l->bar_under ? draw_bar_under : draw_bar_beside)(gnuplot, l, shown, &s, particle_count);
 }
 
 /* ---- key --------------------------------------------------------------------------------------------------------- */
@@ -163,7 +163,7 @@ static void map_key_add(struct map_key *key, struct colour colour, const char *n
     snprintf(of->name, sizeof of->name, "%s", name);
 }
 
-void map_key_make(struct map_key *key, enum map map, const struct view *view, bool rigid)
+void map_key_make(struct map_key *key, enum map map, const struct view *view, bool has_rigid_bodies)
 {
     const struct categories *named = view->categories;
     char more[32];
@@ -179,7 +179,7 @@ void map_key_make(struct map_key *key, enum map map, const struct view *view, bo
         snprintf(more, sizeof more, "and %d more", named->more);
         if (named->more > 0) map_key_add(key, (struct colour){0}, more);
     }
-    if (rigid) map_key_add(key, rigid_colour(), "rigid");
+    if (has_rigid_bodies) map_key_add(key, rigid_body_colour(), "rigid");
 }
 
 /* Draws an entry of the key: a square in its colour, unless that is transparent, and its text. x, y: position from the
@@ -193,12 +193,12 @@ static void key_entry(FILE *to, const struct layout *l, double x, double y, cons
                 x / l->width, 1 - (y + 6) / l->height, (x + 14) / l->width, 1 - (y - 8) / l->height, e->colour.red,
                 e->colour.green, e->colour.blue);
     fputs("set label ", to);
-    gnuplot_quote(to, e->name);
+    gnuplot_write_quoted_string(to, e->name);
     fprintf(to, " at screen %.6g,%.6g left font ',12' textcolor rgb '#333333'\n", (x + 21) / l->width,
             1 - (y - 1) / l->height);
 }
 
-void map_key_draw(FILE *to, const struct layout *l, const struct map_key *key)
+void map_key_draw(FILE *gnuplot, const struct layout *l, const struct map_key *key)
 {
     const double below = l->above + l->rows * l->panel_height + (l->rows - 1) * GAP_Y + l->axes;
     const double y = l->key_beside ? l->above + 8 : below + (l->bar_under ? BAR_STRIP : 0) + KEY_UNDER + 2;
@@ -207,5 +207,5 @@ void map_key_draw(FILE *to, const struct layout *l, const struct map_key *key)
                                                        : l->left;
     const int columns = l->key_beside ? 1 : l->key_columns;
     for (int k = 0; k < key->n; k++)
-        key_entry(to, l, x + k % columns * l->entry, y + k / columns * KEY_ROW, &key->of[k]);
+        key_entry(gnuplot, l, x + k % columns * l->entry, y + k / columns * KEY_ROW, &key->of[k]);
 }

@@ -19,14 +19,14 @@ static const double SHAPE_WANTED = 0.72;  /* height over width of the picture */
 static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */
 static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
 
-bool map_has_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
+bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
 /* Returns a layout in which only the margins of the panels are set: above for the title, left for the axis, and right
  * for the colour bar or the key. The lower margin is set by strip_set. under: the colour bar, or the key of a map of
  * named values, is below the panels; panels: height of all rows of panels [pixel]. */
 static struct layout margins_of(const struct maps_shown *m, bool under, int panels)
 {
-    const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_bar(m->map), titled = m->title[0];
+    const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_colour_bar(m->map), titled = m->title[0];
     const double letter = narrow ? KEY_LETTER_NARROW : KEY_LETTER;
     size_t longest = 0;
     for (int k = 0; k < m->key.n; k++)
@@ -40,7 +40,7 @@ static struct layout margins_of(const struct maps_shown *m, bool under, int pane
         l = (struct layout){.left = m->outside ? LEFT_OUTSIDE_NARROW : LEFT_NARROW,
                             .above = titled ? ABOVE_NARROW : UNTITLED_NARROW,
                             .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
-                            .right = under || !bar ? EDGE_NARROW : bar_width_beside(m, panels),
+                            .right = under || !bar ? EDGE_NARROW : colour_bar_width_beside_panels(m, panels),
                             .gap = GAP_NARROW};
     l.title = l.left;
     l.entry = (int)(KEY_SQUARE + letter * (double)longest);
@@ -93,21 +93,22 @@ static struct layout layout_settled(const struct maps_shown *m, bool under, int 
     return layout_of(columns, panels, aspect, &margins);
 }
 
-struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect)
+struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width)
 {
-    const bool choice = picture_is_too_narrow_for_key() && (map_has_bar(m->map) || m->map == MAP_CATEGORY);
+    const bool choice =
+        picture_is_too_narrow_for_key() && (map_has_colour_bar(shown->map) || shown->map == MAP_CATEGORY);
     const bool fixed =
         picture_size_get().height || picture_is_too_narrow_for_key(); /* columns of journals may be tall */
     struct layout best = {0};
     double best_cost = INFINITY;
     for (int under = 0; under < 1 + choice; under++)
-        for (int columns = 1; columns <= panels; columns++) {
-            const struct layout l = layout_settled(m, under, columns, panels, aspect);
+        for (int columns = 1; columns <= panel_count; columns++) {
+            const struct layout l = layout_settled(shown, under, columns, panel_count, height_over_width);
             const double area = (double)l.panel_width * l.panel_height;
             const double tall = log((double)l.height / l.width / SHAPE_WANTED);
             const double shape = fixed ? 0 : picture_size_get().width ? fmax(tall, 0) : fabs(tall);
             double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER;
-            cost += 0.2 * (l.rows * l.columns - panels); /* empty panels */
+            cost += 0.2 * (l.rows * l.columns - panel_count); /* empty panels */
             if (cost >= best_cost) continue;
             best_cost = cost;
             best = l;

@@ -8,29 +8,32 @@
 /* Least distance of tics of the vertical axis [pixel]. */
 enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
 
-void box_write_margins(FILE *to, const struct layout *l, double left, double above, double width, double height)
+void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
+                       double height)
 {
-    fprintf(to, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left / l->width, (left + width) / l->width);
-    fprintf(to, "set tmargin at screen %.9g\nset bmargin at screen %.9g\n", 1 - above / l->height,
-            1 - (above + height) / l->height);
+    fprintf(gnuplot, "set lmargin at screen %.9g\nset rmargin at screen %.9g\n", left_edge / layout->width,
+            (left_edge + width) / layout->width);
+    fprintf(gnuplot, "set tmargin at screen %.9g\nset bmargin at screen %.9g\n", 1 - upper_edge / layout->height,
+            1 - (upper_edge + height) / layout->height);
 }
 
-void panel_write_margins(FILE *to, const struct layout *l, double left_edge, double above)
+void panel_write_margins(FILE *gnuplot, const struct layout *l, double left_edge, double upper_edge)
 {
-    box_write_margins(to, l, left_edge, above, l->panel_width, l->panel_height);
+    box_write_margins(gnuplot, l, left_edge, upper_edge, l->panel_width, l->panel_height);
 }
 
-void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
-                       const double *step, const char *further_elements)
+void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,
+                       const double *lower_left_corner, const double *pixel_size, const char *further_elements)
 {
-    fprintf(to,
+    fprintf(gnuplot,
             "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
             "with rgbalpha notitle%s\n",
-            width, height, step[0], step[1], from[0] + 0.5 * step[0], from[1] + 0.5 * step[1], further_elements);
-    fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
+            pixel_columns, pixel_rows, pixel_size[0], pixel_size[1], lower_left_corner[0] + 0.5 * pixel_size[0],
+            lower_left_corner[1] + 0.5 * pixel_size[1], further_elements);
+    fwrite(pixel, sizeof *pixel, (size_t)pixel_columns * (size_t)pixel_rows, gnuplot);
 }
 
-double numbers_width(double low, double high, double tics, const char *format)
+double tic_numbers_width(double low, double high, double tics, const char *format)
 {
     int longest = 0;
     for (double k = ceil(low / tics - 1e-6); k * tics <= high; k++) {
@@ -44,54 +47,55 @@ double numbers_width(double low, double high, double tics, const char *format)
 /* Returns the number of multiples of `tics` between `low` and `high`. */
 static double tics_within(double low, double high, double tics) { return floor(high / tics) - ceil(low / tics) + 1; }
 
-double tics_across(double low, double high, double pixels)
+double tic_distance_on_horizontal_axis(double low, double high, double axis_width)
 {
-    double apart = 20, tics = tic_distance(high - low, pixels, apart);
-    while (apart < pixels && numbers_width(low, high, tics, "%g") + 14 > tics / (high - low) * pixels)
-        tics = tic_distance(high - low, pixels, apart *= 1.3);
+    double apart = 20, tics = tic_distance(high - low, axis_width, apart);
+    while (apart < axis_width && tic_numbers_width(low, high, tics, "%g") + 14 > tics / (high - low) * axis_width)
+        tics = tic_distance(high - low, axis_width, apart *= 1.3);
     if (tics_within(low, high, tics) > 1) return tics;
-    while (apart > 1 && tics_within(low, high, tics) < 2) tics = tic_distance(high - low, pixels, apart /= 1.3);
+    while (apart > 1 && tics_within(low, high, tics) < 2) tics = tic_distance(high - low, axis_width, apart /= 1.3);
     return tics_within(low, high, 2 * tics) < 2 ? tics : 2 * tics;
 }
 
-void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct plotted_particles *c,
-                      const struct unit *metre, int column, bool lowest)
+void panel_write_axes(FILE *gnuplot, const struct layout *l, const struct view *view,
+                      const struct plotted_particles *particles, const struct unit *axis_unit, int column,
+                      bool is_lowest)
 {
     const int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) {
-        const double low = view->from[k] / metre->factor, high = view->to[k] / metre->factor;
-        const bool labelled = k == 0 ? lowest : column == 0;
+        const double low = view->from[k] / axis_unit->factor, high = view->to[k] / axis_unit->factor;
+        const bool labelled = k == 0 ? is_lowest : column == 0;
         const double tics =
-            k == 0 ? tics_across(low, high, size[0])
+            k == 0 ? tic_distance_on_horizontal_axis(low, high, size[0])
                    : tic_distance(high - low, size[1], picture_is_too_narrow_for_key() ? TICS_Y_NARROW : TICS_Y);
-        fprintf(to, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, tics, labelled ? "%g" : "", 'x' + k);
-        if (labelled) fprintf(to, "%c [%s]", 'x' + c->axis[k], metre->name);
-        fputs("'\n", to);
+        fprintf(gnuplot, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, tics, labelled ? "%g" : "", 'x' + k);
+        if (labelled) fprintf(gnuplot, "%c [%s]", 'x' + particles->axis[k], axis_unit->name);
+        fputs("'\n", gnuplot);
     }
 }
 
-void panel_write_axis_arrows(FILE *to, const struct layout *l, const struct view *view,
-                             const struct plotted_particles *c, const struct unit *metre, double left_edge,
-                             double above)
+void panel_write_axis_arrows(FILE *gnuplot, const struct layout *l, const struct view *view,
+                             const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
+                             double upper_edge)
 {
-    const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width, x = left_edge + 34;
-    const double y = l->height - (above + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
+    const double pixel = (view->to[0] - view->from[0]) / axis_unit->factor / l->panel_width, x = left_edge + 34;
+    const double y = l->height - (upper_edge + l->panel_height + 46); /* above the lower edge of the picture [pixel] */
     const double length = tic_distance(300 * pixel, 300, 60) / pixel;
     const double end = fmax(left_edge + l->panel_width - 8, x + 60 + length); /* beside the arrows */
     for (int d = 0; d < 3; d++) {
-        const double arrow[2] = {26 * c->camera.right[d], 26 * c->camera.up[d]};
+        const double arrow[2] = {26 * particles->camera.right[d], 26 * particles->camera.up[d]};
         if (hypot(arrow[0], arrow[1]) < 2) continue;
         fprintf(
-            to,
+            gnuplot,
             "set arrow from screen %.6g,%.6g to screen %.6g,%.6g size screen 0.006,20 front lw 1.3 lc rgb '#333333'\n"
             "set label %d '%c' at screen %.6g,%.6g center front font ',11' textcolor rgb '#333333'\n",
             x / l->width, y / l->height, (x + arrow[0]) / l->width, (y + arrow[1]) / l->height, 40 + d, 'x' + d,
             (x + 1.45 * arrow[0]) / l->width, (y + 1.45 * arrow[1]) / l->height);
     }
     fprintf(
-        to,
+        gnuplot,
         "set arrow from screen %.6g,%.6g to screen %.6g,%.6g heads size screen 0.004,90 front lw 1.3 lc rgb '#333333'\n"
         "set label 43 '%.4g %s' at screen %.6g,%.6g center front font ',11' textcolor rgb '#333333'\n",
         (end - length) / l->width, (y + 10) / l->height, end / l->width, (y + 10) / l->height, length * pixel,
-        metre->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
+        axis_unit->name, (end - 0.5 * length) / l->width, (y + 22) / l->height);
 }

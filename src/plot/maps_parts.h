@@ -44,59 +44,63 @@ static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 
 /* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
  * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key of named
- * values, is below the panels if they are larger then. panels: their number; aspect: height over width of a panel. */
-struct layout maps_layout_choose(const struct maps_shown *m, int panels, double aspect);
+ * values, is below the panels if they are larger then. panel_count: their number; height_over_width: height over width
+ * of a panel. */
+struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns true if a map of the kind `map` has a colour bar. */
-bool map_has_bar(enum map map);
+bool map_has_colour_bar(enum map map);
 
 /* Returns the width of the longest of the numbers at tics between `low` and `high` [pixel]. */
-double numbers_width(double low, double high, double tics, const char *format);
+double tic_numbers_width(double low, double high, double tics, const char *format);
 
 /* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
  * that there are two at least: a single one gives no scale. */
-double tics_across(double low, double high, double pixels);
+double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
 /* Returns the width that a colour bar with its numbers and its label takes on the right of panels in a narrow picture
- * [pixel]. panels: height of all rows of panels [pixel]. */
-int bar_width_beside(const struct maps_shown *m, int panels);
+ * [pixel]. panels_height: height of all rows of panels [pixel]. */
+int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
 
-/* Collects the key of a picture: kinds of particles, fragments or named values of the map, and rigid bodies if `rigid`
- * is true. */
-void map_key_make(struct map_key *key, enum map map, const struct view *view, bool rigid);
+/* Collects the key of a picture: kinds of particles, fragments or named values of the map, and rigid bodies if
+ * `has_rigid_bodies` is true. */
+void map_key_make(struct map_key *key, enum map map, const struct view *view, bool has_rigid_bodies);
 
 /* Writes the gnuplot commands that draw the key of a picture in the place that the layout has for it. */
-void map_key_draw(FILE *to, const struct layout *layout, const struct map_key *key);
+void map_key_draw(FILE *gnuplot, const struct layout *layout, const struct map_key *key);
 
 /* Writes the gnuplot commands that draw the colour bar of a picture in the place that the layout has for it, with the
- * share of the particles whose values are beyond its ends. particles: number of particles of a frame. */
-void map_bar_draw(FILE *to, const struct layout *layout, const struct maps_shown *m, int64_t particles);
+ * share of the particles whose values are beyond its ends. particle_count: number of particles of a frame. */
+void map_colour_bar_draw(FILE *gnuplot, const struct layout *layout, const struct maps_shown *shown,
+                         int64_t particle_count);
 
-/* Writes the gnuplot margins of a box of the given width and height. left, above: its upper left corner. All lengths
- * are in pixels. */
-void box_write_margins(FILE *to, const struct layout *l, double left, double above, double width, double height);
+/* Writes the gnuplot margins of a box of the given width and height. left, upper_edge: its upper left corner. All
+ * lengths are in pixels. */
+void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
+                       double height);
 
-/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, above: position
- * of its upper left corner, from the left and upper edge of the picture [pixel]. */
-void panel_write_margins(FILE *to, const struct layout *layout, double left_edge, double above);
+/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, upper_edge:
+ * position of its upper left corner, from the left and upper edge of the picture [pixel]. */
+void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge);
 
-/* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. c: particles of the
- * panel; metre: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in column 0 only);
- * lowest: true if no panel is below it, so that its lower axis has labels. */
-void panel_write_axes(FILE *to, const struct layout *layout, const struct view *view, const struct plotted_particles *c,
-                      const struct unit *metre, int column, bool lowest);
+/* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. particles: particles
+ * of the panel; axis_unit: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in
+ * column 0 only); is_lowest: true if no panel is below it, so that its lower axis has labels. */
+void panel_write_axes(FILE *gnuplot, const struct layout *layout, const struct view *view,
+                      const struct plotted_particles *particles, const struct unit *axis_unit, int column,
+                      bool is_lowest);
 
 /* Writes the gnuplot commands that draw, below a panel with a view of a three-dimensional body from outside, its
- * coordinate axes as arrows and a bar of known length. metre: unit of the axes of the panel; left, above: distances of
- * its upper left corner from the left and upper edge of the picture [pixel]. */
-void panel_write_axis_arrows(FILE *to, const struct layout *layout, const struct view *view,
-                             const struct plotted_particles *c, const struct unit *metre, double left_edge,
-                             double above);
+ * coordinate axes as arrows and a bar of known length. axis_unit: unit of the axes of the panel; left, upper_edge:
+ * distances of its upper left corner from the left and upper edge of the picture [pixel]. */
+void panel_write_axis_arrows(FILE *gnuplot, const struct layout *layout, const struct view *view,
+                             const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
+                             double upper_edge);
 
-/* Writes the gnuplot commands and data that plot the image pixel[height * width], rows from bottom to top. from[2]:
- * lower left corner of the image; step[2]: width and height of a pixel, both in units of the axes. further_elements:
- * further elements of the plot command, each preceded by a comma, or "". */
-void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
-                       const double *step, const char *further_elements);
+/* Writes the gnuplot commands and data that plot the image pixel[height * width], rows from bottom to top.
+ * lower_left_corner[2]: lower left corner of the image; pixel_size[2]: width and height of a pixel, both in units of
+ * the axes. further_elements: further elements of the plot command, each preceded by a comma, or "". */
+void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,
+                       const double *lower_left_corner, const double *pixel_size, const char *further_elements);
 
 #endif

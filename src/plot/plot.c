@@ -26,9 +26,9 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     if (map == MAP_KIND) snprintf(what, sizeof what, "method and damage");
     if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
-    if (map == MAP_FIELD) plot_field_label(what, sizeof what, view->field);
+    if (map == MAP_FIELD) plot_field_write_label(what, sizeof what, view->field);
     picture_compose_title(title, r, what, &cloud[0]);
-    return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
+    return maps_draw_panels_of_frames((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
 /* Contents of the selected frames of a run. */
@@ -87,20 +87,20 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     struct view view;
     const struct plotted_particles *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
-    TRY(view_make(&view, r, cloud, frames->shown));
+    TRY(view_make_for_request(&view, r, cloud, frames->shown));
     const enum map map = map_of_field(view.field);
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST),
                       field = picture_path_of_field(r->pictures, view.field->name, picture_ending[r->format]);
     const bool damaged = has.damage || view.notches > 0, something = damaged || map == MAP_FIELD;
     TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-                : report_nothing_to_draw(damage.text,
-                                         "no bond is broken; --field von_mises, speed, ... draw other fields"));
+                : report_picture_not_drawn(damage.text,
+                                           "no bond is broken; --field von_mises, speed, ... draw other fields"));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
-                  : report_nothing_to_draw(kind.text, "all particles are of one method"));
+                  : report_picture_not_drawn(kind.text, "all particles are of one method"));
     TRY(something || has.kinds ? draw_map(r, latest.text, something ? map : MAP_KIND, &view, last, 1)
-                               : report_nothing_to_draw(latest.text, "nothing happens in this run"));
+                               : report_picture_not_drawn(latest.text, "nothing happens in this run"));
     if (last->fragments > 1) TRY(draw_map(r, sheet_path(r, DRAWN_FRAGMENTS).text, MAP_FRAGMENT, &view, last, 1));
     return r->every ? draw_every(r, frames, &view, &has) : OK;
 }
@@ -114,13 +114,13 @@ static status draw_outside(const struct plot_request *r, const struct run_frames
     struct view view;
     const struct path cracks = sheet_path(r, DRAWN_CRACKS), surface = sheet_path(r, DRAWN_SURFACE);
     const struct contents has = contents_of(cloud, frames->shown);
-    TRY(view_make(&view, r, cloud, frames->shown));
+    TRY(view_make_for_request(&view, r, cloud, frames->shown));
     const enum map map = map_of_field(view.field);
     TRY(has.damage || map == MAP_FIELD ? draw_map(r, surface.text, map, &view, cloud, frames->shown)
-                                       : report_nothing_to_draw(surface.text, "nothing happens in this run"));
-    if (!has.cracks) return report_nothing_to_draw(cracks.text, "no particle is damaged enough");
+                                       : report_picture_not_drawn(surface.text, "nothing happens in this run"));
+    if (!has.cracks) return report_picture_not_drawn(cracks.text, "no particle is damaged enough");
     if (has.cracked > 0.5)
-        return report_nothing_to_draw(cracks.text, "most particles are damaged, not those of cracks alone");
+        return report_picture_not_drawn(cracks.text, "most particles are damaged, not those of cracks alone");
     return draw_map(r, cracks.text, MAP_CRACKS, &view, cloud, frames->shown);
 }
 
@@ -162,7 +162,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
     if (run_find_exact_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct output_frame *f = NULL;
-    TRY(frames_read(&f, r->folder, frames));
+    TRY(frames_read_selected(&f, r->folder, frames));
     picture_compose_title(title, r, "profiles", NULL);
     const status s =
         bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
@@ -179,7 +179,7 @@ static status draw_solid(struct plot_request *r, const struct run_frames *frames
 {
     r->projection.outside = false;
     TRY(plot_field_choose_default(&r->projection.field, r->folder, frames));
-    TRY(projection_complete_slice(&r->projection, last));
+    TRY(projection_complete_slice_from_particles(&r->projection, last));
     TRY(draw_clouds(r, frames, draw_flat));
     if (last->dim < 3) return OK;
     r->projection.outside = true;
@@ -190,7 +190,7 @@ static status draw_frames(struct plot_request *r)
 {
     struct run_frames frames;
     struct output_frame last;
-    TRY(run_frames_select(&frames, r));
+    TRY(run_frames_list_and_select(&frames, r));
     status s = run_read_frame(&last, r->folder, frames.show[frames.shown - 1].number);
     if (s == OK) {
         s = last.dim == 1 ? draw_profiles(r, &frames) : draw_solid(r, &frames, &last);
@@ -213,7 +213,7 @@ static status draw_pictures(struct plot_request *r)
     return OK;
 }
 
-status run_draw_pictures(const struct plot_request *request)
+status run_draw_standard_pictures(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct scene scene;

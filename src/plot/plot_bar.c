@@ -52,8 +52,8 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
 }
 
 /* Finds the first EXACT probe, in alphabetical order, of which a profile is in the folder of a run, and stores its name
- * in `name`. Returns false if there is none. */
-bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH])
+ * in `probe_name`. Returns false if there is none. */
+bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
     bool found = false;
@@ -61,7 +61,7 @@ bool run_find_exact_probe(const char *folder, char name[NAME_MAX_LENGTH])
     if (!d) return false;
     for (struct dirent *e; (e = readdir(d));) {
         if (!is_profile(folder, e->d_name, here)) continue;
-        if (!found || strcmp(here, name) < 0) strcpy(name, here);
+        if (!found || strcmp(here, probe_name) < 0) strcpy(probe_name, here);
         found = true;
     }
     closedir(d);
@@ -213,11 +213,11 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
             (x.high + half) / metre.factor);
     bool tinted = tint_kinds(g.to, &h[frames - 1], metre.factor, half);
     const struct curves_layout l = curves_layout_make(&g, frames + 1 + tinted, strlen("peridynamic"), false);
-    const double each = (curves_layout_inner_height(&l) - PANEL_GAP * (panels - 1)) / panels;
-    curves_write_margins(g.to, &l);
+    const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
+    curves_write_margins_and_key(g.to, &l);
     for (int q = 0; q < panels; q++) {
         const double from = q * (each + PANEL_GAP);
-        curves_write_panel(g.to, &l, from, from + each);
+        curves_write_panel_margins(g.to, &l, from, from + each);
         curves_write_tics(g.to, "y", scale[q].low, scale[q].high, each);
         fprintf(g.to, "set ylabel '%s'\nset yrange [%.9g:%.9g]\n", scale[q].label, scale[q].low, scale[q].high);
         if (q == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", metre.name);
@@ -228,17 +228,17 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     return gnuplot_close(&g);
 }
 
-status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
-                                   const struct listed_frame *show, int frames)
+status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe_name,
+                                   const struct listed_frame *shown_frame, int frame_count)
 {
-    struct history *h = NEW("plot.profiles", frames, struct history);
+    struct history *h = NEW("plot.profiles", frame_count, struct history);
     status s = OK;
     int read = 0;
-    while (s == OK && read < frames) {
-        s = profile_read(&h[read], folder, probe, show[read].number);
+    while (s == OK && read < frame_count) {
+        s = profile_read(&h[read], folder, probe_name, shown_frame[read].number);
         if (s == OK) read++;
     }
-    if (s == OK) s = plot_bar_draw(sheet, title, h, show, frames);
+    if (s == OK) s = plot_bar_draw(sheet, title, h, shown_frame, frame_count);
     for (int k = 0; k < read; k++) history_free(&h[k]);
     memory_free(h);
     return s;

@@ -59,7 +59,7 @@ static void cube_of(const struct scene_canvas *v, const struct plotted_particles
     for (int k = 0; k < 3; k++) b->half[k] = fmax(own, least);
     if (c->tall > 0) b->half[1] = c->tall;
     for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = c->gradient ? (double)c->gradient[9 * i + k] : k % 4 == 0;
-    if (!matrix_invert((const double(*)[3])b->F, b->inverse))
+    if (!matrix_invert_3x3((const double(*)[3])b->F, b->inverse))
         for (int k = 0; k < 9; k++) b->F[k / 3][k % 3] = b->inverse[k / 3][k % 3] = k % 4 == 0;
     for (int k = 0; k < 3; k++) {
         b->towards[k] = 0;

@@ -8,12 +8,12 @@
 #include "plot/plot.h"
 #include "scene/scene_read.h"
 
-struct colour category_colour(const struct plot_field *field, float value)
+struct colour category_colour(const struct plot_field *field, float category_value)
 {
     if (strcmp(field->name, "kind") == 0)
-        return value == KIND_MPM ? colour_of_material_points() : colour_of_peridynamic_particle(0.25);
-    return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)value)
-                                                : colour_of_material_or_body((int)value);
+        return category_value == KIND_MPM ? colour_of_material_points() : colour_of_peridynamic_particle(0.25);
+    return strcmp(field->name, "fragment") == 0 ? fragment_colour((int32_t)category_value)
+                                                : colour_of_material_or_body((int)category_value);
 }
 
 /* Writes the name of a value of a field into name[capacity]. The names of bodies and materials are those of the scene
@@ -55,12 +55,12 @@ static bool *values_seen(int *last, const struct plotted_particles *cloud, int c
 }
 
 void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
-                                  const struct plotted_particles *cloud, int clouds)
+                                  const struct plotted_particles *cloud, int frame_count)
 {
     struct scene scene;
     const bool known = scene_read(&scene, path_join(folder, "scene.yaml").text, NULL, 0) == OK;
     int last = -1;
-    bool *seen = values_seen(&last, cloud, clouds);
+    bool *seen = values_seen(&last, cloud, frame_count);
     *k = (struct categories){0};
     for (int value = -1; value <= last; value++) {
         if (!seen[value + 1]) continue;

@@ -50,7 +50,7 @@ static double least_spacing(const struct output_frame *f)
     return least;
 }
 
-double frame_spacing(const struct output_frame *f)
+double frame_particle_spacing(const struct output_frame *f)
 {
     double distance[SAMPLES];
     int64_t samples = sample_count(f->n), known = 0;
@@ -134,7 +134,7 @@ static double damaged_layer(const struct output_frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
     static const double NEARLY = 0.98;
-    double from, to, most = 0, best = INFINITY, spacing = frame_spacing(f);
+    double from, to, most = 0, best = INFINITY, spacing = frame_particle_spacing(f);
     frame_extent(f, normal, &from, &to);
     const double middle = 0.5 * (from + to);
     const int layers = spacing > 0 && (to - from) / spacing < LAYERS_MAX ? (int)((to - from) / spacing) + 2 : 1;
@@ -153,7 +153,7 @@ static double damaged_layer(const struct output_frame *f, int normal)
     return nearest_coordinate(f, normal, at);
 }
 
-status projection_complete_slice(struct projection *projection, const struct output_frame *f)
+status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f)
 {
     if (f->dim < 3 || projection->outside) return OK;
     if (projection->normal < 0) projection->normal = thinnest_direction(f);
@@ -165,7 +165,7 @@ status projection_complete_slice(struct projection *projection, const struct out
     double from, to;
     const double near = nearest_coordinate(f, projection->normal, projection->layer);
     frame_extent(f, projection->normal, &from, &to);
-    if (fabs(near - projection->layer) > frame_spacing(f)) {
+    if (fabs(near - projection->layer) > frame_particle_spacing(f)) {
         const struct unit metre = unit_for_length(fmax(fabs(from), fabs(to)));
         return status_set(REFUSED,
                           "plot: --slice %c=%.4g %s: no particle is at this position; they are from %.4g to %.4g %s",
@@ -244,16 +244,16 @@ static void cloud_axes(struct plotted_particles *c, const struct output_frame *f
     c->camera = camera_along_axis(c->normal, c->normal == 1 ? -1 : 1);
 }
 
-void plotted_particles_make(struct plotted_particles *c, const struct output_frame *f,
-                            const struct projection *projection)
+void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
+                                         const struct projection *projection)
 {
     struct projection open = {.normal = -1};
-    if (!projection) (void)projection_complete_slice(&open, f), projection = &open;
+    if (!projection) (void)projection_complete_slice_from_particles(&open, f), projection = &open;
     const struct scene *scene = projection->scene;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
                                     .t = f->t,
-                                    .spacing = frame_spacing(f),
+                                    .spacing = frame_particle_spacing(f),
                                     .magnify = projection->magnify > 0 ? projection->magnify : 1,
                                     .in_steps = projection->in_steps,
                                     .equilibrium =
@@ -264,7 +264,7 @@ void plotted_particles_make(struct plotted_particles *c, const struct output_fra
     cloud_axes(c, f, projection);
     cloud_allocate(c, f, projection);
     for (int a = 0; a < 2; a++) c->reference[a] = NEW("plot.reference", f->n, float);
-    c->gradient = deformation_gradients_make(f, c->spacing, c->magnify, projection->scene);
+    c->gradient = deformation_gradients_fit_to_displacements(f, c->spacing, c->magnify, projection->scene);
     for (int64_t i = 0; i < f->n; i++) {
         const double size = f->spacing ? f->spacing[i] : c->spacing;
         if (c->normal >= 0 && fabs(f->X[c->normal][i] - c->layer) > 0.5 * size - 0.01 * c->spacing) continue;
@@ -290,8 +290,8 @@ status plotted_particles_read(struct plotted_particles *c, const char *folder, c
     TRY(run_read_frame(&f, folder, frame->number));
     if (own.field) s = plot_field_read(&value, own.field, &f, run_frame_path(folder, frame->number).text);
     own.value = value;
-    if (s == OK) plotted_particles_make(c, &f, &own);
-    if (s == OK) plotted_particles_add_rigids(c, &f, own.scene, folder, frame->number);
+    if (s == OK) plotted_particles_select_from_frame(c, &f, &own);
+    if (s == OK) plotted_particles_add_rigid_bodies(c, &f, own.scene, folder, frame->number);
     memory_free(value);
     frame_free(&f);
     return s;

@@ -11,52 +11,53 @@
 
 enum { POINTS_MAX = 4000 }; /* largest number of points of a curve */
 
-double history_largest_magnitude(const struct history *h, int column)
+double history_largest_magnitude(const struct history *history, int column_index)
 {
     double largest = 0;
-    for (int64_t i = 0; i < h->rows; i++) {
-        double a = fabs(history_value_at(h, i, column));
+    for (int64_t i = 0; i < history->rows; i++) {
+        double a = fabs(history_value_at(history, i, column_index));
         if (a > largest && isfinite(a)) largest = a;
     }
     return largest;
 }
 
-struct value_range history_value_range(const struct history *h, const int *column, int columns)
+struct value_range history_value_range(const struct history *history, const int *column_index, int column_count)
 {
     struct value_range e = {INFINITY, -INFINITY};
-    for (int k = 0; k < columns; k++)
-        for (int64_t i = 0; i < h->rows; i++) {
-            const double a = history_value_at(h, i, column[k]);
+    for (int k = 0; k < column_count; k++)
+        for (int64_t i = 0; i < history->rows; i++) {
+            const double a = history_value_at(history, i, column_index[k]);
             if (isfinite(a)) e.low = fmin(e.low, a), e.high = fmax(e.high, a);
         }
     return e;
 }
 
-void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
+void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
+                       int column_count)
 {
-    int64_t stride = s->h->rows / POINTS_MAX + 1;
-    fputs("$data << EOD\n", to);
-    for (int64_t i = 0; i < s->h->rows; i++) {
-        if (i % stride != 0 && i != s->h->rows - 1) continue;
-        fprintf(to, "%.9g", history_value_at(s->h, i, s->time) / s->second.factor);
-        for (int k = 0; k < columns; k++) {
-            double a = history_value_at(s->h, i, column[k]) / factor[k];
+    int64_t stride = series->h->rows / POINTS_MAX + 1;
+    fputs("$data << EOD\n", gnuplot);
+    for (int64_t i = 0; i < series->h->rows; i++) {
+        if (i % stride != 0 && i != series->h->rows - 1) continue;
+        fprintf(gnuplot, "%.9g", history_value_at(series->h, i, series->time) / series->second.factor);
+        for (int k = 0; k < column_count; k++) {
+            double a = history_value_at(series->h, i, column_index[k]) / factor[k];
             if (isfinite(a))
-                fprintf(to, " %.9g", a);
+                fprintf(gnuplot, " %.9g", a);
             else
-                fputs(" NaN", to);
+                fputs(" NaN", gnuplot);
         }
-        putc('\n', to);
+        putc('\n', gnuplot);
     }
-    fputs("EOD\n", to);
+    fputs("EOD\n", gnuplot);
 }
 
-void curves_write_time_axis(FILE *to, const struct series *s)
+void curves_write_time_axis(FILE *gnuplot, const struct series *series)
 {
-    double end = history_value_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
-    const bool in_time = s->second.name[0] != 0;
-    fprintf(to, "set xrange [0:%.9g]\nset xlabel '%s%s%s' textcolor rgb '#333333'\n", end > 0 ? end : 1,
-            in_time ? "time [" : "load step", s->second.name, in_time ? "]" : "");
+    double end = history_value_at(series->h, series->h->rows - 1, series->time) / series->second.factor;
+    const bool in_time = series->second.name[0] != 0;
+    fprintf(gnuplot, "set xrange [0:%.9g]\nset xlabel '%s%s%s' textcolor rgb '#333333'\n", end > 0 ? end : 1,
+            in_time ? "time [" : "load step", series->second.name, in_time ? "]" : "");
 }
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
@@ -95,15 +96,15 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     char label[64];
     struct gnuplot g;
     if (!shown[0] && !shown[1])
-        return report_nothing_to_draw(sheet.path, "no crack grows, no particle becomes peridynamic");
+        return report_picture_not_drawn(sheet.path, "no crack grows, no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
     curves_write_title(&g, title, "crack");
     curves_write_time_axis(g.to, s);
     const bool both = shown[0] && shown[1];
     const struct curves_layout l = curves_layout_make(&g, both ? 2 : 0, strlen("peridynamic share (right)"), both);
-    curves_write_margins(g.to, &l);
-    const double pixels = curves_layout_inner_height(&l);
+    curves_write_margins_and_key(g.to, &l);
+    const double pixels = curves_layout_height_of_all_panels(&l);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
     if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0], pixels);
     if (shown[1])
@@ -178,10 +179,10 @@ static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
  * largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
-    const struct two_panels two = curves_two_panels(l);
+    const struct two_panels two = curves_layout_edges_of_two_panels(l);
     double top = largest > 0 ? 120 * largest : 1; /* percent; 20 % above the largest value */
     curves_write_time_axis(to, s);
-    curves_write_panel(to, l, two.lower_from, two.lower_end);
+    curves_write_panel_margins(to, l, two.lower_from, two.lower_end);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\n"
             "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nunset ylabel\n"
@@ -201,7 +202,7 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
     choose_energies(&e, s->h);
-    if (e.n == 0) return report_nothing_to_draw(sheet.path, "all energies are 0");
+    if (e.n == 0) return report_picture_not_drawn(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
     curves_write_data(g.to, s, e.column, e.factor, e.n);
     curves_write_title(&g, title, "energy");
@@ -209,10 +210,11 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     size_t longest = 3; /* sum */
     for (int k = 0; k < e.n; k++) longest = strlen(e.row[k]->label) > longest ? strlen(e.row[k]->label) : longest;
     const struct curves_layout l = curves_layout_make(&g, e.n + 1, longest, false);
-    curves_write_margins(g.to, &l);
+    curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set ylabel 'energy [%s]'\n", e.joule.name);
-    const double end = balance >= 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
-    curves_write_panel(g.to, &l, 0, end);
+    const double end =
+        balance >= 0 ? curves_layout_edges_of_two_panels(&l).upper_end : curves_layout_height_of_all_panels(&l);
+    curves_write_panel_margins(g.to, &l, 0, end);
     const struct value_range of = history_value_range(s->h, e.column, e.n);
     curves_write_tics(g.to, "y", fmin(of.low, 0) / e.joule.factor, of.high / e.joule.factor, end);
     if (balance >= 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
@@ -243,22 +245,22 @@ static status draw_curves(const struct plot_request *r, const char *title, const
     return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }
 
-status history_curves_draw(const struct plot_request *r, const char *title)
+status history_curves_draw(const struct plot_request *request, const char *title)
 {
     struct history h;
-    TRY(history_read(&h, r->folder));
+    TRY(history_read(&h, request->folder));
     const bool in_steps = history_find_column(&h, "load_time") >= 0;
-    const struct scene *scene = r->projection.scene;
+    const struct scene *scene = request->projection.scene;
     struct series s = {.h = &h,
                        .time = history_find_column(&h, in_steps ? "step" : "time"),
                        .second = {1, ""},
-                       .format = r->format,
-                       .pictures = r->pictures,
+                       .format = request->format,
+                       .pictures = request->pictures,
                        .bar = scene && scene->dim == 1};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
         if (!in_steps) s.second = unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
-        result = draw_curves(r, title, &s, in_steps);
+        result = draw_curves(request, title, &s, in_steps);
     }
     history_free(&h);
     return result;
@@ -291,7 +293,7 @@ static int plot_curves_by_place(const void *a, const void *b)
  * a spacing at both ends. metre: unit of the axis [m]. */
 static void profile_range(FILE *to, const struct output_frame *frame, int frames, double metre)
 {
-    const double half = 0.5 * frame_spacing(&frame[0]);
+    const double half = 0.5 * frame_particle_spacing(&frame[0]);
     double from = INFINITY, end = -INFINITY;
     for (int k = 0; k < frames; k++)
         for (int64_t i = 0; i < frame[k].n; i++) {
@@ -377,35 +379,35 @@ static int profile_panels(const struct output_frame *frame, int frames)
     return damage > 0 ? 3 : 2;
 }
 
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frames)
+status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count)
 {
     struct gnuplot g;
     struct unit unit[3];
     char label[3][64];
-    const int panels = profile_panels(frame, frames), height = 130 + 263 * panels;
-    choose_units(unit, frame, frames);
-    struct value_range of[3] = {profile_extent(frame, frames, unit[1].factor, false),
-                                profile_extent(frame, frames, unit[2].factor, true),
+    const int panels = profile_panels(frame, frame_count), height = 130 + 263 * panels;
+    choose_units(unit, frame, frame_count);
+    struct value_range of[3] = {profile_extent(frame, frame_count, unit[1].factor, false),
+                                profile_extent(frame, frame_count, unit[2].factor, true),
                                 {0, 1}};
     snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
     snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
     snprintf(label[2], sizeof label[2], "damage");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
-    for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, frame_spacing(&frame[0]), unit);
+    for (int k = 0; k < frame_count; k++) send_profile(g.to, &frame[k], k, frame_particle_spacing(&frame[0]), unit);
     curves_write_title(&g, title, "");
-    const struct curves_layout l = curves_layout_make(&g, frames, TIME_LETTERS, false);
-    const double each = (curves_layout_inner_height(&l) - PANEL_GAP * (panels - 1)) / panels;
-    curves_write_margins(g.to, &l);
+    const struct curves_layout l = curves_layout_make(&g, frame_count, TIME_LETTERS, false);
+    const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
+    curves_write_margins_and_key(g.to, &l);
     fputs("set multiplot\nset format x ''\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n", g.to);
-    profile_range(g.to, frame, frames, unit[0].factor);
+    profile_range(g.to, frame, frame_count, unit[0].factor);
     for (int k = 0; k < panels; k++) {
         const double from = k * (each + PANEL_GAP);
-        curves_write_panel(g.to, &l, from, from + each);
+        curves_write_panel_margins(g.to, &l, from, from + each);
         curves_write_tics(g.to, "y", of[k].low, of[k].high, each);
         fprintf(g.to, "set ylabel '%s'\n", label[k]);
         if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", unit[0].name);
         if (k == 2) fputs("set offsets\nset yrange [0:1.04]\n", g.to);
-        plot_profile(g.to, frame, frames, k + 2);
+        plot_profile(g.to, frame, frame_count, k + 2);
         fputs("unset label\nunset key\n", g.to);
     }
     fputs("unset multiplot\n", g.to);
@@ -430,30 +432,31 @@ static void send_field(FILE *to, const struct output_frame *f, int k, const floa
     memory_free(s);
 }
 
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
-                           const struct output_frame *frame, int frames)
+status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
+                           float *const *value_of_frame, const struct output_frame *frame, int frame_count)
 {
     struct gnuplot g;
     struct unit unit[3];
-    choose_units(unit, frame, frames);
+    choose_units(unit, frame, frame_count);
     double largest = 0;
-    for (int k = 0; k < frames; k++) largest = fmax(largest, largest_in(value[k], frame[k].n));
+    for (int k = 0; k < frame_count; k++) largest = fmax(largest, largest_in(value_of_frame[k], frame[k].n));
     const struct unit own = unit_for_largest_value(largest, field->unit);
     const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
     char label[64], name[NAME_MAX_LENGTH];
-    plot_field_label(name, sizeof name, field);
+    plot_field_write_label(name, sizeof name, field);
     snprintf(label, sizeof label, *field->unit ? "%.40s [%s]" : "%.40s", name, own.name);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
-    for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
+    for (int k = 0; k < frame_count; k++)
+        send_field(g.to, &frame[k], k, value_of_frame[k], frame_particle_spacing(&frame[0]), factor);
     curves_write_title(&g, title, "");
-    const struct curves_layout l = curves_layout_make(&g, frames, TIME_LETTERS, false);
-    curves_write_margins(g.to, &l);
+    const struct curves_layout l = curves_layout_make(&g, frame_count, TIME_LETTERS, false);
+    curves_write_margins_and_key(g.to, &l);
     fprintf(g.to,
             "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
             "set xlabel 'x [%s]'\nset ylabel '%s'\n",
             unit[0].name, label);
-    profile_range(g.to, frame, frames, unit[0].factor);
+    profile_range(g.to, frame, frame_count, unit[0].factor);
     if (field->scale == CATEGORY && largest < 12) fputs("set ytics 1\n", g.to);
-    plot_profile(g.to, frame, frames, 2);
+    plot_profile(g.to, frame, frame_count, 2);
     return gnuplot_close(&g);
 }

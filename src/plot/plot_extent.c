@@ -93,7 +93,7 @@ static double parted_limit(const struct pairs *p)
     int64_t n = 0;
     const int64_t stride = 8 * p->f->n / SURE_MOST + 1;
     for (int64_t i = 0; i < p->f->n; i += stride) {
-        particles_find_near(&near, &p->cells, &p->part, i, NEAR_REACH * p->spacing, false);
+        particles_list_neighbours_within_radius(&near, &p->cells, &p->part, i, NEAR_REACH * p->spacing, false);
         for (int k = 0; k < near.n && n < SURE_MOST; k++)
             if (surely_connected(p, i, near.at[k])) sure[n++] = elongation(p->f, i, near.at[k]);
     }
@@ -113,7 +113,7 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
     const struct output_frame *f = p->f;
     const double own = f->spacing ? f->spacing[i] : p->spacing, open = 0.02 * square(own);
     double K[3][3] = {{open, 0, 0}, {0, open, 0}, {0, 0, open}}, M[3][3] = {{0}}, inverted[3][3];
-    particles_find_near(near, &p->cells, &p->part, i, fmin(NEAR_REACH * own, p->cells.edge), false);
+    particles_list_neighbours_within_radius(near, &p->cells, &p->part, i, fmin(NEAR_REACH * own, p->cells.edge), false);
     const double jump = jump_of(p, near, i);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
@@ -124,7 +124,7 @@ static void gradient_of(const struct pairs *p, struct neighbour_list *near, int6
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) K[a][b] += xi[a] * xi[b], M[a][b] += u[a] * xi[b];
     }
-    const bool fits = matrix_invert((const double(*)[3])K, inverted);
+    const bool fits = matrix_invert_3x3((const double(*)[3])K, inverted);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) {
             double sum = a == b;
@@ -146,8 +146,8 @@ static bool may_be_deformed(const struct output_frame *f, double spacing)
     return most > STRAIN_SEEN * spacing;
 }
 
-float *deformation_gradients_make(const struct output_frame *f, double spacing, double displacement_factor,
-                                  const struct scene *scene)
+float *deformation_gradients_fit_to_displacements(const struct output_frame *f, double spacing,
+                                                  double displacement_factor, const struct scene *scene)
 {
     if (f->dim < 2 || !(spacing > 0) || !may_be_deformed(f, spacing / displacement_factor)) return NULL;
     struct pairs p = {.f = f,
@@ -160,7 +160,7 @@ float *deformation_gradients_make(const struct output_frame *f, double spacing, 
         p.part.X[d] = NEW("plot.X", f->n, real);
         for (int64_t i = 0; i < f->n; i++) p.part.X[d][i] = f->X[d][i];
     }
-    cells_make(&p.cells, &p.part, 2 * NEAR_REACH * spacing);
+    cells_make_for_neighbour_search(&p.cells, &p.part, 2 * NEAR_REACH * spacing);
     p.limit = parted_limit(&p);
 #pragma omp parallel
     {

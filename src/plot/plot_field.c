@@ -95,7 +95,7 @@ static status field_unknown(const char *name, const char *const *names)
                       printable_name(name).text, word_find_most_similar(name, names, COUNT_OF(fields)), all);
 }
 
-status plot_field_find(const struct plot_field **field, const char *name, int dim)
+status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim)
 {
     const char *names[COUNT_OF(fields)];
     for (size_t k = 0; k < COUNT_OF(fields); k++) {
@@ -127,7 +127,7 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
     return OK;
 }
 
-void plot_field_label(char *text, size_t capacity, const struct plot_field *field)
+void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field)
 {
     const bool mises = strcmp(field->name, "von_mises") == 0;
     snprintf(text, capacity, "%s", mises ? "von Mises stress" : field->name);
@@ -164,11 +164,11 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
     TRY(run_read_frame(&first, folder, frames->list[0].number));
     const status s = run_read_frame(&last, folder, end);
     if (s == OK) {
-        TRY(plot_field_find(field, "damage", last.dim));
+        TRY(plot_field_find_by_name(field, "damage", last.dim));
         bool found = bonds_broke(&first, &last);
         for (size_t k = 0; k < COUNT_OF(next) && !found; k++) {
             const struct plot_field *one;
-            TRY(plot_field_find(&one, next[k], last.dim));
+            TRY(plot_field_find_by_name(&one, next[k], last.dim));
             found = field_occurs(one, &last, run_frame_path(folder, end).text);
             if (found) *field = one;
         }

@@ -43,7 +43,7 @@ static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
 static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c)
 {
     char name[TITLE_LENGTH];
-    plot_field_label(name, sizeof name, r->projection.field);
+    plot_field_write_label(name, sizeof name, r->projection.field);
     picture_compose_title(title, r, name, c);
 }
 
@@ -77,12 +77,12 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
 {
     char title[TITLE_LENGTH];
     struct view view;
-    TRY(view_make(&view, r, cloud, clouds));
+    TRY(view_make_for_request(&view, r, cloud, clouds));
     if (same_everywhere(cloud, clouds)) {
         char why[96];
         snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],
                  *r->projection.field->unit ? " " : "", r->projection.field->unit);
-        return report_nothing_to_draw(path, why);
+        return report_picture_not_drawn(path, why);
     }
     field_title(title, r, &cloud[0]);
     const enum map map = map_of_field(r->projection.field);
@@ -92,8 +92,8 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
         view.categories = &categories;
     }
     const struct sheet sheet = {path, r->format};
-    TRY(picture_is_film(r->format) ? film_draw(sheet, r->fps, title, map, &view, cloud, clouds)
-                                   : maps_draw(sheet, title, map, &view, cloud, clouds));
+    TRY(picture_is_film(r->format) ? film_draw_frames_as_video(sheet, r->fps, title, map, &view, cloud, clouds)
+                                   : maps_draw_panels_of_frames(sheet, title, map, &view, cloud, clouds));
     return say_field(path, &view, r, clouds, cloud[clouds - 1].n);
 }
 
@@ -116,7 +116,7 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     if (picture_is_film(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; take png, svg or pdf",
                           picture_ending[r->format]);
-    TRY(frames_read(&f, r->folder, frames));
+    TRY(frames_read_selected(&f, r->folder, frames));
     float **value = NEW("plot.values", frames->shown, float *);
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++)
@@ -150,29 +150,29 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     TRY(run_read_frame(&last, r->folder, frames->show[frames->shown - 1].number));
     const int dim = last.dim;
     status s = projection_check(r, dim);
-    if (s == OK && r->field) s = plot_field_find(&r->projection.field, r->field, dim);
+    if (s == OK && r->field) s = plot_field_find_by_name(&r->projection.field, r->field, dim);
     if (s == OK && !r->field) s = plot_field_choose_default(&r->projection.field, r->folder, frames);
     if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
         fprintf(
             stderr,
             "plot: principal_stress is the largest one; the others are principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
-    if (s == OK) s = projection_complete_slice(&r->projection, &last);
+    if (s == OK) s = projection_complete_slice_from_particles(&r->projection, &last);
     frame_free(&last);
     TRY(s);
     TRY(field_path(&path, r, r->projection.field->name));
     return dim == 1 ? draw_field_bar(r, path.text, frames) : draw_field_map(r, path.text, frames);
 }
 
-status field_draw_picture(const struct plot_request *request)
+status field_draw_picture_or_film(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct run_frames frames;
     struct scene scene;
-    if (picture_is_film(r.format)) TRY(film_check_encoder());
+    if (picture_is_film(r.format)) TRY(film_check_encoder_is_installed());
     if (r.panels == 0) r.panels = picture_is_film(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
     r.projection.in_steps = run_has_load_steps(r.folder);
-    TRY(run_frames_select(&frames, &r));
+    TRY(run_frames_list_and_select(&frames, &r));
     const bool known = scene_read(&scene, path_join(r.folder, "scene.yaml").text, NULL, 0) == OK;
     r.projection.scene = known ? &scene : NULL;
     const status s = field_of_frames(&r, &frames);

@@ -17,9 +17,9 @@ enum { PATH_LENGTH = 4096 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the unit with the SI prefix for which the number for `largest`, a value without prefix, has one to three
- * digits before the decimal point. name: the unit without prefix. */
-struct unit unit_for_largest_value(double largest, const char *name)
+/* Returns the unit with the SI prefix for which the number for `largest_value`, a value without prefix, has one to
+ * three digits before the decimal point. unit_name: the unit without prefix. */
+struct unit unit_for_largest_value(double largest_value, const char *unit_name)
 {
     static const struct {
         double factor;
@@ -27,26 +27,27 @@ struct unit unit_for_largest_value(double largest, const char *name)
     } si[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
     struct unit u = {1, ""};
     int k = 0;
-    while (k + 1 < (int)COUNT_OF(si) && fabs(largest) < si[k].factor * 0.9995) k++;
-    if (!(fabs(largest) > 1e-15)) k = 3; /* zero or not finite: no prefix */
+    while (k + 1 < (int)COUNT_OF(si) && fabs(largest_value) < si[k].factor * 0.9995) k++;
+    if (!(fabs(largest_value) > 1e-15)) k = 3; /* zero or not finite: no prefix */
     u.factor = si[k].factor;
-    snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, name);
+    snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, unit_name);
     return u;
 }
 
-struct unit unit_for_length(double largest)
+struct unit unit_for_length(double largest_length)
 {
-    return largest > 5e-4 && largest < 0.9995 ? (struct unit){1e-3, "mm"} : unit_for_largest_value(largest, "m");
+    return largest_length > 5e-4 && largest_length < 0.9995 ? (struct unit){1e-3, "mm"}
+                                                            : unit_for_largest_value(largest_length, "m");
 }
 
-struct unit unit_with_allowed_prefix(const char *name, double largest)
+struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value)
 {
     static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W"};
     struct unit u = {1, ""};
-    snprintf(u.name, sizeof u.name, "%s", name);
-    if (strcmp(name, "m") == 0) return unit_for_length(largest);
+    snprintf(u.name, sizeof u.name, "%s", unit_name);
+    if (strcmp(unit_name, "m") == 0) return unit_for_length(largest_value);
     for (size_t k = 0; k < COUNT_OF(prefixed); k++)
-        if (strcmp(name, prefixed[k]) == 0) return unit_for_largest_value(largest, name);
+        if (strcmp(unit_name, prefixed[k]) == 0) return unit_for_largest_value(largest_value, unit_name);
     return u;
 }
 
@@ -110,7 +111,7 @@ static status times_within(const struct run_frames *f, const double *time, int t
     return OK;
 }
 
-status run_frames_select(struct run_frames *f, const struct plot_request *r)
+status run_frames_list_and_select(struct run_frames *f, const struct plot_request *r)
 {
     *f = (struct run_frames){0};
     TRY(run_list_frames(r->folder, &f->listed, &f->list));
@@ -131,7 +132,7 @@ void run_frames_free(struct run_frames *f)
     *f = (struct run_frames){0};
 }
 
-status frames_read(struct output_frame **f, const char *folder, const struct run_frames *frames)
+status frames_read_selected(struct output_frame **f, const char *folder, const struct run_frames *frames)
 {
     *f = NEW("plot.frames", frames->shown, struct output_frame);
     for (int k = 0; k < frames->shown; k++) {
@@ -143,10 +144,10 @@ status frames_read(struct output_frame **f, const char *folder, const struct run
     return OK;
 }
 
-void frames_free(struct output_frame *f, int n)
+void frames_free(struct output_frame *frames, int frame_count)
 {
-    for (int k = 0; k < n; k++) frame_free(&f[k]);
-    memory_free(f);
+    for (int k = 0; k < frame_count; k++) frame_free(&frames[k]);
+    memory_free(frames);
 }
 
 status pictures_folder_make(const char *path, bool overwrite)
@@ -164,7 +165,7 @@ status picture_choose_path(struct path *path, const char *option_argument, const
     if (!*option_argument || strlen(option_argument) >= sizeof path->text)
         return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected",
                           printable_name(option_argument).text);
-    TRY(folder_make_above(option_argument));
+    TRY(folder_make_for_file(option_argument));
     if (end > option_argument && !end[1]) {
         struct path above;
         snprintf(above.text, sizeof above.text, "%.*s", (int)(end - option_argument), option_argument);
@@ -183,13 +184,13 @@ status picture_choose_path(struct path *path, const char *option_argument, const
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-/* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of this name if
+/* Prints that the picture `path` is not drawn, with the reason `reason`, and removes an older picture of this name if
  * Cleave drew it. Returns FAILED if standard output cannot be written. */
-status report_nothing_to_draw(const char *path, const char *why)
+status report_picture_not_drawn(const char *path, const char *reason)
 {
     const char *slash = strrchr(path, '/');
     if (picture_file_is_from_cleave(path)) remove(path);
-    return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, why) < 0
+    return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, reason) < 0
                ? status_set(FAILED, "cannot write to standard output")
                : OK;
 }

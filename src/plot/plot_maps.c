@@ -41,7 +41,8 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
         panel_write_axes(to, l, view, c, &metre, column, lowest);
     if (c->position[2] && row == l->rows - 1 && column == 0)
         panel_write_axis_arrows(to, l, view, c, &metre, left, above);
-    const int fines[2] = {gnuplot_image_pixels(shown->format, size[0]), gnuplot_image_pixels(shown->format, size[1])};
+    const int fines[2] = {gnuplot_image_pixels_along_edge(shown->format, size[0]),
+                          gnuplot_image_pixels_along_edge(shown->format, size[1])};
     for (int k = 0; k < 2; k++) step[k] *= (double)size[k] / fines[k];
     struct colour *pixel = NEW("plot.pixel", (int64_t)fines[0] * fines[1], struct colour);
     raster_paint_particles(pixel, fines[0], fines[1], view, c, shown->map);
@@ -59,8 +60,8 @@ static void title_compose(char *text, const char *title, int64_t outside)
                  length > 0 ? " " : "", (long long)outside, outside > 1 ? "s are" : " is");
 }
 
-status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
-                 const struct plotted_particles *cloud, int clouds)
+status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
+                                  const struct plotted_particles *cloud, int frame_count)
 {
     struct gnuplot g;
     char text[TITLE_LENGTH];
@@ -68,20 +69,20 @@ status maps_draw(struct sheet sheet, const char *title, enum map map, const stru
     struct maps_shown shown = {
         .map = map, .view = view, .title = text, .format = sheet.format, .outside = cloud[0].position[2]};
     bool rigid = false;
-    for (int k = 0; k < clouds; k++) rigid = rigid || rigids_are_visible(view, &cloud[k]);
+    for (int k = 0; k < frame_count; k++) rigid = rigid || rigids_are_visible(view, &cloud[k]);
     map_key_make(&shown.key, map, view, rigid);
     const struct layout l =
-        maps_layout_choose(&shown, clouds, (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]));
+        maps_layout_choose(&shown, frame_count, (view->to[1] - view->from[1]) / (view->to[0] - view->from[0]));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, l.width, l.height));
     fputs("set multiplot\nunset grid\n", g.to);
     gnuplot_write_title(&g, text, l.title);
     map_key_draw(g.to, &l, &shown.key);
-    struct unit second = unit_for_largest_value(cloud[clouds - 1].t, "s");
-    for (int k = 0; k < clouds; k++) {
-        plot_maps_draw_panel(g.to, &l, &shown, &cloud[k], &second, k, k + l.columns >= clouds);
+    struct unit second = unit_for_largest_value(cloud[frame_count - 1].t, "s");
+    for (int k = 0; k < frame_count; k++) {
+        plot_maps_draw_panel(g.to, &l, &shown, &cloud[k], &second, k, k + l.columns >= frame_count);
         fputs("unset label\nunset object\n", g.to); /* drawn once for all panels */
     }
-    if (map_has_bar(map)) map_bar_draw(g.to, &l, &shown, cloud[clouds - 1].n);
+    if (map_has_colour_bar(map)) map_colour_bar_draw(g.to, &l, &shown, cloud[frame_count - 1].n);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }

@@ -92,7 +92,7 @@ static void line_paint(struct colour *pixel, int width, int height, const double
     }
     for (int row = low[1]; row <= high[1]; row++)
         for (int column = low[0]; column <= high[0]; column++)
-            if (segment_distance(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= LINE_HALF)
+            if (segment_distance_from_point(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= LINE_HALF)
                 pixel[(int64_t)row * width + column] = c;
 }
 
@@ -140,8 +140,8 @@ static void faces_make(struct faces *f, const struct crack *crack, double sectio
     }
 }
 
-void notches_paint(struct colour *pixel, int width, int height, const struct view *v, const struct plotted_particles *c,
-                   enum map map)
+void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
+                               const struct plotted_particles *c, enum map map)
 {
     if ((map != MAP_DAMAGE && map != MAP_FIELD) || !c->reference[0] || !(c->spacing > 0)) return;
     for (int k = 0; k < v->notches; k++) {

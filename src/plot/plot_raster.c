@@ -111,7 +111,7 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
         pixel[q] = (struct colour){255, 255, 255, 0};
     }
     for (int64_t i = 0; i < c->n; i++) paint_particle(&v, view, c, i, map);
-    notches_paint(pixel, width, height, view, c, map);
+    notches_paint_crack_faces(pixel, width, height, view, c, map);
     rigids_paint_in_plane(pixel, width, height, view, c);
     memory_free(v.rank);
 }

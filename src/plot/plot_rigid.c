@@ -13,16 +13,16 @@ static const struct colour RIGID = {120, 120, 126, 255};
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 };
 
-struct colour rigid_colour(void) { return RIGID; }
+struct colour rigid_body_colour(void) { return RIGID; }
 
-void plotted_particles_place_rigids(struct plotted_particles *c, const struct scene *s,
-                                    const struct rigid_placement *at, const real *low, const real *high)
+void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
+                                           const struct rigid_placement *placement, const real *low, const real *high)
 {
     c->rigids = s->rigids, c->dim = s->dim;
     c->rigid = NEW("plot.rigid", s->rigids, struct rigid_shown);
     for (int b = 0; b < s->rigids; b++) {
         struct rigid_shown *r = &c->rigid[b];
-        *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = at[b]};
+        *r = (struct rigid_shown){.shape = &s->body[s->bodies + b].shape, .at = placement[b]};
         for (int d = 0; d < s->dim; d++) {
             r->at.x[d] = r->at.centre[d] + c->magnify * (r->at.x[d] - r->at.centre[d]);
             r->low[d] = low[d], r->high[d] = high[d];
@@ -31,8 +31,8 @@ void plotted_particles_place_rigids(struct plotted_particles *c, const struct sc
     }
 }
 
-void plotted_particles_add_rigids(struct plotted_particles *c, const struct output_frame *f, const struct scene *s,
-                                  const char *folder, int frame_number)
+void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
+                                        const struct scene *s, const char *folder, int frame_number)
 {
     if (!s || s->rigids == 0 || s->dim != f->dim || f->dim < 2) return;
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
@@ -41,7 +41,8 @@ void plotted_particles_add_rigids(struct plotted_particles *c, const struct outp
         low[d] = INFINITY, high[d] = -INFINITY;
         for (int64_t i = 0; i < f->n; i++) low[d] = fmin(low[d], f->X[d][i]), high[d] = fmax(high[d], f->X[d][i]);
     }
-    if (rigids_read_frame(at, s->rigids, folder, frame_number)) plotted_particles_place_rigids(c, s, at, low, high);
+    if (rigids_read_placements_of_frame(at, s->rigids, folder, frame_number))
+        plotted_particles_add_rigid_bodies_at(c, s, at, low, high);
     memory_free(at);
 }
 
@@ -72,7 +73,7 @@ static double corner_along(const struct rigid_shown *r, int dim, int k, const do
     return sum;
 }
 
-void view_extend_to_rigids(struct view *v, const struct plotted_particles *c)
+void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c)
 {
     const double *axis[2] = {c->camera.right, c->camera.up};
     const double longest = fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]);

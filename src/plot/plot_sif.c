@@ -77,9 +77,9 @@ static void plot_factors(FILE *to, const struct factors *f)
  * or a kink of the crack, within the contours. l: layout of the picture; f: columns of the probes. */
 static void plot_spread(FILE *to, const struct series *s, const struct curves_layout *l, const struct factors *f)
 {
-    const struct two_panels two = curves_two_panels(l);
+    const struct two_panels two = curves_layout_edges_of_two_panels(l);
     curves_write_time_axis(to, s);
-    curves_write_panel(to, l, two.lower_from, two.lower_end);
+    curves_write_panel_margins(to, l, two.lower_from, two.lower_end);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\nset logscale y\nset yrange [0.1:100]\n"
             "set ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%%g'\nset ylabel '%sspread [%%]'\nplot ",
@@ -90,36 +90,37 @@ static void plot_spread(FILE *to, const struct series *s, const struct curves_la
     putc('\n', to);
 }
 
-status sif_curves_draw(const char *title, const struct series *s)
+status sif_curves_draw(const char *title, const struct series *series)
 {
     struct factors f;
     struct gnuplot g;
-    find_factors(&f, s->h);
-    const struct path path = picture_path(s->pictures, DRAWN_SIF, picture_ending[s->format]);
+    find_factors(&f, series->h);
+    const struct path path = picture_path(series->pictures, DRAWN_SIF, picture_ending[series->format]);
     if (f.n == 0) return OK;
-    if (s->h->rows < LEAST_ROWS)
-        return report_nothing_to_draw(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
+    if (series->h->rows < LEAST_ROWS)
+        return report_picture_not_drawn(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
     double spread = 0;
-    for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(s->h, f.spread[k]));
-    TRY(gnuplot_open(&g, path.text, s->format, 1000, spread > 0 ? 760 : 600));
-    curves_write_data(g.to, s, f.column, f.factor, 2 * f.n);
+    for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(series->h, f.spread[k]));
+    TRY(gnuplot_open(&g, path.text, series->format, 1000, spread > 0 ? 760 : 600));
+    curves_write_data(g.to, series, f.column, f.factor, 2 * f.n);
     curves_write_title(&g, title, "stress-intensity factors");
-    curves_write_time_axis(g.to, s);
+    curves_write_time_axis(g.to, series);
     size_t longest = 0; /* of the names of several probes, which are before those of the factors */
     for (int k = 0; k < f.n && f.n > 1; k++) longest = strlen(f.name[k]) > longest ? strlen(f.name[k]) : longest;
     const struct curves_layout l = curves_layout_make(&g, 2 * f.n, longest + strlen(": K_II"), false);
-    curves_write_margins(g.to, &l);
+    curves_write_margins_and_key(g.to, &l);
     fprintf(g.to, "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n", f.unit.name);
-    const double end = spread > 0 ? curves_two_panels(&l).upper_end : curves_layout_inner_height(&l);
-    const struct value_range of = history_value_range(s->h, f.column, 2 * f.n);
-    curves_write_panel(g.to, &l, 0, end);
+    const double end =
+        spread > 0 ? curves_layout_edges_of_two_panels(&l).upper_end : curves_layout_height_of_all_panels(&l);
+    const struct value_range of = history_value_range(series->h, f.column, 2 * f.n);
+    curves_write_panel_margins(g.to, &l, 0, end);
     curves_write_tics(g.to, "y", fmin(of.low, 0) / f.unit.factor, fmax(of.high, 0) / f.unit.factor, end);
     if (spread > 0) fputs("set multiplot\nset format x ''\nunset xlabel\n", g.to);
     plot_factors(g.to, &f);
     if (spread > 0) {
         fputs("set offsets\nundefine $data\n", g.to);
-        curves_write_data(g.to, s, f.spread, f.percent, f.n);
-        plot_spread(g.to, s, &l, &f);
+        curves_write_data(g.to, series, f.spread, f.percent, f.n);
+        plot_spread(g.to, series, &l, &f);
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
@@ -229,14 +230,14 @@ static status paths_open(struct gnuplot *g, const char *path, const struct serie
     const struct gnuplot most = {.width = PATH_WIDE, .height = PATH_HIGH};
     const struct curves_layout usual = curves_layout_make(&most, entries, longest, false);
     const double beside = usual.left + usual.right, aspect = (high[1] - low[1]) / (high[0] - low[0]);
-    const double highest = curves_layout_inner_height(&usual),
+    const double highest = curves_layout_height_of_all_panels(&usual),
                  inner = fmax(fmin(PATH_WIDE - beside, highest / aspect), PATH_LOW);
     const double height = PATH_HIGH - highest + fmin(inner * aspect, highest);
     TRY(gnuplot_open(g, path, s->format, (int)(inner + beside), (int)height));
     const struct curves_layout l = curves_layout_make(g, entries, longest, false);
-    const double pixels[2] = {l.width - l.left - l.right, curves_layout_inner_height(&l)};
+    const double pixels[2] = {l.width - l.left - l.right, curves_layout_height_of_all_panels(&l)};
     const double scale = fmin(pixels[0] / (high[0] - low[0]), pixels[1] / (high[1] - low[1])); /* [pixel/m] */
-    curves_write_margins(g->to, &l);
+    curves_write_margins_and_key(g->to, &l);
     for (int d = 0; d < 2; d++) {
         const double middle = 0.5 * (low[d] + high[d]), half = 0.5 * pixels[d] / scale;
         fprintf(g->to, "set %crange [%.9g:%.9g]\nset %clabel '%c [%s]'\nset %ctics %.9g\n", "xy"[d],
@@ -264,7 +265,7 @@ static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const stru
         fprintf(to, "$w%d with lines lw 3 lc rgb '%s' title ", k, curve_colour[k]);
         char text[NAME_MAX_LENGTH + 32];
         snprintf(text, sizeof text, isfinite(w[k].angle) ? "%s, %.1f°" : "%s", w[k].name, w[k].angle);
-        gnuplot_quote(to, text);
+        gnuplot_write_quoted_string(to, text);
         fputs(k + 1 < n ? ", " : "\n", to);
     }
     for (int k = 0; k < n; k++)
@@ -273,9 +274,9 @@ static void plot_tip_paths(FILE *to, const struct tip_path *w, int n, const stru
                     end[0] / metre->factor, end[1] / metre->factor);
 }
 
-status crack_paths_draw(const char *folder, const char *title, const struct series *s)
+status crack_paths_draw(const char *folder, const char *title, const struct series *series)
 {
-    const struct history *h = s->h;
+    const struct history *h = series->h;
     struct tip_path path[PATHS_SHOWN];
     struct gnuplot g;
     const int n = find_tip_paths(path, folder, h);
@@ -290,8 +291,8 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
         longest = name > longest ? name : longest;
         entries += 1 + ray_of(&path[k], low_end);
     }
-    TRY(paths_open(&g, picture_path(s->pictures, DRAWN_PATH, picture_ending[s->format]).text, s, low, high, &metre,
-                   entries, longest));
+    TRY(paths_open(&g, picture_path(series->pictures, DRAWN_PATH, picture_ending[series->format]).text, series, low,
+                   high, &metre, entries, longest));
     curves_write_title(&g, title, "path of the crack");
     for (int k = 0; k < n; k++) send_tip_path(g.to, h, &path[k], k, metre.factor);
     plot_tip_paths(g.to, path, n, &metre);

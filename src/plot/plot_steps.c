@@ -220,12 +220,12 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
         char text[3 * NAME_MAX_LENGTH];
         fprintf(to, "%s$f%d with %s lw 2 lc rgb '%s' title ", m == 0 ? "plot " : ", ", m,
                 h->rows > POINTS_SHOWN ? "lines" : "linespoints pt 7 ps 0.5", curve_colour[m]);
-        gnuplot_quote(to, a->name);
+        gnuplot_write_quoted_string(to, a->name);
         snprintf(text, sizeof text, "%.4g %s at %.4g %s", length_at(h, a->peak, &a->force) / newton.factor, newton.name,
                  length_at(h, a->peak, &a->displacement) / metre.factor, metre.name);
         fprintf(to, ", $f%d every ::%lld::%lld with points pt 6 ps 2 lw 2 lc rgb '%s' title ", m, (long long)a->peak,
                 (long long)a->peak, curve_colour[CURVE_COLOURS - 1]);
-        gnuplot_quote(to, text);
+        gnuplot_write_quoted_string(to, text);
     }
     putc('\n', to);
 }
@@ -236,35 +236,35 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
 static status say_missing_load(const char *path, const struct reactions *r, bool in_steps)
 {
     if (r->n > 0)
-        return report_nothing_to_draw(path, "what bears the load does not move; a point probe where the body moves "
-                                            "adds the displacement: probes: [{point: {at: [...]}}]");
-    return in_steps ? report_nothing_to_draw(path, "neither a support nor a rigid body has a force") : OK;
+        return report_picture_not_drawn(path, "what bears the load does not move; a point probe where the body moves "
+                                              "adds the displacement: probes: [{point: {at: [...]}}]");
+    return in_steps ? report_picture_not_drawn(path, "neither a support nor a rigid body has a force") : OK;
 }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h, bool in_steps)
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, bool has_load_steps)
 {
     struct reactions r;
     struct gnuplot g;
-    reactions_find(&r, h);
-    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, in_steps);
-    reactions_join(&r, h);
+    reactions_find(&r, history);
+    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, has_load_steps);
+    reactions_join(&r, history);
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
-    reactions_send(g.to, h, &r, newton, metre);
+    reactions_send(g.to, history, &r, newton, metre);
     size_t longest = 24; /* 123.4 kN at 123.4 mm */
     for (int m = 0; m < r.n; m++) longest = strlen(r.of[m].name) > longest ? strlen(r.of[m].name) : longest;
     curves_write_title(&g, title, "load and displacement");
     const struct curves_layout l = curves_layout_make(&g, 2 * r.n, longest, false);
-    curves_write_margins(g.to, &l);
+    curves_write_margins_and_key(g.to, &l);
     write_horizontal_tics(g.to, &l, 1.15 * r.displacement / metre.factor);
-    curves_write_tics(g.to, "y", 0, r.force / newton.factor, curves_layout_inner_height(&l));
+    curves_write_tics(g.to, "y", 0, r.force / newton.factor, curves_layout_height_of_all_panels(&l));
     fprintf(g.to, "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'force [%s]'\nset xlabel ",
             1.15 * r.displacement / metre.factor, r.force > 0 ? 1.08 * r.force / newton.factor : 1, newton.name);
     char label[3 * NAME_MAX_LENGTH];
     snprintf(label, sizeof label, "displacement%s%.63s [%s]", r.over[0] ? " of " : "", r.over, metre.name);
-    gnuplot_quote(g.to, label);
+    gnuplot_write_quoted_string(g.to, label);
     putc('\n', g.to);
-    reactions_plot(g.to, h, &r, newton, metre);
+    reactions_plot(g.to, history, &r, newton, metre);
     return gnuplot_close(&g);
 }
 
@@ -323,13 +323,13 @@ static void release_plot(FILE *to, const double *toughness, int n, double mean, 
     putc('\n', to);
 }
 
-status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h)
+status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history)
 {
-    const int area = history_find_column(h, "crack_area"), rate = history_find_column(h, "release_rate");
-    const double grown = history_largest_magnitude(h, area);
-    double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(h, rate);
+    const int area = history_find_column(history, "crack_area"), rate = history_find_column(history, "release_rate");
+    const double grown = history_largest_magnitude(history, area);
+    double toughness[TOUGHNESSES_SHOWN] = {0}, top = history_largest_magnitude(history, rate);
     struct gnuplot g;
-    if (!(grown > 0)) return report_nothing_to_draw(sheet.path, "no crack has grown");
+    if (!(grown > 0)) return report_picture_not_drawn(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
     for (int k = 0; k < n; k++) top = fmax(top, toughness[k]);
     double mean; /* NAN before the run has ended */
@@ -337,16 +337,16 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     top = fmax(top, mean);
     const struct unit square = unit_for_area(grown), joule = unit_for_largest_value(top, "J/m²");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
-    release_send(g.to, h, area, rate, square, joule.factor);
+    release_send(g.to, history, area, rate, square, joule.factor);
     curves_write_title(&g, title, "energy released by the growing crack");
     const struct curves_layout l = curves_layout_make(&g, 2 + n, strlen("mean 123.4 kJ/m²"), false);
-    curves_write_margins(g.to, &l);
+    curves_write_margins_and_key(g.to, &l);
     fprintf(g.to,
             "set xrange [0:%.9g]\nset yrange [0:%.9g]\nset ylabel 'released over new area [%s]'\nset xlabel 'new crack "
             "area [%s]'\n",
             1.03 * grown / square.factor, 1.15 * top / joule.factor, joule.name, square.name);
     write_horizontal_tics(g.to, &l, 1.03 * grown / square.factor);
-    curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_inner_height(&l));
+    curves_write_tics(g.to, "y", 0, top / joule.factor, curves_layout_height_of_all_panels(&l));
     release_plot(g.to, toughness, n, mean, joule);
     return gnuplot_close(&g);
 }

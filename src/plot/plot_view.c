@@ -79,16 +79,16 @@ static int64_t count_outside(const struct view *v, const struct plotted_particle
     return outside;
 }
 
-struct view view_make_around_particles(const struct plotted_particles *cloud, int clouds)
+struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count)
 {
     struct view v = {.top = 0.5};
     double longest = 0, reach = 0;
     for (int k = 0; k < 2; k++) {
-        const struct span s = span_along(cloud, clouds, k);
+        const struct span s = span_along(cloud, frame_count, k);
         v.from[k] = s.from, v.to[k] = s.to;
         longest = fmax(longest, s.to - s.from);
     }
-    for (int c = 0; c < clouds; c++)
+    for (int c = 0; c < frame_count; c++)
         for (int64_t i = 0; i < cloud[c].n; i++) {
             v.top = fmax(v.top, fmin(cloud[c].damage[i], 1));
             if (cloud[c].size) reach = fmax(reach, 0.5 * cloud[c].size[i]);
@@ -100,8 +100,9 @@ struct view view_make_around_particles(const struct plotted_particles *cloud, in
         const double beside = k == 1 && cloud[0].tall > 0 ? 1.5 * cloud[0].tall : margin;
         v.from[k] -= beside, v.to[k] += beside;
     }
-    for (int c = 0; c < clouds; c++) view_extend_to_rigids(&v, &cloud[c]);
-    for (int c = 0; c < clouds; c++) v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
+    for (int c = 0; c < frame_count; c++) view_extend_to_rigid_bodies(&v, &cloud[c]);
+    for (int c = 0; c < frame_count; c++)
+        v.outside = (int64_t)fmax((double)v.outside, (double)count_outside(&v, &cloud[c]));
     return v;
 }
 
@@ -133,13 +134,14 @@ static double magnitude_of(float *sample, const struct plotted_particles *c, enu
     return fmin(end, HOT_TIMES * hot);
 }
 
-void view_set_field(struct view *v, const struct plot_field *field, const struct plotted_particles *cloud, int clouds)
+void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
+                                     const struct plotted_particles *cloud, int frame_count)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);
     double low = field->scale == FROM_LEAST ? INFINITY : 0, high = 0;
-    for (int c = 0; c < clouds && field->scale == FROM_LEAST; c++)
+    for (int c = 0; c < frame_count && field->scale == FROM_LEAST; c++)
         low = fmin(low, bulk_of(sample, cloud[c].value, cloud[c].n, EXTREME, EXTREMES_LEAST).from);
-    for (int c = 0; c < clouds; c++) high = fmax(high, magnitude_of(sample, &cloud[c], field->scale, low));
+    for (int c = 0; c < frame_count; c++) high = fmax(high, magnitude_of(sample, &cloud[c], field->scale, low));
     memory_free(sample);
     if (!isfinite(low)) low = 0;
     if (!(high > 0)) high = 1; /* all values are equal */
@@ -217,21 +219,22 @@ static status view_check_crop(const struct view *v, const struct view *around, c
                       around->to[1] / f, metre.name);
 }
 
-status view_make(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud, int clouds)
+status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
+                             int frame_count)
 {
-    *v = view_make_around_particles(cloud, clouds);
-    view_set_field(v, r->projection.field, cloud, clouds);
+    *v = view_make_around_particles(cloud, frame_count);
+    view_set_field_and_colour_range(v, r->projection.field, cloud, frame_count);
     const struct scene *scene = r->projection.scene;
     if (scene && scene->dim == 2) v->notches = scene->cracks, v->notch = scene->crack;
     const struct view around = *v;
     TRY(view_set_options(v, r));
-    TRY(view_check_crop(v, &around, r, cloud, clouds));
-    count_beyond(v, cloud, clouds);
+    TRY(view_check_crop(v, &around, r, cloud, frame_count));
+    count_beyond(v, cloud, frame_count);
     if (isfinite(v->to[0] - v->from[0]) && isfinite(v->to[1] - v->from[1])) return OK;
     return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
 }
 
-bool matrix_invert(const double matrix[3][3], double inverse[3][3])
+bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3])
 {
     double determinant = 0;
     for (int r = 0; r < 3; r++)
@@ -245,7 +248,7 @@ bool matrix_invert(const double matrix[3][3], double inverse[3][3])
     return fabs(determinant) > 0;
 }
 
-struct colour map_colour(const struct view *v, enum map map, double a)
+struct colour map_colour_at_scale_position(const struct view *v, enum map map, double a)
 {
     if (map == MAP_KIND) return colour_of_peridynamic_particle(a);
     const bool signs =
@@ -266,6 +269,7 @@ struct colour particle_colour(const struct view *v, const struct plotted_particl
     if (map == MAP_FRAGMENT && c->fragment) return fragment_colour(c->fragment[i]);
     if (map == MAP_CATEGORY && c->value) return category_colour(v->field, c->value[i]);
     if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_of_material_points();
-    if (map == MAP_FIELD && c->value) return map_colour(v, map, (c->value[i] - v->low) / (v->high - v->low));
-    return map_colour(v, map, c->damage[i] / v->top);
+    if (map == MAP_FIELD && c->value)
+        return map_colour_at_scale_position(v, map, (c->value[i] - v->low) / (v->high - v->low));
+    return map_colour_at_scale_position(v, map, c->damage[i] / v->top);
 }

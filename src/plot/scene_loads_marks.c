@@ -317,7 +317,7 @@ static void boundary_mark(struct marks *m, int number)
     uint8_t *on = b->kind == BOUNDARY_PRESSURE ? faces_of_pressure(m->engine, l) : NULL;
     if (*unit_of_value(b) && !is_support(b, s->dim)) acting = acting_of(m->engine, l, on);
     describe_boundary(text, b, s->dim, &acting, m->plain);
-    marks_begin_block(m);
+    marks_begin_data_block(m);
     if (b->kind == BOUNDARY_MIRROR) {
         mirror_plane_mark(m, b);
         snprintf(how, sizeof how, "with lines lw 2 dt (12,4,3,4) lc rgb '%s'", colour);
@@ -330,13 +330,13 @@ static void boundary_mark(struct marks *m, int number)
         snprintf(how, sizeof how, "using 1:2:3:4 with vectors %s size screen 0.012,22 lw 1.8 lc rgb '%s'",
                  b->kind == BOUNDARY_VELOCITY ? "head empty" : "head filled", colour);
     }
-    marks_end_block(m, how, text);
+    marks_end_data_block(m, how, text);
     memory_free(on);
 }
 
 /* Draws all loads and supports, first those with arrows and then supports drawn as points, since arrows would hide
  * points. */
-void marks_draw_loads(struct marks *m)
+void marks_draw_symbols_of_loads(struct marks *m)
 {
     const struct run *e = m->engine;
     for (int pass = 0; pass < 2; pass++)
@@ -367,7 +367,7 @@ static void rigid_arrows(struct marks *m, double fastest)
     }
 }
 
-void marks_draw_velocities(struct marks *m)
+void marks_draw_arrows_of_velocities(struct marks *m)
 {
     const struct particles *p = &m->engine->part;
     const struct scene *s = m->engine->scene;
@@ -381,7 +381,7 @@ void marks_draw_velocities(struct marks *m)
         moving += v > 0;
     }
     if (fastest == 0) return;
-    marks_begin_block(m);
+    marks_begin_data_block(m);
     const int64_t stride = stride_for(moving, p->dim == 1 ? ARROWS_BAR : ARROWS_FIELD);
     for (int64_t i = 0, k = 0; i < p->n; i++) {
         double vector[DIM_MAX];
@@ -392,5 +392,6 @@ void marks_draw_velocities(struct marks *m)
     }
     rigid_arrows(m, fastest);
     add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");
-    marks_end_block(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'", text);
+    marks_end_data_block(m, "using 1:2:3:4 with vectors head filled size screen 0.009,20 lw 1.3 lc rgb '#222222'",
+                         text);
 }

@@ -21,16 +21,16 @@ static double marks_across(const double *axis, const double *x, int dim)
     return sum;
 }
 
-void marks_begin_block(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
+void marks_begin_data_block(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
 
-void marks_add_point(struct marks *m, const real *X, const double *vector)
+void marks_add_point(struct marks *m, const real *position, const double *arrow)
 {
     const int dim = m->engine->part.dim;
-    fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, X, dim) / m->metre,
-            marks_across(m->camera.up, X, dim) / m->metre);
-    if (vector)
-        fprintf(m->to, " %.9g %.9g", marks_across(m->camera.right, vector, dim) / m->metre,
-                marks_across(m->camera.up, vector, dim) / m->metre);
+    fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, position, dim) / m->metre,
+            marks_across(m->camera.up, position, dim) / m->metre);
+    if (arrow)
+        fprintf(m->to, " %.9g %.9g", marks_across(m->camera.right, arrow, dim) / m->metre,
+                marks_across(m->camera.up, arrow, dim) / m->metre);
     putc('\n', m->to);
 }
 
@@ -42,25 +42,25 @@ static void mark_break(struct marks *m) { putc('\n', m->to); }
 static void key_line_add(struct marks *m, const char *text)
 {
     fputs("title ", m->plot);
-    gnuplot_quote(m->plot, text);
+    gnuplot_write_quoted_string(m->plot, text);
     m->keys++;
     if ((int)strlen(text) > m->letters) m->letters = (int)strlen(text);
 }
 
-void marks_end_block(struct marks *m, const char *style, const char *key_text)
+void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry)
 {
     fputs("NaN NaN NaN NaN\nEOD\n", m->to); /* a data block must not be empty */
-    fprintf(m->plot, ", $m%d %s ", m->blocks++, style);
-    if (!*key_text) {
+    fprintf(m->plot, ", $m%d %s ", m->blocks++, plot_style);
+    if (!*key_entry) {
         fputs("notitle", m->plot);
         return;
     }
-    key_line_add(m, key_text);
+    key_line_add(m, key_entry);
 }
 
-void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
+void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text)
 {
-    fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' ", c.red, c.green, c.blue);
+    fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' ", colour.red, colour.green, colour.blue);
     key_line_add(m, text);
 }
 
@@ -97,15 +97,15 @@ static void crack_line(struct marks *m, const struct crack *c)
     mark_break(m);
 }
 
-void marks_draw_cracks(struct marks *m)
+void marks_draw_lines_of_precracks(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     char text[96];
     if (s->cracks > 0) {
-        marks_begin_block(m);
+        marks_begin_data_block(m);
         for (int k = 0; k < s->cracks; k++) crack_line(m, &s->crack[k]);
         snprintf(text, sizeof text, "%d pre-crack%s", s->cracks, s->cracks > 1 ? "s" : "");
-        marks_end_block(
+        marks_end_data_block(
             m, s->dim == 1 ? "with points pt 2 ps 2 lw 3 lc rgb '#7a1020'" : "with lines lw 3.2 lc rgb '#7a1020'",
             text);
     }
@@ -113,9 +113,10 @@ void marks_draw_cracks(struct marks *m)
         double arrow[DIM_MAX];
         for (int d = 0; d < s->dim; d++) arrow[d] = m->arrow * s->growth[k].direction[d];
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
-        marks_begin_block(m);
+        marks_begin_data_block(m);
         marks_add_point(m, s->growth[k].at, arrow);
-        marks_end_block(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
+        marks_end_data_block(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'",
+                             text);
     }
 }
 
@@ -163,38 +164,38 @@ static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
     const struct probe_request *p = &s->probe[k];
-    const struct observed_run seen = observed_run_of(m->engine);
+    const struct observed_run seen = observed_run_view_of(m->engine);
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0}, radius;
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
-    marks_begin_block(m);
-    if (probes_get_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
+    marks_begin_data_block(m);
+    if (probes_locate_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
-        marks_end_block(m, line, text);
+        marks_end_data_block(m, line, text);
     } else if (p->kind == PROBE_LINE) {
         marks_add_point(m, p->from, NULL);
         marks_add_point(m, p->to, NULL);
-        marks_end_block(m, line, text);
+        marks_end_data_block(m, line, text);
     } else if (p->has_at) {
         marks_add_point(m, p->at, NULL);
-        marks_end_block(m, point, text);
+        marks_end_data_block(m, point, text);
     } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
-        marks_end_block(m, point, text);
-    } else if (p->region.n > 0 && region_bounding_box(&p->region, s->dim, from, to)) {
+        marks_end_data_block(m, point, text);
+    } else if (p->region.n > 0 && region_compute_bounding_box_if_finite(&p->region, s->dim, from, to)) {
         box_lines(m, from, to, s->dim);
-        marks_end_block(m, line, text);
+        marks_end_data_block(m, line, text);
     } else {
         char words[256] = "";
         if (*text && p->kind == PROBE_REACTION)
             snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
         else if (*text)
             snprintf(words, sizeof words, "%.80s: everywhere", text);
-        marks_end_block(m, "with points pt -1", words);
+        marks_end_data_block(m, "with points pt -1", words);
     }
 }
 
-void marks_draw_probes(struct marks *m)
+void marks_draw_symbols_of_probes(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     char text[NAME_MAX_LENGTH + 16];
@@ -206,28 +207,28 @@ void marks_draw_probes(struct marks *m)
     }
     if (more == 0) return;
     snprintf(text, sizeof text, "and %d more probes", more);
-    marks_begin_block(m);
-    marks_end_block(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
+    marks_begin_data_block(m);
+    marks_end_data_block(m, "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'", text);
 }
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
 /* Draws the bounding boxes of the named regions of the scene, and adds their names to the key. */
-void marks_draw_regions(struct marks *m)
+void marks_draw_boxes_of_named_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     for (int k = 0; k < s->regions; k++) {
         real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
         char text[NAME_MAX_LENGTH + 16], how[96];
-        if (!region_bounding_box(&s->named[k].region, s->dim, from, to)) continue;
+        if (!region_compute_bounding_box_if_finite(&s->named[k].region, s->dim, from, to)) continue;
         snprintf(text, sizeof text, "region %.60s", s->named[k].name);
-        marks_begin_block(m);
+        marks_begin_data_block(m);
         box_lines(m, from, to, s->dim);
         /* The darker fragment colours; when they repeat, each repetition has another dash pattern. */
         const struct colour c = fragment_colour(1 + k);
         snprintf(how, sizeof how, "with lines lw 2.4 dt (%d,3) lc rgb '#%02x%02x%02x'", 3 + 4 * (k / 9), c.red, c.green,
                  c.blue);
-        marks_end_block(m, how, text);
+        marks_end_data_block(m, how, text);
     }
 }
 
@@ -264,16 +265,16 @@ static int64_t level_cells_draw(struct marks *m, int level)
     return n;
 }
 
-void marks_draw_levels(struct marks *m)
+void marks_draw_outlines_of_coarse_cells(struct marks *m)
 {
     static const char *const colour[LEVELS_MAX + 1] = {"", "#9a9a9a", "#7a7a7a", "#5a5a5a", "#3a3a3a"};
     const struct mesh_levels *l = &m->engine->frame->levels;
     for (int level = 1; level <= l->n && m->engine->part.dim == 2; level++) {
         char text[96], how[96];
-        marks_begin_block(m);
+        marks_begin_data_block(m);
         const int64_t n = level_cells_draw(m, level);
         snprintf(text, sizeof text, "level %d: %lld cells of %d spacings", level, (long long)n, 2 << level);
         snprintf(how, sizeof how, "with lines lw 0.7 lc rgb '%s'", colour[level]);
-        marks_end_block(m, how, n > 0 ? text : "");
+        marks_end_data_block(m, how, n > 0 ? text : "");
     }
 }

@@ -20,36 +20,36 @@ struct marks {
 };
 
 /* Begins a gnuplot data block, which contains the points or arrows of one kind of symbol. Add its lines with
- * marks_add_point and end the block with marks_end_block. */
-void marks_begin_block(struct marks *m);
+ * marks_add_point and end the block with marks_end_data_block. */
+void marks_begin_data_block(struct marks *m);
 
 /* Adds a line to the current data block: the point X (coordinates [m]), projected onto the picture, and the projection
- * of the arrow `vector` [m]. vector: NULL for a point without an arrow. */
-void marks_add_point(struct marks *m, const real *X, const double *vector);
+ * of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
+void marks_add_point(struct marks *m, const real *position, const double *arrow);
 
-/* Ends the current data block and adds the element that draws it to the plot command. style: text of this element after
- * the name of the block, such as "using 1:2 with points"; key_text: its line in the key, "" for none. */
-void marks_end_block(struct marks *m, const char *style, const char *key_text);
+/* Ends the current data block and adds the element that draws it to the plot command. plot_style: text of this element
+ * after the name of the block, such as "using 1:2 with points"; key_entry: its line in the key, "" for none. */
+void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
-void marks_draw_loads(struct marks *m);
+void marks_draw_symbols_of_loads(struct marks *m);
 
 /* Draws arrows for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
-void marks_draw_velocities(struct marks *m);
+void marks_draw_arrows_of_velocities(struct marks *m);
 
 /* Draws the pre-cracks of the scene as lines, and an arrow where each crack with prescribed growth starts. */
-void marks_draw_cracks(struct marks *m);
+void marks_draw_lines_of_precracks(struct marks *m);
 
 /* Draws symbols at the positions of the probes of the scene. */
-void marks_draw_probes(struct marks *m);
+void marks_draw_symbols_of_probes(struct marks *m);
 
 /* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each refinement level. */
-void marks_draw_levels(struct marks *m);
+void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
 /* Draws boxes around the named regions of the scene. */
-void marks_draw_regions(struct marks *m);
+void marks_draw_boxes_of_named_regions(struct marks *m);
 
 /* Adds an entry to the key of the picture: a square in the colour c and the text `text`. */
-void marks_add_colour_key(struct marks *m, struct colour c, const char *text);
+void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text);
 
 #endif

@@ -1,5 +1,5 @@
 /* `cleave plot --scene SCENE`: draws the scene in its initial state. Particles, loads, levels and everything else are
- * created by engine_make, as in a run, so that the picture shows what will be computed. */
+ * created by engine_set_up_run, as in a run, so that the picture shows what will be computed. */
 #include "plot/scene_picture.h"
 
 #include <math.h>
@@ -84,11 +84,11 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
     for (int d = 0; d < s->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
     for (int b = 0; b < s->rigids; b++)
         for (int d = 0; d < DIM_MAX; d++) at[b].turn[d][d] = 1;
-    plotted_particles_place_rigids(c, s, at, low, high);
+    plotted_particles_add_rigid_bodies_at(c, s, at, low, high);
     for (int b = 0; b < c->rigids && s->dim == 1; b++) {
         const struct rigid_shown *r = &c->rigid[b];
         const real middle[DIM_MAX] = {0.5 * (r->low[0] + r->high[0])};
-        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_colour());
+        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_body_colour());
     }
     memory_free(at);
 }
@@ -98,7 +98,7 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
-    const bool hollow = coarse_cell_points_make(e->frame, &e->part, s->material, false);
+    const bool hollow = coarse_cell_points_make_for_output(e->frame, &e->part, s->material, false);
     const int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0) + s->rigids;
     *c = (struct plotted_particles){.axis = {0, 1},
                                     .normal = -1,
@@ -158,18 +158,18 @@ static void key_of_parts(struct marks *m)
         else
             snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
                      e->part.n < e->part.n_body ? " are made" : "");
-        marks_add_colour_key(m, colour_of_material_or_body(k), text);
+        marks_add_colour_to_key(m, colour_of_material_or_body(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
         if (m->plain)
             snprintf(text, sizeof text, "darker: peridynamic");
         else
             snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
-        marks_add_colour_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
+        marks_add_colour_to_key(m, colour_mixed_with_black(colour_of_material_or_body(0), PERIDYNAMIC), text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        marks_add_colour_key(m, rigid_colour(), text);
+        marks_add_colour_to_key(m, rigid_body_colour(), text);
     }
 }
 
@@ -278,7 +278,8 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
                        const struct unit *metre, const char *marks, enum picture_format format)
 {
     double step[2], from[2];
-    const int size[2] = {gnuplot_image_pixels(format, l->panel_width), gnuplot_image_pixels(format, l->panel_height)};
+    const int size[2] = {gnuplot_image_pixels_along_edge(format, l->panel_width),
+                         gnuplot_image_pixels_along_edge(format, l->panel_height)};
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
@@ -292,12 +293,12 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
 static void draw_marks(struct marks *m)
 {
     key_of_parts(m);
-    marks_draw_levels(m);
-    marks_draw_regions(m);
-    marks_draw_cracks(m);
-    marks_draw_loads(m);
-    marks_draw_velocities(m);
-    marks_draw_probes(m);
+    marks_draw_outlines_of_coarse_cells(m);
+    marks_draw_boxes_of_named_regions(m);
+    marks_draw_lines_of_precracks(m);
+    marks_draw_symbols_of_loads(m);
+    marks_draw_arrows_of_velocities(m);
+    marks_draw_symbols_of_probes(m);
 }
 
 /* Draws the particles c and the marks m of a scene. metre: unit of the axes; data: gnuplot commands with the data of
@@ -365,7 +366,7 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     if (r->projection.outside && s->dim < 3)
         return status_set(REFUSED, "plot: --view is for scenes in space; this one has %d dimension%s", s->dim,
                           s->dim > 1 ? "s" : "");
-    TRY(engine_make(e, s, NULL));
+    TRY(engine_set_up_run(e, s, NULL));
     TRY(scene_sheet(&path, s, r));
     scene_cloud(&c, e, &r->projection.camera);
     const int64_t drawn = e->part.n;
@@ -387,14 +388,14 @@ status scene_draw_picture(const char *path, const struct scene_override *overrid
     struct run e = {0};
     struct pilot_wish wish;
     if (picture_is_film(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
-    TRY(scene_read_or_pilot_wish(&s, &wish, path, override, overrides));
+    TRY(scene_read_or_list_pilot_requirements(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;
         printf("%s: method: auto: drawn at a spacing of %.4g m; cleave run chooses method and spacing\n",
                printable_name(path).text, s.spacing);
     }
     const status result = draw_made(&e, &s, r);
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(&s);
     return result;
 }

@@ -22,10 +22,10 @@ void diagnostics_make(struct diagnostics *w)
  * w->now.momentum_error to |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]:
  * impulse of loads and supports since the start [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
-                                 int grids, const real *impulse)
+                                 int grid_count, const real *impulse)
 {
     real size, missing2 = 0;
-    particles_linear_momentum(p, nodes, grids, w->now.momentum, &size);
+    particles_linear_momentum(p, nodes, grid_count, w->now.momentum, &size);
     for (int d = 0; d < p->dim; d++) {
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
         missing2 += square(w->now.momentum[d] - w->momentum_start[d] - impulse[d]);
@@ -35,7 +35,7 @@ void diagnostics_update_momentum(struct diagnostics *w, const struct particles *
         w->now.momentum_error = real_max(w->now.momentum_error, sqrt(missing2) / w->momentum_scale);
 }
 
-real diagnostics_energy_change(const struct diagnostics *w)
+real diagnostics_relative_energy_change(const struct diagnostics *w)
 {
     if (!(w->energy_start > 0)) return NAN;
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
@@ -65,22 +65,24 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
- * distances up to `horizon` [m]. list[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the middle of one
- * group in centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
-int64_t diagnostics_locate_new_breaks(const struct particles *p, const int32_t *list, int64_t n, real horizon,
-                                      real *centre)
+ * distances up to `horizon` [m]. searched_particles[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the
+ * middle of one group in cluster_centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
+int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
+                                                 int64_t particle_count, real horizon, real *cluster_centre)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
-    for (int64_t k = 0; k < n; k++) cut += (p->flag[list ? list[k] : k] & FLAG_CRACKED) != 0;
+    for (int64_t k = 0; k < particle_count; k++)
+        cut += (p->flag[searched_particles ? searched_particles[k] : k] & FLAG_CRACKED) != 0;
     if (cut == 0) return 0;
     struct place *place = NEW("diagnostics.cut", cut, struct place);
     cut = 0;
-    for (int64_t k = 0; k < n; k++) {
-        const int64_t i = list ? list[k] : k;
+    for (int64_t k = 0; k < particle_count; k++) {
+        const int64_t i = searched_particles ? searched_particles[k] : k;
         if (p->flag[i] & FLAG_CRACKED) particle_reference_position(p, i, place[cut++].X);
     }
-    const int64_t ends = positions_cluster_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, centre);
+    const int64_t ends =
+        positions_count_clusters_and_find_centre(place, cut, p->dim, horizon * (1 + 1e-6), along, cluster_centre);
     memory_free(place);
     return ends;
 }
@@ -95,13 +97,13 @@ static bool driven_breaks(const struct particles *p)
     return any != 0;
 }
 
-bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken_bonds,
-                               real t)
+bool diagnostics_record_broken_bonds(struct diagnostics *w, const struct particles *p, real horizon,
+                                     int64_t broken_bond_count, real t)
 {
-    w->bonds_broken += broken_bonds;
-    if (broken_bonds == 0) return false;
+    w->bonds_broken += broken_bond_count;
+    if (broken_bond_count == 0) return false;
     if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_locate_new_breaks(p, NULL, p->n, horizon, w->break_position);
+        w->break_ends = diagnostics_count_clusters_of_new_breaks(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
     }
     const bool tears = isnan(w->driven_time) && driven_breaks(p);
@@ -144,13 +146,13 @@ static int64_t first_diverged(const struct particles *p, const int32_t *list, in
     return list[k];
 }
 
-status diagnostics_check_divergence(const struct particles *p, bool peridynamic, bool meshed, real max_speed,
-                                    int64_t step, real t)
+status diagnostics_check_divergence(const struct particles *p, bool check_peridynamic, bool check_mesh_points,
+                                    real max_speed, int64_t step, real t)
 {
     INVARIANT(max_speed > 0);
-    int64_t first = peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], max_speed) : p->n_all;
-    const int64_t free = meshed ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], max_speed)
-                                : first_diverged(p, p->list_free, p->n_free, max_speed);
+    int64_t first = check_peridynamic ? first_diverged(p, p->list[KIND_PD], p->n_of[KIND_PD], max_speed) : p->n_all;
+    const int64_t free = check_mesh_points ? first_diverged(p, p->list[KIND_MPM], p->n_of[KIND_MPM], max_speed)
+                                           : first_diverged(p, p->list_free, p->n_free, max_speed);
     if (free < first) first = free;
     return first < p->n ? divergence_report(p, first, max_speed, step, t) : OK;
 }

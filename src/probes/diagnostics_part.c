@@ -63,7 +63,7 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
  * and the list of all crack tips. */
 static void put_crack(struct json *j, const struct run *e)
 {
-    const struct crack_tip *longest = tips_longest(&e->fracture->tips);
+    const struct crack_tip *longest = tips_find_tip_with_largest_growth(&e->fracture->tips);
     int dim = e->part.dim;
     json_open(j, "crack", '{');
     put_when(j, e->scene, &e->clock, "start", e->diagnostics->break_time);
@@ -74,7 +74,7 @@ static void put_crack(struct json *j, const struct run *e)
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_write_real(j, "length_end", longest->growth);
         json_write_real(j, "angle_deg", tip_deflection_angle(longest, dim));
-        json_write_integer(j, "tied", tips_count_longest_ends(&e->fracture->tips));
+        json_write_integer(j, "tied", tips_count_ends_with_largest_growth(&e->fracture->tips));
     }
     if (longest && !scene_has_load_steps(e->scene)) {
         json_write_real(j, "tip_speed_max", longest->speed_max);

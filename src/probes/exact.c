@@ -166,8 +166,8 @@ int exact_compute_stress_fronts(const struct exact *e, real t, struct exact_fron
     return 2;
 }
 
-bool exact_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
-                                 real *upper_end)
+bool exact_find_constant_stress_range(const struct exact *e, real t, enum exact_window part, real *lower_end,
+                                      real *upper_end)
 {
     struct exact_front front[EXACT_FRONTS];
     int fronts = exact_compute_stress_fronts(e, t, front);

@@ -14,7 +14,7 @@
  * particles with prescribed motion do not count. */
 static void step_break(struct probe *q, const struct observed_run *o)
 {
-    q->memory.ends = diagnostics_locate_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
+    q->memory.ends = diagnostics_count_clusters_of_new_breaks(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
@@ -26,7 +26,7 @@ static void step_reaction(struct probe *q, const struct observed_run *o)
 {
     const int dim = o->part->dim;
     real force[DIM_MAX], displacement[DIM_MAX], square_sum;
-    probe_reaction(q, o->loads, dim, force, displacement);
+    probe_compute_reaction_of_supports(q, o->loads, dim, force, displacement);
     square_sum = dot(force, force, dim);
     if (sqrt(square_sum) > q->memory.force_max)
         q->memory.force_max = sqrt(square_sum), q->memory.force_max_step = o->load_step,
@@ -73,7 +73,7 @@ void probes_update_every_step(struct probes *s, const struct observed_run *o)
  * then the growth; NAN and 0 if there is no tip. */
 static void sample_tip(const struct probe *q, const struct observed_run *o, real *value)
 {
-    const struct crack_tip *tip = probe_find_tip(q, o->tips);
+    const struct crack_tip *tip = probe_find_followed_crack_tip(q, o->tips);
     int dim = o->part->dim;
     for (int d = 0; d < dim; d++) value[d] = tip ? tip->place[d] : NAN;
     value[dim] = tip ? tip->growth : 0;
@@ -86,7 +86,7 @@ static void probes_sample_energy(const struct probe *q, const struct observed_ru
     value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
 }
 
-void probes_sample_begin(struct probes *s, const struct observed_run *o)
+void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o)
 {
     const int dim = o->part->dim;
     real no_displacement[DIM_MAX];
@@ -99,25 +99,25 @@ void probes_sample_begin(struct probes *s, const struct observed_run *o)
             sample_tip(q, o, value);
             break;
         case PROBE_REACTION:
-            probe_reaction(q, o->loads, dim, value, q->rests ? no_displacement : value + dim);
+            probe_compute_reaction_of_supports(q, o->loads, dim, value, q->rests ? no_displacement : value + dim);
             break;
         case PROBE_POINT:
-            particle_compute_readings(o, q->list[0], value);
+            particle_compute_probe_values(o, q->list[0], value);
             break;
         case PROBE_ENERGY:
             probes_sample_energy(q, o, value);
             break;
         case PROBE_MOMENTUM:
-            probe_momentum(q, o->part, value);
+            probe_compute_momentum_of_particles(q, o->part, value);
             break;
         case PROBE_EXACT:
-            bar_compute_results(q->bar, o, value);
+            bar_probe_compute_values(q->bar, o, value);
             break;
         case PROBE_GROWTH:
-            growing_crack_compute_readings(&o->growth[q->growth], value);
+            growing_crack_compute_probe_values(&o->growth[q->growth], value);
             break;
         case PROBE_RIGID:
-            rigid_probe_sample(q, o, value);
+            rigid_probe_compute_angle_and_stresses(q, o, value);
             break;
         default:
             break;
@@ -133,11 +133,11 @@ static bool has_motion(const struct probe *q)
     return kind == PROBE_POINT || kind == PROBE_ENERGY || kind == PROBE_MOMENTUM || kind == PROBE_RIGID;
 }
 
-void probes_store_motion(struct probes *s, const struct observed_run *o)
+void probes_store_motion_before_step(struct probes *s, const struct observed_run *o)
 {
     for (int k = 0; k < s->n; k++) {
-        if (s->probe[k].request.kind == PROBE_SIF) sif_probe_store_motion(&s->probe[k], o);
-        if (has_motion(&s->probe[k])) probe_motion_store(&s->probe[k], o);
+        if (s->probe[k].request.kind == PROBE_SIF) sif_probe_store_motion_before_step(&s->probe[k], o);
+        if (has_motion(&s->probe[k])) probe_motion_store_before_step(&s->probe[k], o);
     }
 }
 
@@ -145,7 +145,7 @@ void probes_store_motion(struct probes *s, const struct observed_run *o)
  * value[SIF_FIGURES] in this order. t_velocity: time of the current velocities [s]. */
 static void sample_sif(struct probe *q, const struct observed_run *o, real t_velocity, real *value)
 {
-    sif_probe_sample(q, o, t_velocity);
+    sif_probe_compute_intensity_factors(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
@@ -153,22 +153,22 @@ static void sample_sif(struct probe *q, const struct observed_run *o, real t_vel
 static void sample_force(const struct probe *q, const struct observed_run *o, real *value)
 {
     real displacement[DIM_MAX];
-    probe_reaction(q, o->loads, o->part->dim, value, displacement);
+    probe_compute_reaction_of_supports(q, o->loads, o->part->dim, value, displacement);
 }
 
 /* Stores the velocity of the particle of a POINT probe, at the time of the sample, in value[dim] to value[2 dim - 1]
  * [m/s]. */
 static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
 {
-    for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);
+    for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_particle_velocity_component(q, p, d, 0);
 }
 
-void probes_sample_end(struct probes *s, const struct observed_run *o, const struct velocity_time *now)
+void probes_complete_sample_after_step(struct probes *s, const struct observed_run *o, const struct velocity_time *now)
 {
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
-        if (has_motion(q)) probe_motion_interpolate(q, o, now);
+        if (has_motion(q)) probe_motion_interpolate_to_sample_time(q, o, now);
         switch (q->request.kind) {
         case PROBE_SIF:
             sample_sif(q, o, now->t, value);
@@ -183,15 +183,15 @@ void probes_sample_end(struct probes *s, const struct observed_run *o, const str
             value[0] = probe_kinetic_energy(q, o->part);
             break;
         case PROBE_MOMENTUM:
-            probe_momentum(q, o->part, value);
+            probe_compute_momentum_of_particles(q, o->part, value);
             break;
         case PROBE_RIGID:
-            rigid_probe_sample_motion(q, o->part, value);
+            rigid_probe_compute_conservation_errors(q, o->part, value);
             break;
         default:
             break;
         }
-        probe_motion_discard(q);
+        probe_motion_discard_interpolation(q);
     }
 }
 

@@ -44,14 +44,14 @@ static void add_bonds(const struct bar *b, const struct observed_run *o, real *b
     }
 }
 
-void bar_compute_bond_flux_stress(const struct bar *b, const struct observed_run *o, real *flux)
+void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux)
 {
-    real *between = NEW("probes.between", b->n + 1, real), *end = NEW("probes.end", b->n + 1, real), crossing = 0;
-    if (o->bonds && o->bonds->rows > 0) add_bonds(b, o, between, end);
-    for (int64_t k = 0; k < b->n; k++) {
+    real *between = NEW("probes.between", bar->n + 1, real), *end = NEW("probes.end", bar->n + 1, real), crossing = 0;
+    if (o->bonds && o->bonds->rows > 0) add_bonds(bar, o, between, end);
+    for (int64_t k = 0; k < bar->n; k++) {
         crossing += between[k];
-        flux[k] = o->part->kind[b->order[k]] == KIND_PD ? (crossing + end[k]) / o->thickness
-                                                        : o->part->stress[0][b->order[k]];
+        flux[k] = o->part->kind[bar->order[k]] == KIND_PD ? (crossing + end[k]) / o->thickness
+                                                          : o->part->stress[0][bar->order[k]];
     }
     memory_free(between);
     memory_free(end);
@@ -68,15 +68,15 @@ static void measure_strain(struct bar *b, const struct particles *p)
     }
 }
 
-void bar_measure_fields(struct bar *b, const struct observed_run *o)
+void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o)
 {
-    for (int64_t k = 0; k < b->n; k++) {
-        int32_t i = b->order[k];
-        b->displacement[k] = o->part->x[0][i] - o->part->X[0][i];
-        b->velocity[k] = o->part->v[0][i];
+    for (int64_t k = 0; k < bar->n; k++) {
+        int32_t i = bar->order[k];
+        bar->displacement[k] = o->part->x[0][i] - o->part->X[0][i];
+        bar->velocity[k] = o->part->v[0][i];
     }
-    measure_strain(b, o->part);
-    bar_compute_bond_flux_stress(b, o, b->flux);
+    measure_strain(bar, o->part);
+    bar_probe_compute_bond_flux_stress(bar, o, bar->flux);
 }
 
 /* ---- profile ----------------------------------------------------------------------------------------------------- */
@@ -94,17 +94,18 @@ const struct column bar_reading[BAR_READINGS] = {{"x", "m"},
                                                  {"exact_stress", "Pa"},
                                                  {"exact_strain", "1"}};
 
-void bar_compute_profile_line(const struct bar *b, const struct observed_run *o, int64_t rank, real *value)
+void bar_probe_compute_profile_line(const struct bar *bar, const struct observed_run *o, int64_t rank_from_left,
+                                    real *value)
 {
-    int32_t i = b->order[rank];
-    struct exact_values e = exact_solution_at(&b->exact, o->part->X[0][i], o->t);
-    real velocity = exact_solution_at(&b->exact, o->part->X[0][i], o->t_velocity).velocity;
+    int32_t i = bar->order[rank_from_left];
+    struct exact_values e = exact_solution_at(&bar->exact, o->part->X[0][i], o->t);
+    real velocity = exact_solution_at(&bar->exact, o->part->X[0][i], o->t_velocity).velocity;
     const real all[BAR_READINGS] = {o->part->X[0][i],
-                                    b->displacement[rank],
-                                    b->velocity[rank],
-                                    b->flux[rank],
-                                    b->exact.young * b->strain[rank],
-                                    b->strain[rank],
+                                    bar->displacement[rank_from_left],
+                                    bar->velocity[rank_from_left],
+                                    bar->flux[rank_from_left],
+                                    bar->exact.young * bar->strain[rank_from_left],
+                                    bar->strain[rank_from_left],
                                     probe_damage_of_particle(o, i),
                                     o->part->kind[i],
                                     e.displacement,
@@ -162,19 +163,19 @@ static const struct {
 };
 _Static_assert((int)FIGURES <= (int)BAR_FIGURES_MAX, "room for the figures of a bar");
 
-int bar_result_count(enum exact_form form)
+int bar_probe_value_count(enum exact_form closed_form)
 {
     int n = 0;
-    for (int k = 0; k < FIGURES; k++) n += figures[k].forms >> form & 1;
+    for (int k = 0; k < FIGURES; k++) n += figures[k].forms >> closed_form & 1;
     return n;
 }
 
-struct column bar_result_column(enum exact_form form, int k)
+struct column bar_probe_value_column(enum exact_form closed_form, int value_number)
 {
     struct column c = {0};
     int f = -1;
-    do f++, k -= figures[f].forms >> form & 1;
-    while (k >= 0);
+    do f++, value_number -= figures[f].forms >> closed_form & 1;
+    while (value_number >= 0);
     snprintf(c.name, sizeof c.name, "%s", figures[f].name);
     snprintf(c.unit, sizeof c.unit, "%s", figures[f].unit);
     return c;
@@ -244,24 +245,24 @@ static void fronts(const struct bar *b, const struct observed_run *o, real *valu
     if (n > 0) value[FRONT] = front_of(b, o->part, &front[0], b->flux, 1);
     if (n > 0) value[FRONT_STRAIN] = front_of(b, o->part, &front[0], b->strain, e->young);
     if (n > 1) value[FRONT_PLASTIC] = front_of(b, o->part, &front[1], b->flux, 1);
-    if (exact_constant_stress_range(e, o->t, EXACT_PLATEAU, &from, &to)) {
+    if (exact_find_constant_stress_range(e, o->t, EXACT_PLATEAU, &from, &to)) {
         value[PLATEAU] = mean_between(b, o->part, b->flux, from, to);
         value[STRAIN_PLASTIC] = mean_between(b, o->part, b->strain, from, to);
         value[PLATEAU_STRAIN] = e->young * value[STRAIN_PLASTIC];
     }
-    if (exact_constant_stress_range(e, o->t, EXACT_PRECURSOR, &from, &to))
+    if (exact_find_constant_stress_range(e, o->t, EXACT_PRECURSOR, &from, &to))
         value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
 }
 
-void bar_compute_results(struct bar *b, const struct observed_run *o, real *value)
+void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value)
 {
     real all[FIGURES];
     int n = 0;
     for (int k = 0; k < FIGURES; k++) all[k] = NAN;
-    bar_measure_fields(b, o);
-    errors(b, o, all);
-    fronts(b, o, all);
-    if (b->exact.loaded) all[END_DISPLACEMENT] = b->displacement[b->exact.loaded > 0 ? b->n - 1 : 0];
+    bar_probe_measure_fields(bar, o);
+    errors(bar, o, all);
+    fronts(bar, o, all);
+    if (bar->exact.loaded) all[END_DISPLACEMENT] = bar->displacement[bar->exact.loaded > 0 ? bar->n - 1 : 0];
     for (int k = 0; k < FIGURES; k++)
-        if (figures[k].forms >> b->exact.form & 1) value[n++] = all[k];
+        if (figures[k].forms >> bar->exact.form & 1) value[n++] = all[k];
 }

@@ -191,7 +191,7 @@ static status find_load(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-status bar_make(struct probe *q, const struct observed_run *o)
+status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o)
 {
     const struct probe_request *r = &q->request;
     q->bar = NEW("probes.bar", 1, struct bar);
@@ -203,14 +203,14 @@ status bar_make(struct probe *q, const struct observed_run *o)
     return OK;
 }
 
-void bar_free(struct bar *b)
+void bar_probe_free_bar(struct bar *bar)
 {
-    if (!b) return;
-    memory_free(b->order);
-    memory_free(b->rank);
-    memory_free(b->displacement);
-    memory_free(b->velocity);
-    memory_free(b->flux);
-    memory_free(b->strain);
-    memory_free(b);
+    if (!bar) return;
+    memory_free(bar->order);
+    memory_free(bar->rank);
+    memory_free(bar->displacement);
+    memory_free(bar->velocity);
+    memory_free(bar->flux);
+    memory_free(bar->strain);
+    memory_free(bar);
 }

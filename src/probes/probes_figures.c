@@ -30,21 +30,21 @@ static int law_readings_count(const struct particles *p)
     return (p->plastic_work != NULL) + (p->temperature != NULL);
 }
 
-int particle_reading_count(const struct particles *p)
+int particle_probe_value_count(const struct particles *p)
 {
     return 2 * p->dim + stresses_count(p) + 1 + law_readings_count(p);
 }
 
-struct column particle_reading_column(const struct particles *p, int k)
+struct column particle_probe_value_column(const struct particles *p, int value_number)
 {
     const int dim = p->dim;
     struct column c = {.name = "damage", .unit = "1"};
-    int stress = k - 2 * dim;
-    if (k < dim) {
-        snprintf(c.name, sizeof c.name, "displacement_%s", axis_name[k]);
+    int stress = value_number - 2 * dim;
+    if (value_number < dim) {
+        snprintf(c.name, sizeof c.name, "displacement_%s", axis_name[value_number]);
         snprintf(c.unit, sizeof c.unit, "m");
     } else if (stress < 0) {
-        snprintf(c.name, sizeof c.name, "velocity_%s", axis_name[k - dim]);
+        snprintf(c.name, sizeof c.name, "velocity_%s", axis_name[value_number - dim]);
         snprintf(c.unit, sizeof c.unit, "m/s");
     } else if (stress < stresses_count(p)) {
         snprintf(c.name, sizeof c.name, "stress_%s", symmetric_name[dim][stress]);
@@ -67,22 +67,22 @@ static real plastic_strain_reading(const struct observed_run *o, int64_t i)
     return by_bonds ? bond_row_plastic_path(b, b->row_of[i]) : o->part->plastic_strain[i];
 }
 
-void particle_compute_readings(const struct observed_run *o, int64_t i, real *value)
+void particle_compute_probe_values(const struct observed_run *o, int64_t particle, real *value)
 {
     const struct particles *p = o->part;
-    for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
-    for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
-    for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][i];
-    if (p->plane_strain) *value++ = particle_out_of_plane_stress(p, i);
-    *value++ = probe_damage_of_particle(o, i);
-    if (p->plastic_work) *value++ = plastic_strain_reading(o, i);
-    if (p->temperature) *value++ = p->temperature[i];
+    for (int d = 0; d < p->dim; d++) *value++ = p->x[d][particle] - p->X[d][particle];
+    for (int d = 0; d < p->dim; d++) *value++ = p->v[d][particle];
+    for (int a = 0; a < symmetric_component_count(p->dim); a++) *value++ = p->stress[a][particle];
+    if (p->plane_strain) *value++ = particle_out_of_plane_stress(p, particle);
+    *value++ = probe_damage_of_particle(o, particle);
+    if (p->plastic_work) *value++ = plastic_strain_reading(o, particle);
+    if (p->temperature) *value++ = p->temperature[particle];
 }
 
 const struct column growth_figure[GROWTH_FIGURES] = {
     {"x", "m"}, {"y", "m"}, {"length", "m"}, {"speed", "m/s"}, {"K_eq", "Pa m^(1/2)"}};
 
-void growing_crack_compute_readings(const struct growing_crack *g, real *value)
+void growing_crack_compute_probe_values(const struct growing_crack *g, real *value)
 {
     const real reading[GROWTH_FIGURES] = {g->place[0], g->place[1], g->grown, g->speed, g->intensity};
     memcpy(value, reading, sizeof reading);
@@ -92,25 +92,26 @@ void growing_crack_compute_readings(const struct growing_crack *g, real *value)
 
 /* Returns the crack tip that a TIP probe currently follows: the one whose origin is nearest to the position `at` of the
  * probe. Without `at` it is that of the longest crack, or the first one if no crack has grown. Returns NULL if there
- * are no tips. The tip is part of *t. */
-const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t)
+ * are no tips. The tip is part of *tips. */
+const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips)
 {
-    if (t->n == 0) return NULL;
-    const struct crack_tip *chosen = q->request.has_at ? NULL : tips_longest(t);
-    if (chosen || !q->request.has_at) return chosen ? chosen : &t->tip[0];
+    if (tips->n == 0) return NULL;
+    const struct crack_tip *chosen = q->request.has_at ? NULL : tips_find_tip_with_largest_growth(tips);
+    if (chosen || !q->request.has_at) return chosen ? chosen : &tips->tip[0];
     real least = INFINITY;
-    for (int k = 0; k < t->n; k++) {
+    for (int k = 0; k < tips->n; k++) {
         real distance2 = 0;
-        for (int d = 0; d < t->dim; d++) distance2 += square(t->tip[k].origin[d] - q->request.at[d]);
-        if (distance2 < least) chosen = &t->tip[k], least = distance2;
+        for (int d = 0; d < tips->dim; d++) distance2 += square(tips->tip[k].origin[d] - q->request.at[d]);
+        if (distance2 < least) chosen = &tips->tip[k], least = distance2;
     }
     return chosen;
 }
 
-void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement)
+void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *l, int dim, real *force,
+                                        real *mean_displacement)
 {
     real held = 0;
-    for (int d = 0; d < dim; d++) force[d] = displacement[d] = 0;
+    for (int d = 0; d < dim; d++) force[d] = mean_displacement[d] = 0;
     for (int k = 0; k < l->n; k++) {
         const struct load *load = &l->load[k];
         if (strcmp(load->boundary->name, q->request.boundary) != 0) continue;
@@ -118,7 +119,7 @@ void probe_reaction(const struct probe *q, const struct loads *l, int dim, real 
         held += weight;
         for (int d = 0; d < dim; d++) {
             force[d] += load->reaction[d];
-            displacement[d] = (displacement[d] * before + load->displacement[d] * weight) / held;
+            mean_displacement[d] = (mean_displacement[d] * before + load->displacement[d] * weight) / held;
         }
     }
 }
@@ -136,7 +137,7 @@ struct region_sum {
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
-    return s->o->part->mass[s->q->list[k]] * probe_velocity(s->q, s->o->part, s->component, k);
+    return s->o->part->mass[s->q->list[k]] * probe_particle_velocity_component(s->q, s->o->part, s->component, k);
 }
 
 /* Returns the kinetic energy of particle number k of a probe [J]. context: a struct region_sum, with the probe and
@@ -146,7 +147,7 @@ static real kinetic_term(const void *context, int64_t k)
     const struct region_sum *s = context;
     const struct particles *p = s->o->part;
     real speed2 = 0;
-    for (int d = 0; d < p->dim; d++) speed2 += square(probe_velocity(s->q, p, d, k));
+    for (int d = 0; d < p->dim; d++) speed2 += square(probe_particle_velocity_component(s->q, p, d, k));
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
@@ -207,7 +208,7 @@ struct energies probe_energies(const struct probe *q, const struct observed_run 
     };
 }
 
-void probe_momentum(const struct probe *q, const struct particles *p, real *momentum)
+void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum)
 {
     const struct observed_run o = {.part = p};
     for (int d = 0; d < p->dim; d++)
@@ -241,7 +242,7 @@ static void put_position(const struct emitter *e, const real *X)
  * equally long. Reports nothing without a tip. */
 static void figures_tip(const struct emitter *e)
 {
-    const struct crack_tip *tip = probe_find_tip(e->q, e->o->tips);
+    const struct crack_tip *tip = probe_find_followed_crack_tip(e->q, e->o->tips);
     if (!tip) return;
     const bool moves = e->o->load_step == 0;
     if (moves) probes_figures_put(e, "start_time", tip->start_time);
@@ -251,7 +252,8 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
-    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_longest_ends(e->o->tips)));
+    probes_figures_put(e, "tied",
+                       (real)(e->q->request.has_at ? tip->ends : tips_count_ends_with_largest_growth(e->o->tips)));
 }
 
 /* Reports time (or load step) and position of the first break in the region of a BREAK probe, and the number of broken
@@ -276,7 +278,7 @@ static void figures_reaction(const struct emitter *e)
     const struct probe_memory *m = &e->q->memory;
     real force[DIM_MAX], displacement[DIM_MAX];
     int dim = e->o->part->dim;
-    probe_reaction(e->q, e->o->loads, dim, force, displacement);
+    probe_compute_reaction_of_supports(e->q, e->o->loads, dim, force, displacement);
     probes_figures_put(e, "force_max", m->steps > 0 ? m->force_max : NAN);
     if (e->o->load_step > 0 && m->force_max > 0) {
         probes_figures_put(e, "force_max_displacement", m->force_max_displacement);
@@ -314,10 +316,10 @@ static void figures_point(const struct emitter *e)
 {
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
-    particle_compute_readings(e->o, e->q->list[0], value);
+    particle_compute_probe_values(e->o, e->q->list[0], value);
     for (int k = 0; k < p->dim && e->sampled; k++) value[p->dim + k] = e->sampled[p->dim + k];
-    for (int k = 0; k < particle_reading_count(p); k++)
-        probes_figures_put(e, particle_reading_column(p, k).name, value[k]);
+    for (int k = 0; k < particle_probe_value_count(p); k++)
+        probes_figures_put(e, particle_probe_value_column(p, k).name, value[k]);
 }
 
 /* Reports the smallest and the largest value of each quantity of a LINE probe over those of its stations, equidistant
@@ -329,13 +331,13 @@ static void figures_line(const struct emitter *e)
     for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
     for (int64_t m = 0; m < e->q->n; m++) {
         if (e->q->list[m] < 0) continue;
-        particle_compute_readings(e->o, e->q->list[m], value);
-        for (int k = 0; k < particle_reading_count(p); k++)
+        particle_compute_probe_values(e->o, e->q->list[m], value);
+        for (int k = 0; k < particle_probe_value_count(p); k++)
             low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
     }
-    for (int k = 0; k < particle_reading_count(p); k++) {
+    for (int k = 0; k < particle_probe_value_count(p); k++) {
         char name[NAME_MAX_LENGTH];
-        struct column c = particle_reading_column(p, k);
+        struct column c = particle_probe_value_column(p, k);
         snprintf(name, sizeof name, "%.32s_min", c.name);
         probes_figures_put(e, name, low[k]);
         snprintf(name, sizeof name, "%.32s_max", c.name);
@@ -354,7 +356,7 @@ static void figures_energy(const struct emitter *e)
 static void figures_momentum(const struct emitter *e)
 {
     real momentum[DIM_MAX];
-    probe_momentum(e->q, e->o->part, momentum);
+    probe_compute_momentum_of_particles(e->q, e->o->part, momentum);
     put_position(e, e->sampled ? e->sampled : momentum);
 }
 
@@ -370,8 +372,9 @@ static void figures_exact(const struct emitter *e)
 {
     real value[BAR_FIGURES_MAX];
     enum exact_form form = e->q->request.form;
-    bar_compute_results(e->q->bar, e->o, value);
-    for (int k = 0; k < bar_result_count(form); k++) probes_figures_put(e, bar_result_column(form, k).name, value[k]);
+    bar_probe_compute_values(e->q->bar, e->o, value);
+    for (int k = 0; k < bar_probe_value_count(form); k++)
+        probes_figures_put(e, bar_probe_value_column(form, k).name, value[k]);
 }
 
 static void figures_sif(const struct emitter *e)

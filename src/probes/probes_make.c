@@ -48,8 +48,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         if (!q->rests) columns_by_axis(s, q, "displacement_", dim, "m");
         break;
     case PROBE_POINT:
-        for (int k = 0; k < particle_reading_count(p); k++) {
-            struct column c = particle_reading_column(p, k);
+        for (int k = 0; k < particle_probe_value_count(p); k++) {
+            struct column c = particle_probe_value_column(p, k);
             column_add(s, q, c.name, c.unit);
         }
         break;
@@ -62,8 +62,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
         columns_by_axis(s, q, "", dim, "kg m/s");
         break;
     case PROBE_EXACT:
-        for (int k = 0; k < bar_result_count(q->request.form); k++) {
-            struct column c = bar_result_column(q->request.form, k);
+        for (int k = 0; k < bar_probe_value_count(q->request.form); k++) {
+            struct column c = bar_probe_value_column(q->request.form, k);
             column_add(s, q, c.name, c.unit);
         }
         break;
@@ -107,7 +107,7 @@ static status bind_line(struct probe *q, const struct observed_run *o)
                           q->request.name);
     q->list = NEW("probes.list", q->request.points, int32_t);
     for (; q->n < q->request.points; q->n++) {
-        line_probe_station_position(q, dim, (int)q->n, X);
+        line_probe_compute_station_position(q, dim, (int)q->n, X);
         q->list[q->n] = probe_find_nearest_particle(o, X);
         inside += q->list[q->n] >= 0;
     }
@@ -176,20 +176,20 @@ static status probe_bind(struct probe *q, const struct observed_run *o)
     case PROBE_REACTION:
         return bind_support(q, o);
     case PROBE_PULSE:
-        return pulse_probe_start(q, o);
+        return pulse_probe_store_incident_amplitude(q, o);
     case PROBE_BREAK:
     case PROBE_ENERGY:
     case PROBE_MOMENTUM:
         return bind_region(q, o);
     case PROBE_EXACT:
-        return bar_make(q, o);
+        return bar_probe_find_bar_and_load(q, o);
     case PROBE_SIF:
-        return sif_probe_start(q, o);
+        return sif_probe_find_tip_and_contours(q, o);
     case PROBE_GROWTH:
         return bind_growth(q, o);
     case PROBE_RIGID:
         TRY(bind_region(q, o));
-        return rigid_probe_start(q, o);
+        return rigid_probe_store_initial_motion(q, o);
     default:
         return OK;
     }
@@ -232,13 +232,14 @@ static void supports_observe(struct probes *s, const struct observed_run *o)
     }
 }
 
-status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed_run *o)
+status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
+                   const struct observed_run *o)
 {
-    *s = (struct probes){.n = n};
-    s->probe = NEW("probes.probe", n, struct probe);
-    for (int k = 0; k < n; k++) {
+    *s = (struct probes){.n = request_count};
+    s->probe = NEW("probes.probe", request_count, struct probe);
+    for (int k = 0; k < request_count; k++) {
         struct probe *q = &s->probe[k];
-        q->request = request[k];
+        q->request = requests[k];
         q->memory = (struct probe_memory){
             .first_time = NAN, .position = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
         status fault = status_prepend_location(q->request.place, probe_bind(q, o));
@@ -259,7 +260,7 @@ void probes_free(struct probes *s)
     for (int k = 0; s->probe && k < s->n; k++) {
         memory_free(s->probe[k].list);
         probe_motion_free(&s->probe[k]);
-        bar_free(s->probe[k].bar);
+        bar_probe_free_bar(s->probe[k].bar);
         sif_probe_free(s->probe[k].sif);
     }
     memory_free(s->probe);

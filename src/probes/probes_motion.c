@@ -13,7 +13,7 @@ static void copy_listed(const struct probe *q, real *const *from, real **to, int
     }
 }
 
-void probe_motion_store(struct probe *q, const struct observed_run *o)
+void probe_motion_store_before_step(struct probe *q, const struct observed_run *o)
 {
     struct sampled_motion *m = &q->motion;
     m->kept = true, m->t = o->t, m->t_velocity = o->t_velocity;
@@ -21,21 +21,22 @@ void probe_motion_store(struct probe *q, const struct observed_run *o)
     copy_listed(q, o->part->v, m->v, o->part->dim);
 }
 
-void probe_motion_interpolate(struct probe *q, const struct observed_run *o, const struct velocity_time *now)
+void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
+                                             const struct velocity_time *present_velocity_time)
 {
     struct sampled_motion *m = &q->motion;
     const struct particles *p = o->part;
-    if (!m->kept || !(now->t > m->t_velocity)) return;
-    const real share = (o->t - m->t_velocity) / (now->t - m->t_velocity);
+    if (!m->kept || !(present_velocity_time->t > m->t_velocity)) return;
+    const real share = (o->t - m->t_velocity) / (present_velocity_time->t - m->t_velocity);
     if (o->t > m->t) copy_listed(q, p->x, m->x, p->dim);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < q->n; k++)
-            m->v[d][k] = now->scale * ((1 - share) * m->v[d][k] + share * p->v[d][q->list[k]]);
+            m->v[d][k] = present_velocity_time->scale * ((1 - share) * m->v[d][k] + share * p->v[d][q->list[k]]);
     m->t_velocity = o->t; /* no step follows the last sample: extrapolate from the previous motion */
     m->complete = true;
 }
 
-void probe_motion_discard(struct probe *q) { q->motion.complete = false; }
+void probe_motion_discard_interpolation(struct probe *q) { q->motion.complete = false; }
 
 void probe_motion_free(struct probe *q)
 {

@@ -12,19 +12,19 @@ static void probing_free_all(struct run *e)
     memory_free(q->pulse);
 }
 
-int64_t cracks_grow_one_step(struct run *e)
+int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e)
 {
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
         struct growth_control r;
-        const bool known = probes_get_sif(&e->probing->probes, e->scene->growth[k].probe, &r);
-        released += growing_crack_advance(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL,
-                                          e->clock.t, e->clock.dt);
+        const bool known = probes_copy_sif_of_probe(&e->probing->probes, e->scene->growth[k].probe, &r);
+        released += growing_crack_advance_and_count_cut_bonds(&e->fracture->growth[k], &e->bonds, &e->part, &e->source,
+                                                              known ? &r : NULL, e->clock.t, e->clock.dt);
     }
     return released;
 }
 
-real particles_largest_stress(const struct particles *p)
+real particles_largest_stress_component(const struct particles *p)
 {
     real most = 0;
     for (int c = 0; c < symmetric_component_count(p->dim); c++)
@@ -32,7 +32,7 @@ real particles_largest_stress(const struct particles *p)
     return most;
 }
 
-void scene_list_pulses(const struct scene *s, struct probing *probing)
+void scene_list_wave_pulses(const struct scene *s, struct probing *probing)
 {
     probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
     for (int k = 0; k < s->initials; k++)

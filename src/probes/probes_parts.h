@@ -64,56 +64,60 @@ enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
 /* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
  * and stress, the damage, and what yielding adds. The number depends on the dimension and the arrays of p. */
-int particle_reading_count(const struct particles *p);
+int particle_probe_value_count(const struct particles *p);
 
-/* Returns the name and unit of value `number` of those that a POINT or LINE probe reports of a particle, 0 <= number <
- * particle_reading_count(p). */
-struct column particle_reading_column(const struct particles *p, int number);
+/* Returns the name and unit of value `value_number` of those that a POINT or LINE probe reports of a particle, 0 <=
+ * number < particle_probe_value_count(p). */
+struct column particle_probe_value_column(const struct particles *p, int value_number);
 
 /* Returns the damage of particle i of the run: the share of its bonds that are broken or have softened, by volume
  * [1]. */
-static inline real probe_damage_of_particle(const struct observed_run *o, int64_t i)
+static inline real probe_damage_of_particle(const struct observed_run *o, int64_t particle)
 {
     const struct bonds *b = o->bonds;
-    return o->part->damage[i] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[i]) : 0);
+    return o->part->damage[particle] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[particle]) : 0);
 }
 
-/* Computes the readings of particle i of the run and stores them in value[particle_reading_count(o->part)], in the
- * order of particle_reading_column. */
-void particle_compute_readings(const struct observed_run *o, int64_t i, real *value);
+/* Computes the readings of particle i of the run and stores them in value[particle_probe_value_count(o->part)], in the
+ * order of particle_probe_value_column. */
+void particle_compute_probe_values(const struct observed_run *o, int64_t particle, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion,
  * before the time step. */
-void probe_motion_store(struct probe *q, const struct observed_run *o);
+void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
 /* Computes the velocities of a probe's particles at the time of the sample, after the time step: interpolated between
- * the velocities copied by probe_motion_store and the present ones; after the last step extrapolated, with the present
- * positions. now: time of the present velocities, and a factor on the result that removes half a step of damping. Does
- * nothing if probe_motion_store was not called, as for equilibria: probe_velocity then returns the present velocities.
+ * the velocities copied by probe_motion_store_before_step and the present ones; after the last step extrapolated, with
+ * the present positions. present_velocity_time: time of the present velocities, and a factor on the result that removes
+ * half a step of damping. Does nothing if probe_motion_store_before_step was not called, as for equilibria:
+ * probe_particle_velocity_component then returns the present velocities.
  */
-void probe_motion_interpolate(struct probe *q, const struct observed_run *o, const struct velocity_time *now);
+void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
+                                             const struct velocity_time *present_velocity_time);
 
-/* Discards the positions and velocities interpolated for a sample, so that probe_position and probe_velocity return
- * the present values again. */
-void probe_motion_discard(struct probe *q);
+/* Discards the positions and velocities interpolated for a sample, so that probe_particle_position_component and
+ * probe_particle_velocity_component return the present values again. */
+void probe_motion_discard_interpolation(struct probe *q);
 
 /* Frees the copies of positions and velocities of a probe. */
 void probe_motion_free(struct probe *q);
 
 /* Returns component d of the position of the k-th particle of a probe [m]: at the time of the sample between
- * probe_motion_interpolate and probe_motion_discard, else the present position. */
-static inline real probe_position(const struct probe *q, const struct particles *p, int axis, int64_t entry)
+ * probe_motion_interpolate_to_sample_time and probe_motion_discard_interpolation, else the present position. */
+static inline real probe_particle_position_component(const struct probe *q, const struct particles *p, int axis,
+                                                     int64_t list_index)
 {
-    return q->motion.complete ? q->motion.x[axis][entry] : p->x[axis][q->list[entry]];
+    return q->motion.complete ? q->motion.x[axis][list_index] : p->x[axis][q->list[list_index]];
 }
 
 /* Returns component d of the velocity of the k-th particle of a probe [m/s]: at the time of the sample between
- * probe_motion_interpolate and probe_motion_discard, else the present velocity. */
-static inline real probe_velocity(const struct probe *q, const struct particles *p, int axis, int64_t entry)
+ * probe_motion_interpolate_to_sample_time and probe_motion_discard_interpolation, else the present velocity. */
+static inline real probe_particle_velocity_component(const struct probe *q, const struct particles *p, int axis,
+                                                     int64_t list_index)
 {
-    return q->motion.complete ? q->motion.v[axis][entry] : p->v[axis][q->list[entry]];
+    return q->motion.complete ? q->motion.v[axis][list_index] : p->v[axis][q->list[list_index]];
 }
 
 /* ---- other kinds ------------------------------------------------------------------------------------------------- */
@@ -122,18 +126,19 @@ extern const char *const axis_name[DIM_MAX];
 
 /* Returns the number of the particle nearest to the reference position X, dim components [m]. Returns -1 if X is
  * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
-int32_t probe_find_nearest_particle(const struct observed_run *o, const real *X);
+int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
 /* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
  * equidistant from one end of the line to the other. */
-void line_probe_station_position(const struct probe *q, int dim, int station, real *X);
+void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
 
-/* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *t. */
-const struct crack_tip *probe_find_tip(const struct probe *q, const struct crack_tips *t);
+/* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *tips. */
+const struct crack_tip *probe_find_followed_crack_tip(const struct probe *q, const struct crack_tips *tips);
 
 /* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
- * [N], and the mean displacement of their particles, displacement[dim] [m]. */
-void probe_reaction(const struct probe *q, const struct loads *loads, int dim, real *force, real *displacement);
+ * [N], and the mean displacement of their particles, mean_displacement[dim] [m]. */
+void probe_compute_reaction_of_supports(const struct probe *q, const struct loads *loads, int dim, real *force,
+                                        real *mean_displacement);
 
 struct energies {
     real kinetic, strain, fracture; /* [J] */
@@ -142,11 +147,13 @@ struct energies {
 /* Returns the kinetic, strain and fracture energy of the particles of a probe [J]. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
-/* Returns the kinetic energy of the particles of a probe [J], with the velocities of probe_velocity. */
+/* Returns the kinetic energy of the particles of a probe [J], with the velocities of probe_particle_velocity_component.
+ */
 real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 
-/* Computes the momentum of the particles of a probe, momentum[dim] [kg m/s], with the velocities of probe_velocity. */
-void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
+/* Computes the momentum of the particles of a probe, momentum[dim] [kg m/s], with the velocities of
+ * probe_particle_velocity_component. */
+void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
 
 /* Amplitudes of a PULSE probe over the incident amplitude: reflected, as the difference from the baseline, and
  * transmitted; and the energy change beyond that of the baseline [1]. */
@@ -156,7 +163,7 @@ struct pulse_shares {
 
 /* Stores the largest initial speed of the body as the incident amplitude of a PULSE probe. Returns REFUSED if nothing
  * moves at the start. */
-status pulse_probe_start(struct probe *q, const struct observed_run *o);
+status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o);
 
 /* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
@@ -166,9 +173,10 @@ struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct
  * separation and the time in q->memory; else changes nothing. */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
-/* Computes the mean velocity along x of the lighter part of a separated bar, *speed, and of the remaining part,
- * *speed_rest [m/s]. */
-void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+/* Computes the mean velocity along x of the lighter part of a separated bar, *lighter_part_speed, and of the remaining
+ * part, *remaining_part_speed [m/s]. */
+void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
+                                     real *remaining_part_speed);
 
 /* Number of quantities that a GROWTH probe reports of a growing crack: tip position, length, speed, equivalent
  * stress-intensity factor K_eq. */
@@ -177,7 +185,7 @@ extern const struct column growth_figure[GROWTH_FIGURES];
 
 /* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
  * factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
-void growing_crack_compute_readings(const struct growing_crack *g, real *value);
+void growing_crack_compute_probe_values(const struct growing_crack *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
 
@@ -187,18 +195,18 @@ extern const struct column sif_figure[SIF_FIGURES];
 /* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
  * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
-status sif_probe_start(struct probe *q, const struct observed_run *o);
+status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o);
 
 /* Frees the crack tip and the contours of a SIF probe. w may be NULL. */
 void sif_probe_free(struct sif_tracked *w);
 
 /* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
  * time step. */
-void sif_probe_store_motion(struct probe *q, const struct observed_run *o);
+void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
 /* Computes K_I, K_II, J and the spread between contours of a SIF probe at the time of the sample, and stores them in
- * q->memory.factors. t_velocity: time of the present velocities [s]. */
-void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velocity);
+ * q->memory.factors. velocity_time: time of the present velocities [s]. */
+void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
@@ -206,15 +214,15 @@ extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
  * if the scene is not plane. */
-status rigid_probe_start(struct probe *q, const struct observed_run *o);
+status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
 /* Computes the angle of rotation and the largest stresses of a RIGID probe at the present positions, stores them in
  * value[], and updates q->memory.rigid. */
-void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value);
+void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
 /* Computes the errors of angular momentum and kinetic energy of a RIGID probe and stores them in value[]. Call this
  * function when the velocities at the time of the sample are known. */
-void rigid_probe_sample_motion(struct probe *q, const struct particles *p, real *value);
+void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 
@@ -228,41 +236,42 @@ struct bar {
 
 /* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
  * the bar or its loads differ from what the closed-form solution describes. */
-status bar_make(struct probe *q, const struct observed_run *o);
+status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
 /* Frees a bar and its arrays. b may be NULL. */
-void bar_free(struct bar *b);
+void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
- * arrays of *b. */
-void bar_measure_fields(struct bar *b, const struct observed_run *o);
+ * arrays of *bar. */
+void bar_probe_measure_fields(struct bar *bar, const struct observed_run *o);
 
 /* Computes the stress by bond flux of each particle, flux[n] by rank from left to right [Pa]: the sum of the forces of
  * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
  * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
  * particles are included. Material points have their Cauchy stress instead. */
-void bar_compute_bond_flux_stress(const struct bar *b, const struct observed_run *o, real *flux);
+void bar_probe_compute_bond_flux_stress(const struct bar *bar, const struct observed_run *o, real *flux);
 
 /* Largest number of quantities that an EXACT probe reports of a bar; they are also columns of history.csv. */
 enum { BAR_FIGURES_MAX = 16 };
 
-/* Returns the number of quantities that an EXACT probe reports for the closed-form solution `form`. */
-int bar_result_count(enum exact_form form);
+/* Returns the number of quantities that an EXACT probe reports for the closed-form solution `closed_form`. */
+int bar_probe_value_count(enum exact_form closed_form);
 
-/* Returns the name and unit of reported quantity `number` of the closed-form solution `form`, 0 <= number <
- * bar_result_count(form). */
-struct column bar_result_column(enum exact_form form, int number);
+/* Returns the name and unit of reported quantity `value_number` of the closed-form solution `closed_form`, 0 <= number
+ * < bar_probe_value_count(form). */
+struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
-/* Updates the measured fields of a bar (bar_measure_fields), compares them with the closed-form solution, and stores
- * the reported quantities in value[bar_result_count], in the order of bar_result_column. */
-void bar_compute_results(struct bar *b, const struct observed_run *o, real *value);
+/* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and
+ * stores the reported quantities in value[bar_probe_value_count], in the order of bar_probe_value_column. */
+void bar_probe_compute_values(struct bar *bar, const struct observed_run *o, real *value);
 
 /* Number of columns of the profile of a bar, with their names and units in bar_reading. */
 enum { BAR_READINGS = 12 };
 extern const struct column bar_reading[BAR_READINGS];
 
 /* Computes the line of the profile of a bar for one particle and stores it in value[BAR_READINGS], in the order of
- * bar_reading[]. rank: position of the particle in the order from left to right, from 0. */
-void bar_compute_profile_line(const struct bar *b, const struct observed_run *o, int64_t rank, real *value);
+ * bar_reading[]. rank_from_left: position of the particle in the order from left to right, from 0. */
+void bar_probe_compute_profile_line(const struct bar *bar, const struct observed_run *o, int64_t rank_from_left,
+                                    real *value);
 
 #endif

@@ -10,26 +10,26 @@ const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
  * diagonal of a lattice cell times 1.5, to allow for particles that are not on a lattice. */
 static real nearest_reach(const struct observed_run *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
-int32_t probe_find_nearest_particle(const struct observed_run *o, const real *X)
+int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position)
 {
     const struct particles *p = o->part;
     real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;
-    int room = cells_find_near(o->cells, p, X, reach, -1, NULL, 0);
+    int room = cells_list_particles_near_point(o->cells, p, position, reach, -1, NULL, 0);
     int32_t *found = NEW("probes.found", room, int32_t), nearest = -1;
-    int n = cells_find_near(o->cells, p, X, reach, -1, found, room);
+    int n = cells_list_particles_near_point(o->cells, p, position, reach, -1, found, room);
     for (int k = 0; k < n; k++) {
         if (found[k] >= p->n) continue;
         real distance2 = 0;
-        for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][found[k]] - X[d]);
+        for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][found[k]] - position[d]);
         if (distance2 < least) nearest = found[k], least = distance2;
     }
     memory_free(found);
     return nearest;
 }
 
-void line_probe_station_position(const struct probe *q, int dim, int k, real *X)
+void line_probe_compute_station_position(const struct probe *q, int dim, int k, real *position)
 {
     const struct probe_request *r = &q->request;
     real s = r->points > 1 ? (real)k / (r->points - 1) : 0;
-    for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
+    for (int d = 0; d < dim; d++) position[d] = r->from[d] + s * (r->to[d] - r->from[d]);
 }

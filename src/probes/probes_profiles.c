@@ -12,8 +12,8 @@ static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
     for (int d = 0; d < p->dim; d++) fprintf(file, ",%s [m]", axis_name[d]);
-    for (int k = 0; k < particle_reading_count(p); k++) {
-        struct column c = particle_reading_column(p, k);
+    for (int k = 0; k < particle_probe_value_count(p); k++) {
+        struct column c = particle_probe_value_column(p, k);
         fprintf(file, ",%s [%s]", c.name, c.unit);
     }
     fputc('\n', file);
@@ -25,16 +25,16 @@ static void profile_rows(FILE *file, const struct probe *q, const struct observe
 {
     const struct particles *p = o->part;
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
-    line_probe_station_position(q, p->dim, 0, start);
+    line_probe_compute_station_position(q, p->dim, 0, start);
     for (int64_t k = 0; k < q->n; k++) {
         if (q->list[k] < 0) continue;
         real s2 = 0;
-        line_probe_station_position(q, p->dim, (int)k, X);
+        line_probe_compute_station_position(q, p->dim, (int)k, X);
         for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
-        particle_compute_readings(o, q->list[k], value);
-        for (int m = 0; m < particle_reading_count(p); m++) fprintf(file, ",%.9g", value[m]);
+        particle_compute_probe_values(o, q->list[k], value);
+        for (int m = 0; m < particle_probe_value_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
 }
@@ -47,9 +47,9 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed_ru
     for (int m = 0; m < BAR_READINGS; m++)
         fprintf(file, "%s%s [%s]%s", m > 0 ? "," : "", bar_reading[m].name, bar_reading[m].unit,
                 m + 1 < BAR_READINGS ? "" : "\n");
-    bar_measure_fields(q->bar, o);
+    bar_probe_measure_fields(q->bar, o);
     for (int64_t k = 0; k < q->bar->n; k++) {
-        bar_compute_profile_line(q->bar, o, k, value);
+        bar_probe_compute_profile_line(q->bar, o, k, value);
         for (int m = 0; m < BAR_READINGS; m++)
             fprintf(file, "%s%.9g%s", m > 0 ? "," : "", value[m], m + 1 < BAR_READINGS ? "" : "\n");
     }
@@ -81,11 +81,11 @@ static bool has_profile(const struct probe *q)
     return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
 }
 
-bool probes_write_profile_name(const struct probes *s, int which, int frame, char *name)
+bool probes_compose_profile_file_name(const struct probes *s, int which, int frame_number, char *file_name)
 {
     for (int k = 0; k < s->n; k++) {
         if (!has_profile(&s->probe[k]) || which-- > 0) continue;
-        profile_name(name, &s->probe[k], frame);
+        profile_name(file_name, &s->probe[k], frame_number);
         return true;
     }
     return false;
@@ -115,10 +115,10 @@ int64_t probes_count_profiles(const struct probes *s)
     return n;
 }
 
-status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write, void *context,
-                             int frame)
+status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
+                             void *context, int frame_number)
 {
     for (int k = 0; k < s->n; k++)
-        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, write, context, frame));
+        if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, write_file, context, frame_number));
     return OK;
 }

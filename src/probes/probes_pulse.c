@@ -32,7 +32,7 @@ static real probes_pulse_fastest(const struct probe *q, const struct particles *
     return most;
 }
 
-status pulse_probe_start(struct probe *q, const struct observed_run *o)
+status pulse_probe_store_incident_amplitude(struct probe *q, const struct observed_run *o)
 {
     real *direction = q->request.direction, length = sqrt(dot(direction, direction, o->part->dim));
     for (int d = 0; d < DIM_MAX; d++) direction[d] = length > 0 ? direction[d] / length : d == 0;

@@ -30,7 +30,7 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
         const int32_t i = s->q->list[k];
         sum[0] += p->mass[i];
         for (int d = 0; d < 2; d++) {
-            sum[1 + d] += p->mass[i] * probe_position(s->q, p, d, k);
+            sum[1 + d] += p->mass[i] * probe_particle_position_component(s->q, p, d, k);
             sum[3 + d] += p->mass[i] * p->X[d][i];
         }
     }
@@ -45,9 +45,11 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     const struct particles *p = s->p;
     for (int64_t k = first; k < end; k++) {
         const int32_t i = s->q->list[k];
-        const real m = p->mass[i], v[2] = {probe_velocity(s->q, p, 0, k), probe_velocity(s->q, p, 1, k)};
+        const real m = p->mass[i], v[2] = {probe_particle_velocity_component(s->q, p, 0, k),
+                                           probe_particle_velocity_component(s->q, p, 1, k)};
         const real X[2] = {p->X[0][i] - s->centre_reference[0], p->X[1][i] - s->centre_reference[1]};
-        const real x[2] = {probe_position(s->q, p, 0, k) - s->centre[0], probe_position(s->q, p, 1, k) - s->centre[1]};
+        const real x[2] = {probe_particle_position_component(s->q, p, 0, k) - s->centre[0],
+                           probe_particle_position_component(s->q, p, 1, k) - s->centre[1]};
         sum[0] += m * (X[0] * x[0] + X[1] * x[1]);
         sum[1] += m * (X[0] * x[1] - X[1] * x[0]);
         sum[2] += m * (x[0] * v[1] - x[1] * v[0]);
@@ -72,7 +74,7 @@ static real probes_rigid_turn(const struct probe *q, const struct particles *p, 
     return atan2(sum[1], sum[0]);
 }
 
-status rigid_probe_start(struct probe *q, const struct observed_run *o)
+status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o)
 {
     struct rigid_memory *m = &q->memory.rigid;
     if (o->part->dim != 2)
@@ -107,7 +109,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
 /* Computes the rotation angle value[0] of a RIGID probe's body [rad], its largest absolute principal stress value[1]
  * and its largest in-plane shear stress value[2] [Pa]. The angle continues beyond half a turn if the body rotates by
  * less than half a turn between samples. */
-void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *value)
+void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;
@@ -118,7 +120,7 @@ void rigid_probe_sample(struct probe *q, const struct observed_run *o, real *val
     rigid_most(m, value, 1, RIGID_PLACES);
 }
 
-void rigid_probe_sample_motion(struct probe *q, const struct particles *p, real *value)
+void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;

@@ -219,7 +219,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
         return status_set(REFUSED, "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m", r->name, at[0],
                           at[1]);
     w->tip.body = p->body[ahead];
-    w->tip.medium = crack_medium_of(&o->material[p->material[ahead]], o->space);
+    w->tip.medium = crack_medium_of_material(&o->material[p->material[ahead]], o->space);
     for (int64_t i = 0; i < p->n; i++) {
         const real distance = hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]);
         if (distance > w->reach) continue;
@@ -232,7 +232,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     return OK;
 }
 
-status sif_probe_start(struct probe *q, const struct observed_run *o)
+status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o)
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
@@ -317,7 +317,7 @@ static void keep_displacement(struct sif_tracked *w, const struct particles *p)
     }
 }
 
-void sif_probe_store_motion(struct probe *q, const struct observed_run *o)
+void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
@@ -370,17 +370,17 @@ static bool find_body_force(struct sif_tracked *w, const struct observed_run *o)
     return any;
 }
 
-void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velocity)
+void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
-    const bool moves = w->kept && t_velocity > w->t_velocity;
+    const bool moves = w->kept && velocity_time > w->t_velocity;
     struct sif found[SIF_CONTOURS_MAX + 1];
     real position[2];
     const bool grew = probes_sif_follow(q, o);
     const bool loaded = find_body_force(w, o);
     if (!moves) keep_displacement(w, p), w->tip.speed = 0;
-    if (moves) find_inertia(w, p, t_velocity);
+    if (moves) find_inertia(w, p, velocity_time);
     w->kept = false;
     for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
     if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, position)) return;
@@ -390,28 +390,30 @@ void sif_probe_sample(struct probe *q, const struct observed_run *o, real t_velo
     for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
     sif_compute_by_interaction_integral(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
-                                       sif_contour_spread(found + 1, w->contours - 1)};
+                                       sif_relative_spread_over_contours(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
     memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
     q->memory.time = o->t;
 }
 
-bool probes_get_sif_contour(const struct probes *s, int k, const struct observed_run *o, real position[2], real *radius)
+bool probes_locate_sif_contour(const struct probes *s, int k, const struct observed_run *o, real tip_position[2],
+                               real *outer_radius)
 {
     const struct sif_tracked *w = s->probe[k].sif;
     if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
     const struct crack_tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     const real *at = w->growth >= 0 ? o->growth[w->growth].place : tip && tip->growth > 0 ? tip->place : w->tip.place;
-    for (int d = 0; d < 2; d++) position[d] = at[d];
-    *radius = w->reach;
+    for (int d = 0; d < 2; d++) tip_position[d] = at[d];
+    *outer_radius = w->reach;
     return true;
 }
 
-bool probes_get_sif(const struct probes *s, const char *name, struct growth_control *control)
+bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];
-        if (q->request.kind != PROBE_SIF || strcmp(q->request.name, name) != 0 || isnan(q->memory.factors[0])) continue;
+        if (q->request.kind != PROBE_SIF || strcmp(q->request.name, probe_name) != 0 || isnan(q->memory.factors[0]))
+            continue;
         *control =
             (struct growth_control){.factors = {{q->memory.factors[0], q->memory.factors[1]}, q->memory.factors[2]},
                                     .along = {q->memory.along[0], q->memory.along[1]},

@@ -140,7 +140,8 @@ void spall_probe_detect_separation(struct probe *q, const struct observed_run *o
     }
 }
 
-void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
+void spall_probe_compute_part_speeds(const struct probe *q, const struct particles *p, real *lighter_part_speed,
+                                     real *remaining_part_speed)
 {
     real mass[2] = {0}, momentum[2] = {0};
     for (int64_t i = 0; i < p->n; i++) {
@@ -150,6 +151,6 @@ void spall_probe_compute_part_speeds(const struct probe *q, const struct particl
         momentum[side] += p->mass[i] * p->v[0][i];
     }
     int end = mass[1] <= mass[0];
-    *speed = mass[end] > 0 ? momentum[end] / mass[end] : NAN;
-    *speed_rest = mass[!end] > 0 ? momentum[!end] / mass[!end] : NAN;
+    *lighter_part_speed = mass[end] > 0 ? momentum[end] / mass[end] : NAN;
+    *remaining_part_speed = mass[!end] > 0 ? momentum[!end] / mass[!end] : NAN;
 }

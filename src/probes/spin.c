@@ -85,10 +85,10 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
 }
 
 void diagnostics_update_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
-                                         int bodies)
+                                         int body_count)
 {
     real spin[DIM_MAX], missing2 = 0;
-    const real size = diagnostics_spin_of(p, mesh, bodies, spin);
+    const real size = diagnostics_spin_of(p, mesh, body_count, spin);
     for (int d = 0; d < DIM_MAX; d++) {
         if (!w->turns) w->spin_start[d] = spin[d];
         w->now.spin[d] = spin[d];

@@ -14,20 +14,20 @@ struct account {
 
 /* Stores a copy of the present applied forces in applied[dim], arrays with a value for each particle of the body [N]; 0
  * before the first solution. The caller frees the arrays. */
-void applied_forces_copy(real **applied, const struct statics *s, const struct particles *part);
+void applied_forces_copy(real **applied, const struct statics *s, const struct particles *particles);
 
-/* Copies the present positions, displacements and forces into *a, for work_account_end. The storage is freed by
- * work_account_end or work_account_free. */
-void work_account_start(struct account *a, const struct statics *s, const struct particles *part);
+/* Copies the present positions, displacements and forces into *account, for work_account_end_and_estimate_error. The
+ * storage is freed by work_account_end_and_estimate_error or work_account_free. */
+void work_account_start(struct account *account, const struct statics *s, const struct particles *particles);
 
 /* Adds the work of supports and of applied forces since work_account_start to that of the loads: the mean of the
  * initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads beyond
- * that mean along the curved path of the solver [J]. Frees the storage of *a. Returns an estimate of the error of the
- * work [J], its difference from the work with the initial or the final force alone. */
-real work_account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
-                      real curved_path_work);
+ * that mean along the curved path of the solver [J]. Frees the storage of *account. Returns an estimate of the error of
+ * the work [J], its difference from the work with the initial or the final force alone. */
+real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
+                                         struct loads *loads, real curved_path_work);
 
-/* Frees the storage of *a. */
-void work_account_free(struct account *a);
+/* Frees the storage of *account. */
+void work_account_free(struct account *account);
 
 #endif

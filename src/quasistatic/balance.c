@@ -49,7 +49,7 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
     for (int b = 0; b < loads->n; b++) by[b] = prescribed_displacement_make(loads->load[b].boundary, p->dim, t);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX] = {0};
-        if (s->balance.held[k]) unknown_position(s, p, mesh, k, X);
+        if (s->balance.held[k]) unknown_compute_reference_position(s, p, mesh, k, X);
         for (int d = 0; d < p->dim; d++) {
             const int load = s->load[k * DIM_MAX + d];
             const real u = s->balance.u.of[d][k];
@@ -71,7 +71,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
     real sum = 0;
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t i = bonds->particle[r];
-        const real spring = 0.25 * bonds_row_largest_eigenvalue_bound(bonds, part, r);
+        const real spring = 0.25 * bonds_row_stiffness_eigenvalue_bound(bonds, part, r);
         for (int d = 0; d < part->dim; d++) sum += square(spring * part->X[d][i] * DBL_EPSILON);
     }
     return 10 * sqrt(sum);
@@ -102,7 +102,7 @@ static status equilibrium_failed(const struct statics *s, const struct particles
                                  int64_t step)
 {
     real X[DIM_MAX] = {0};
-    if (s->balance.n > 0) unknown_position(s, p, mesh, s->balance.worst, X);
+    if (s->balance.n > 0) unknown_compute_reference_position(s, p, mesh, s->balance.worst, X);
     return status_set(
         FAILED,
         "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (at most %.3g is "
@@ -120,18 +120,18 @@ static status check_stop(const struct run_report *report, const struct run_clock
                       (long long)clock->step + 1, (long long)clock->steps);
 }
 
-status equilibrium_solve(struct run *e, real t, real *const *applied)
+status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, real *const *present_applied_forces)
 {
     struct statics *s = e->statics;
     TRY(check_stop(e->report, &e->clock));
-    TRY(loads_check_finite(&e->loads, &e->part, t));
-    applied_forces_compute(s, &e->part, &e->loads, t);
+    TRY(loads_check_formulas_are_finite(&e->loads, &e->part, pseudo_time));
+    applied_forces_compute(s, &e->part, &e->loads, pseudo_time);
     if (s->fragments_stale) unconstrained_fragments_find(e);
-    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, applied);
+    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, pseudo_time, present_applied_forces);
     s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, e->contact);
     if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
-    const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, t != s->t);
-    s->t = t;
+    const status found = newton_solver_find_equilibrium(&s->balance, &s->increment, pseudo_time != s->t);
+    s->t = pseudo_time;
     return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
@@ -144,21 +144,23 @@ static status solve_at(struct run *e, real t, bool *crossed)
     struct account account;
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
-    TRY(loads_check_finite(&e->loads, &e->part, t));
+    TRY(loads_check_formulas_are_finite(&e->loads, &e->part, t));
     statics_contact_begin_solution(e, t);
     work_account_start(&account, s, &e->part);
-    const status found = equilibrium_solve(e, t, account.applied);
-    plastic_state_update(e);
-    reference_frame_update_points(e->frame, &e->part, &e->loads);
+    const status found = equilibrium_solve_without_work_account(e, t, account.applied);
+    plastic_state_update_at_last_solution(e);
+    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part);
     const bool touched = statics_is_or_was_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
-               range = work_account_end(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
-    const real rigids = statics_contact_end_solution(e, e->loads.work + e->loads.constraint_work - worked, lost);
+               range =
+                   work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
+    const real rigids =
+        statics_contact_end_and_estimate_work_error(e, e->loads.work + e->loads.constraint_work - worked, lost);
     *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, touched || s->in_contact,
                             e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
-    reactions_store(s, &e->part, &e->loads);
+    reactions_compute_and_store(s, &e->part, &e->loads);
     s->solutions++;
     statics_preconditioner_free_if_costly(s, s->balance.directions - asked);
     return found;
@@ -204,15 +206,15 @@ static status solve_whole(struct run *e, real t)
 
 /* Finds the equilibrium at pseudo-time t [s] and stores the largest stretch ratio there. Returns INTERRUPTED, before
  * the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays valid. */
-status equilibrium_find_at_time(struct run *e, real t)
+status equilibrium_find_at_time(struct run *e, real pseudo_time)
 {
     TRY(check_stop(e->report, &e->clock));
-    TRY(solve_whole(e, t));
+    TRY(solve_whole(e, pseudo_time));
     e->statics->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 
-status equilibrium_convert_points(struct run *e, int64_t broken_bonds)
+status equilibrium_convert_points_and_solve_again(struct run *e, int64_t broken_bonds)
 {
     while (step_convert_points_at_broken_bonds(e, broken_bonds)) {
         broken_bonds = 0;

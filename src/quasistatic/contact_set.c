@@ -45,11 +45,11 @@ static void unconstrained_update(struct run *e)
  * become active [spacings]. Returns the number of changes of the set of active contacts. */
 static int64_t statics_contact_search(struct run *e, real close)
 {
-    return contact_search_and_select_for_equilibrium(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
-                                                     close);
+    return contact_search_select_and_count_changes(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family,
+                                                   close);
 }
 
-void statics_contact_first_search(struct run *e)
+void statics_contact_search_before_first_solution(struct run *e)
 {
     if (!e->statics->has_contact) return;
     e->contact->marked = true;
@@ -57,13 +57,13 @@ void statics_contact_first_search(struct run *e)
     if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
 }
 
-int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real t)
+int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time)
 {
     real most = 0;
     for (int k = 0; k < s->rigids; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real shift[DIM_MAX];
-        rigid_prescribed_displacement(r, t, shift);
+        rigid_compute_prescribed_displacement(r, pseudo_time, shift);
         for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + shift[d] - r->x[d]));
     }
     return (int)real_min(SUBSTEPS_MOST, real_max(1, ceil(most / (SUBSTEP_MOST * s->spacing))));
@@ -73,7 +73,8 @@ int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, 
  * computed [J]. */
 static real energy_present(struct run *e)
 {
-    return sample_strain_energy(e) + contact_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
+    return sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
+           bond_plastic_work(&e->bonds);
 }
 
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *c)
@@ -84,17 +85,17 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
 /* Prepares contact for the solution at pseudo-time t [s]: stores the energy before the solution, moves rigid bodies and
  * searches for contacts. The stored energy includes contact energy only if anything was in contact before. If anything
  * is in contact now, finds the unconstrained fragments again, since contact may constrain them. */
-void statics_contact_begin_solution(struct run *e, real t)
+void statics_contact_begin_solution(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
     const bool touched = s->in_contact;
     s->in_contact = false, q->reach = 0;
     if (!e->statics->has_contact) return;
-    statics_contact_first_search(e);
+    statics_contact_search_before_first_solution(e);
     q->force(e, &q->u, &q->f);
-    s->energy = energy_present(e) - (touched ? 0 : contact_energy(e->contact, &e->part));
-    for (int k = 0; k < e->scene->rigids; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], t);
+    s->energy = energy_present(e) - (touched ? 0 : contact_elastic_energy(e->contact, &e->part));
+    for (int k = 0; k < e->scene->rigids; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], pseudo_time);
     s->in_contact = statics_contact_search(e, CARRIED) > 0 || touched;
     s->largest = q->largest;
     if (!s->in_contact) return;
@@ -105,31 +106,32 @@ void statics_contact_begin_solution(struct run *e, real t)
 
 /* Updates the set of active contacts at the end of a solution, by a new search for pairs if particles have moved far,
  * else by the overlap of the known pairs. Returns true if the set has not changed, so that the equilibrium is valid.
- * Also recomputes the norm of the loads, by which residuals are measured, with the present contact forces. engine: the
+ * Also recomputes the norm of the loads, by which residuals are measured, with the present contact forces. run: the
  * run (struct run). */
-bool statics_contact_update_active_set(void *engine)
+bool statics_contact_update_and_is_set_unchanged(void *run)
 {
-    struct run *e = engine;
+    struct run *e = run;
     struct statics *s = e->statics;
     struct contact *c = e->contact;
     if (!e->statics->has_contact) return true;
     unknowns_apply_displacements(s, &e->part, &e->frame->mesh, &s->balance.u);
     loads_update_mirror_images(&e->loads, &e->part);
-    const int64_t changed = contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0)
-                                                               : contact_select_for_equilibrium(c, &e->part, 0);
+    const int64_t changed = contact_search_is_needed(c, &e->part)
+                                ? 1 + statics_contact_search(e, 0)
+                                : contact_select_active_and_count_changes(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, &e->loads, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
     return changed == 0;
 }
 
-void statics_contact_select_acting(void *engine, bool set_is_fixed)
+void statics_contact_select_acting_contacts(void *run, bool set_is_fixed)
 {
-    struct run *e = engine;
-    if (e->statics->has_contact) contact_use_equilibrium_selection(e->contact, set_is_fixed);
+    struct run *e = run;
+    if (e->statics->has_contact) contact_restrict_forces_to_selection(e->contact, set_is_fixed);
 }
 
-real statics_contact_end_solution(struct run *e, real work, real solver_loss)
+real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss)
 {
     struct statics *s = e->statics;
     struct newton_solver *q = &s->balance;
@@ -141,28 +143,30 @@ real statics_contact_end_solution(struct run *e, real work, real solver_loss)
         for (int d = 0; d < e->part.dim; d++)
             range += 0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_previous[d]) *
                                 e->rigid->body[k].increment[d]);
-        rigid_add_drive_work(&e->rigid->body[k]);
-        work += e->rigid->body[k].work - before;
+        rigid_add_work_of_prescribed_motion(&e->rigid->body[k]);
+        load_work += e->rigid->body[k].work - before;
     }
-    if (statics_is_or_was_in_contact(s, e->contact)) q->lost = solver_loss + work - (energy_present(e) - s->energy);
+    if (statics_is_or_was_in_contact(s, e->contact))
+        q->lost = solver_loss + load_work - (energy_present(e) - s->energy);
     s->in_contact = e->contact->touching > 0;
     return range;
 }
 
-void rigid_forces_update_largest(struct rigid_set *rigid, int n)
+void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count)
 {
-    for (int k = 0; k < n; k++) rigid_update_largest_force(&rigid->body[k]);
+    for (int k = 0; k < rigid_body_count; k++) rigid_update_largest_force(&rigid->body[k]);
 }
 
-void rigid_bodies_warn_of_no_contact(struct warnings *to, const struct rigid_set *rigid, int n, real least)
+void rigid_bodies_warn_of_no_contact(struct warnings *warnings, const struct rigid_set *rigid, int rigid_body_count,
+                                     real least_force)
 {
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < rigid_body_count; k++) {
         const struct rigid_body *r = &rigid->body[k];
         char text[200];
         snprintf(text, sizeof text,
                  "no force acted on rigid body %.60s while it moved in a load step: check that it touches a body, and "
                  "that this body is held",
                  r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= least) warnings_add_and_print(to, text);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= least_force) warnings_add_and_print(warnings, text);
     }
 }

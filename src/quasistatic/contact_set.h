@@ -17,37 +17,38 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
  * if the search has been made. */
-void statics_contact_first_search(struct run *e);
+void statics_contact_search_before_first_solution(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
  * pseudo-time t [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a substep; at least
  * 1, and limited (SUBSTEPS_MOST). */
-int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real t);
+int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
 /* Prepares the solution at pseudo-time t [s]: computes the energy stored before the solution, moves rigid bodies to
  * their positions at t, and searches for contacts there. */
-void statics_contact_begin_solution(struct run *e, real t);
+void statics_contact_begin_solution(struct run *e, real pseudo_time);
 
 /* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
- * `settle` of solver/equilibrium.h). engine: a struct run. Returns true if the set has not changed. */
-bool statics_contact_update_active_set(void *engine);
+ * `settle` of solver/equilibrium.h). run: a struct run. Returns true if the set has not changed. */
+bool statics_contact_update_and_is_set_unchanged(void *run);
 
 /* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts
- * if `set_is_fixed` is true, else all pairs that overlap. engine: a struct run. */
-void statics_contact_select_acting(void *engine, bool set_is_fixed);
+ * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
+void statics_contact_select_acting_contacts(void *run, bool set_is_fixed);
 
 /* Completes a solution: adds the work done on rigid bodies in this solution to their total work and, if anything is or
- * was in contact, computes the energy that the solution has lost. work: work of loads and supports in this solution
- * [J]; solver_loss: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid bodies [J]:
- * the difference between the work with the mean of the initial and final contact force and the work with one of these
- * forces. */
-real statics_contact_end_solution(struct run *e, real work, real solver_loss);
+ * was in contact, computes the energy that the solution has lost. load_work: work of loads and supports in this
+ * solution [J]; solver_loss: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid
+ * bodies [J]: the difference between the work with the mean of the initial and final contact force and the work with
+ * one of these forces. */
+real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss);
 
 /* Updates the largest contact force so far of each of the n rigid bodies by that of the present equilibrium. */
-void rigid_forces_update_largest(struct rigid_set *rigid, int n);
+void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count);
 
-/* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least` [N]: they
- * miss the body, or push a body that nothing constrains. */
-void rigid_bodies_warn_of_no_contact(struct warnings *to, const struct rigid_set *rigid, int n, real least);
+/* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least_force` [N]:
+ * they miss the body, or push a body that nothing constrains. */
+void rigid_bodies_warn_of_no_contact(struct warnings *warnings, const struct rigid_set *rigid, int rigid_body_count,
+                                     real least_force);
 
 #endif

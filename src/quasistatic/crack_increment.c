@@ -36,14 +36,15 @@ enum { INCREMENT_SPACINGS = 2, SECANTS_MOST = 6 };
 
 /* ---- area of a crack increment ----------------------------------------------------------------------------------- */
 
-real crack_energy_share_by_symmetry(const struct crack_tips *t, const struct bond_source *source, int plane_axis)
+real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
+                                    int plane_axis)
 {
-    bool on = t->n > 0;
-    for (int k = 0; k < t->n && on; k++) {
+    bool on = tips->n > 0;
+    for (int k = 0; k < tips->n && on; k++) {
         bool any = false;
-        for (int m = 0; m < source->mirrors; m++)
-            any |= (plane_axis < 0 || source->mirror[m].axis == plane_axis) &&
-                   tip_grows_on_mirror_plane(t, &t->tip[k], &source->mirror[m], 1);
+        for (int m = 0; m < bond_source->mirrors; m++)
+            any |= (plane_axis < 0 || bond_source->mirror[m].axis == plane_axis) &&
+                   tip_grows_on_mirror_plane(tips, &tips->tip[k], &bond_source->mirror[m], 1);
         on = any;
     }
     return on ? 0.5 : 1;
@@ -117,7 +118,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
         }
         TRY(equilibrium_find_at_time(e, s->t));
     }
-    a->release = (statics_energy_released(s, &e->bonds) - before) / square(statics_load_size(e, s->t));
+    a->release = (statics_energy_released(s, &e->bonds) - before) / square(statics_norm_of_prescribed_loads(e, s->t));
     return OK;
 }
 
@@ -138,7 +139,7 @@ static status increment_find_now(struct run *e)
     struct statics *s = e->statics;
     struct memory_archive saved;
     struct crack_increment second;
-    if (sif_cracks_initialise(e)) {
+    if (sif_cracks_initialise_and_can_grow(e)) {
         TRY(sif_increment_find(e));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
@@ -149,11 +150,11 @@ static status increment_find_now(struct run *e)
     const int64_t bonds = s->next.n;
     if (tried == OK && bonds > 0 && pre_crack_unbroken(&e->fracture->tips, s)) {
         tried = increment_break_try(e, &second);
-        if (second.cost > 0) s->behind = increment_extrapolate_previous(&s->ahead, &second);
+        if (second.cost > 0) s->behind = increment_extrapolate_before_first(&s->ahead, &second);
     }
     trial_equilibrium_undo(e, &saved, &s->next);
     s->next.n = bonds;
-    s->due = increments_energy_balance_load(&s->ahead, &s->behind);
+    s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -172,7 +173,7 @@ static status increment_find_at_due(struct run *e)
     status found = OK;
     real previous = 0, previous_share = NAN;
     for (int k = 0; k < SECANTS_MOST && found == OK && s->next.n > 0; k++) {
-        const real size = statics_load_size(e, s->t), share = size / s->due;
+        const real size = statics_norm_of_prescribed_loads(e, s->t), share = size / s->due;
         if (fabs(share - 1) <= DUE_ERROR || !isfinite(s->due)) break;
         const real secant = size + (1 - share) * (size - previous) / (share - previous_share);
         found = equilibrium_find_at_time(e, statics_time_of_load_size(e, secant > 0 ? secant : s->due));
@@ -200,17 +201,17 @@ status crack_increment_find(struct run *e)
 
 status crack_increment_apply_at_energy_balance(struct run *e)
 {
-    const real size = increment_energy_balance_load(&e->statics->ahead);
+    const real size = increment_energy_balance_load_size(&e->statics->ahead);
     if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_load_size(e, size)));
-    return crack_increment_apply(e);
+    return crack_increment_apply_at_present_loads(e);
 }
 
-int64_t crack_increment_break_bonds(struct run *e)
+int64_t crack_increment_break_bonds_and_move_tips(struct run *e)
 {
     struct statics *s = e->statics;
     const int64_t broken = s->next.n;
     bonds_break_listed(e, &s->next);
-    sif_tips_advance(&s->sif, &e->part);
+    sif_tips_move_selected(&s->sif, &e->part);
     s->behind = s->ahead, s->ahead = (struct crack_increment){0};
     s->next.n = 0;
     return broken;
@@ -220,7 +221,10 @@ status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
 {
     TRY(equilibrium_find_at_time(e, e->statics->t));
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
-    return equilibrium_convert_points(e, broken_bonds);
+    return equilibrium_convert_points_and_solve_again(e, broken_bonds);
 }
 
-status crack_increment_apply(struct run *e) { return crack_increment_equilibrate(e, crack_increment_break_bonds(e)); }
+status crack_increment_apply_at_present_loads(struct run *e)
+{
+    return crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e));
+}

@@ -6,9 +6,10 @@
 #include "run/run.h"
 
 /* Returns the share of a crack area whose energy belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry,
- * else 1. t: tips of the cracks; source: planes of symmetry; plane_axis: only planes perpendicular to axis d are
- * considered, -1 for all planes. */
-real crack_energy_share_by_symmetry(const struct crack_tips *t, const struct bond_source *source, int plane_axis);
+ * else 1. tips: tips of the cracks; bond_source: planes of symmetry; plane_axis: only planes perpendicular to axis d
+ * are considered, -1 for all planes. */
+real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
+                                    int plane_axis);
 
 /* Returns the crack area that is created if all cracks grow by one spacing along their whole fronts [m^2], halved on
  * planes of symmetry. Without a pre-crack the front in space is the shortest side of the body. */
@@ -21,15 +22,15 @@ status crack_increment_find(struct run *e);
 
 /* Makes the next crack increment under the present loads: breaks its bonds and finds the equilibrium without them.
  * Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
-status crack_increment_apply(struct run *e);
+status crack_increment_apply_at_present_loads(struct run *e);
 
 /* Breaks the bonds of the next crack increment and moves the tips of SIF-driven cracks, without finding the new
  * equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
-int64_t crack_increment_break_bonds(struct run *e);
+int64_t crack_increment_break_bonds_and_move_tips(struct run *e);
 
-/* Finds the equilibrium after crack_increment_break_bonds has broken bonds, and converts material points near the crack
- * to peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if no equilibrium
- * is found, INTERRUPTED if the run is to stop. */
+/* Finds the equilibrium after crack_increment_break_bonds_and_move_tips has broken bonds, and converts material points
+ * near the crack to peridynamic particles. broken_bonds: number of directed bonds that were broken. Returns FAILED if
+ * no equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_equilibrate(struct run *e, int64_t broken_bonds);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
@@ -40,6 +41,6 @@ status crack_increment_apply_at_energy_balance(struct run *e);
 /* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body
  * in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion
  * diverges or no equilibrium is found, INTERRUPTED if the run is to stop. */
-status crack_increment_apply_dynamic(struct run *e);
+status crack_increment_apply_by_dynamic_release(struct run *e);
 
 #endif

@@ -73,25 +73,26 @@ static real turn_between(const struct flow_start *start, const struct flow_start
     return size > 0 ? acos(real_max(-1, real_min(1, tensor_scalar_product(first, end->relative) / size))) : 0;
 }
 
-void flow_turn_measure(struct statics *s, const struct particles *p, const struct elastic *m, int64_t step)
+void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
+                                      const struct elastic *elastic_constants, int64_t load_step)
 {
     if (!p->mesh_stress[0] || p->dim < 2) return;
     const bool known = s->flow_start != NULL;
     if (!known) s->flow_start = NEW("statics.flow_start", p->n, struct flow_start);
     for (int64_t i = 0; i < p->n; i++) {
-        const struct elastic *own = &m[p->material[i]];
+        const struct elastic *own = &elastic_constants[p->material[i]];
         if (!own->law) continue;
         const struct flow_start now = point_state(p, own, i);
         const bool flows = known && now.strain > s->flow_start[i].strain;
         const real angle = flows ? turn_between(&s->flow_start[i], &now) : 0;
         s->flow_start[i] = now;
         if (!(angle > s->turn.angle)) continue;
-        s->turn = (struct flow_turn){.angle = angle, .step = step};
+        s->turn = (struct flow_turn){.angle = angle, .step = load_step};
         particle_reference_position(p, i, s->turn.position);
     }
 }
 
-void flow_turn_warn(const struct flow_turn *turn, int dim, struct warnings *to)
+void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings)
 {
     const real angle = turn->angle / DEGREE;
     char text[320], z[40] = "";
@@ -102,5 +103,5 @@ void flow_turn_warn(const struct flow_turn *turn, int dim, struct warnings *to)
              "error)",
              angle, (long long)turn->step, turn->position[0], turn->position[1], z,
              real_min(ERROR_PER_DEGREE * angle, ERROR_MOST));
-    if (angle > TURN_MOST) warnings_add_and_print(to, text);
+    if (angle > TURN_MOST) warnings_add_and_print(warnings, text);
 }

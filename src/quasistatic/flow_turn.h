@@ -10,12 +10,13 @@
 
 /* Measures by how much the direction of flow has turned at each point since the last call, from where the trial stress
  * of the load step reached the yield surface to the end of the step. Updates the largest turn so far in s->turn, and
- * stores the present state as the start of the next load step. The first call stores the state only. m: elastic
- * constants of all materials; step: number of the load step. Does nothing if no point of p yields, or in 1D, where the
- * direction of flow only changes its sign. */
-void flow_turn_measure(struct statics *s, const struct particles *p, const struct elastic *m, int64_t step);
+ * stores the present state as the start of the next load step. The first call stores the state only. elastic_constants:
+ * elastic constants of all materials; load_step: number of the load step. Does nothing if no point of p yields, or in
+ * 1D, where the direction of flow only changes its sign. */
+void flow_turn_measure_over_load_step(struct statics *s, const struct particles *p,
+                                      const struct elastic *elastic_constants, int64_t load_step);
 
 /* Warns of a largest turn with which stresses may be off by more than 5 %. */
-void flow_turn_warn(const struct flow_turn *turn, int dim, struct warnings *to);
+void flow_turn_warn_of_inexact_stress(const struct flow_turn *turn, int dim, struct warnings *warnings);
 
 #endif

@@ -12,13 +12,13 @@
 static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, shift[DIM_MAX];
-    for (int k = 0; k < n; k++) sum += square(rigid_prescribed_displacement(&r->body[k], t, shift));
+    for (int k = 0; k < n; k++) sum += square(rigid_compute_prescribed_displacement(&r->body[k], t, shift));
     return sum;
 }
 
 /* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the norm of the prescribed
  * displacements of supports and rigid bodies [m], or, if these do not move, the norm of the applied forces [N]. */
-real statics_load_size(const struct run *e, real t)
+real statics_norm_of_prescribed_loads(const struct run *e, real t)
 {
     real sum = 0, forces = 0;
     for (int b = 0; b < e->loads.n; b++) {
@@ -40,15 +40,15 @@ real statics_load_size(const struct run *e, real t)
 
 enum { SECANTS_MOST = 30 };
 
-real statics_time_of_load_size(const struct run *e, real size)
+real statics_time_of_load_size(const struct run *e, real load_size)
 {
-    real from = e->statics->t, at_from = statics_load_size(e, from);
-    real t = at_from > 0 ? from * size / at_from : from;
+    real from = e->statics->t, at_from = statics_norm_of_prescribed_loads(e, from);
+    real t = at_from > 0 ? from * load_size / at_from : from;
     for (int k = 0; k < SECANTS_MOST; k++) {
-        const real at = statics_load_size(e, t), slope = (at - at_from) / (t - from);
-        if (fabs(at - size) <= 1e-9 * size || !(slope != 0) || t == from) return t;
+        const real at = statics_norm_of_prescribed_loads(e, t), slope = (at - at_from) / (t - from);
+        if (fabs(at - load_size) <= 1e-9 * load_size || !(slope != 0) || t == from) return t;
         from = t, at_from = at;
-        t = real_max(0, from + (size - at) / slope);
+        t = real_max(0, from + (load_size - at) / slope);
     }
     return t;
 }
@@ -62,19 +62,20 @@ real statics_energy_released(const struct statics *s, const struct bonds *b)
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real increments_energy_balance_load(const struct crack_increment *a, const struct crack_increment *b)
+real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
+                                               const struct crack_increment *other_increment)
 {
-    const real release = a->release + b->release;
-    return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
+    const real release = increment->release + other_increment->release;
+    return increment->cost > 0 && release > 0 ? sqrt((increment->cost + other_increment->cost) / release) : INFINITY;
 }
 
-real increment_energy_balance_load(const struct crack_increment *a)
+real increment_energy_balance_load_size(const struct crack_increment *increment)
 {
-    return increments_energy_balance_load(a, &(struct crack_increment){0});
+    return increments_joint_energy_balance_load_size(increment, &(struct crack_increment){0});
 }
 
-struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
-                                                      const struct crack_increment *second)
+struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
+                                                          const struct crack_increment *second)
 {
     const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
     const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);

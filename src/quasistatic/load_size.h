@@ -7,24 +7,26 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the pseudo-time [s] at which the load size, a measure proportional to the loads (statics_load_size), equals
- * `size` [m or N]. It is found by the secant method from the present pseudo-time. */
-real statics_time_of_load_size(const struct run *e, real size);
+/* Returns the pseudo-time [s] at which the load size, a measure proportional to the loads
+ * (statics_norm_of_prescribed_loads), equals `load_size` [m or N]. It is found by the secant method from the present
+ * pseudo-time. */
+real statics_time_of_load_size(const struct run *e, real load_size);
 
 /* Returns the load size at which the crack increments a and b together release as much energy as they cost,
  * sqrt((cost_a + cost_b)/(release_a + release_b)) [m or N]. The release of an increment is the energy over the square
  * of the load size. INFINITY if a has no cost or the two release no energy. */
-real increments_energy_balance_load(const struct crack_increment *a, const struct crack_increment *b);
+real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
+                                               const struct crack_increment *other_increment);
 
 /* Returns the load size at which the crack increment a releases as much energy as it costs [m or N]; INFINITY if it
  * has no cost or releases no energy. */
-real increment_energy_balance_load(const struct crack_increment *a);
+real increment_energy_balance_load_size(const struct crack_increment *increment);
 
 /* Returns a fictitious crack increment before the first one, as if the pre-crack had grown to its length by increments.
  * Its cost equals that of *first. Its release is extrapolated linearly from the first two increments, *first and
  * *second, and is at least 0. */
-struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
-                                                      const struct crack_increment *second);
+struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
+                                                          const struct crack_increment *second);
 
 /* Returns the energy released since the start [J]: the fracture energy of broken bonds plus s->balance.lost, the energy
  * lost in solutions. */

@@ -42,14 +42,14 @@ enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
  * that this increment alone costs; loads then oscillate about those of a crack that grows continuously. */
 static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, increment_energy_balance_load_size(&s->ahead)) : s->due;
 }
 
 /* Updates the probes and the largest forces of the rigid bodies for the present equilibrium, a state that the loads
  * have reached. */
 static void state_sample(struct run *e)
 {
-    sample_update_probes(e);
+    sample_update_probes_of_every_step(e);
     rigid_forces_update_largest(e->rigid, e->scene->rigids);
 }
 
@@ -68,7 +68,7 @@ static status go_to_size(struct run *e, real size, real least, real most)
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
-    const real from = s->t, low = statics_load_size(e, from), at_low = s->stretch_ratio;
+    const real from = s->t, low = statics_norm_of_prescribed_loads(e, from), at_low = s->stretch_ratio;
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
         struct memory_archive saved;
@@ -77,14 +77,15 @@ static status approach_loads(struct run *e, real t)
         far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
-            t = real_max(from, statics_time_of_load_size(e, low + share * (statics_load_size(e, t) - low)));
+            t = real_max(from,
+                         statics_time_of_load_size(e, low + share * (statics_norm_of_prescribed_loads(e, t) - low)));
             trial_equilibrium_undo(e, &saved, NULL);
         } else
             memory_archive_free(&saved);
         TRY(gone);
     }
     if (far) TRY(equilibrium_find_at_time(e, t));
-    TRY(equilibrium_convert_points(e, 0));
+    TRY(equilibrium_convert_points_and_solve_again(e, 0));
     return crack_increment_find(e);
 }
 
@@ -98,17 +99,17 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     struct statics *s = e->statics;
     const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
     *size = real_max(*size, increment_load(e->statics, e->diagnostics));
-    const real loads = statics_load_size(e, t);
-    const bool pays = increment_energy_balance_load(&s->ahead) <= *size, within = *size < loads;
+    const real loads = statics_norm_of_prescribed_loads(e, t);
+    const bool pays = increment_energy_balance_load_size(&s->ahead) <= *size, within = *size < loads;
     if (within)
         TRY(go_to_size(e, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
         TRY(equilibrium_find_at_time(e, t));
     state_sample(e);
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
-        TRY(crack_increment_apply_dynamic(e));
+        TRY(crack_increment_apply_by_dynamic_release(e));
     else
-        TRY(pays ? crack_increment_apply(e) : crack_increment_apply_at_energy_balance(e));
+        TRY(pays ? crack_increment_apply_at_present_loads(e) : crack_increment_apply_at_energy_balance(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
     return crack_increment_find(e);
 }
@@ -118,8 +119,8 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
-    const real from = s->t, loads = statics_load_size(e, t);
-    real size = statics_load_size(e, from);
+    const real from = s->t, loads = statics_norm_of_prescribed_loads(e, t);
+    real size = statics_norm_of_prescribed_loads(e, from);
     for (;;) {
         const bool due = s->next.n > 0 && increment_load(e->statics, e->diagnostics) <=
                                               real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
@@ -144,9 +145,9 @@ static status step_by_energy(struct run *e, real most)
     if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
     if (s->severs) return OK;
-    s->increment_due = s->next.n > 0 && statics_load_size(e, t) >= s->due;
+    s->increment_due = s->next.n > 0 && statics_norm_of_prescribed_loads(e, t) >= s->due;
     if (s->next.n > 0) TRY(equilibrium_find_at_time(e, s->increment_due ? statics_time_of_load_size(e, s->due) : t));
-    s->record.load_most = real_max(s->record.load_most, statics_load_size(e, s->t));
+    s->record.load_most = real_max(s->record.load_most, statics_norm_of_prescribed_loads(e, s->t));
     s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
 }
@@ -199,8 +200,9 @@ static status step_by_opening(struct run *e)
     const real first = e->statics->t + e->scene->duration / (real)s->number;
     if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
     for (bool open = false;;) {
-        const bool before = increment_before_opening(&e->part, e->statics, statics_load_size(e, e->statics->t),
-                                                     increment_load(e->statics, e->diagnostics), wanted);
+        const bool before =
+            increment_before_opening(&e->part, e->statics, statics_norm_of_prescribed_loads(e, e->statics->t),
+                                     increment_load(e->statics, e->diagnostics), wanted);
         if (open && !before) return OK;
         open = !before;
         if (open) {
@@ -208,7 +210,7 @@ static status step_by_opening(struct run *e)
                               opening_now(&e->part, e->statics) > 0
                                   ? e->statics->t * wanted / opening_now(&e->part, e->statics)
                                   : first));
-            TRY(equilibrium_convert_points(e, 0));
+            TRY(equilibrium_convert_points_and_solve_again(e, 0));
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
             state_sample(e);
@@ -243,7 +245,7 @@ static status load_step(struct run *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     load_step_begin(e);
-    if (e->bonds.soft.curve) return softening_step(e, most * (real)(e->clock.step + 1));
+    if (e->bonds.soft.curve) return softening_make_load_step(e, most * (real)(e->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:
         return step_by_load(e, most * (real)(e->clock.step + 1));
@@ -261,7 +263,8 @@ static status check_opening(const struct scene *scene, const struct particles *p
 {
     const struct scene_steps *s = &scene->steps;
     const real *const at[] = {s->from, s->to};
-    const int64_t nearest[] = {particles_nearest(part, s->from), particles_nearest(part, s->to)};
+    const int64_t nearest[] = {particles_index_nearest_to_position(part, s->from),
+                               particles_index_nearest_to_position(part, s->to)};
     for (int k = 0; k < 2; k++) {
         real X[DIM_MAX], away = 0;
         particle_reference_position(part, nearest[k], X);
@@ -291,13 +294,14 @@ static status check_loads_grow(const struct scene *s, real quarter, real half, r
         s->duration);
 }
 
-status statics_check_scene(const struct run *e)
+status statics_check_scene_is_solvable(const struct run *e)
 {
     const struct scene *s = e->scene;
     if (!scene_has_load_steps(s)) return OK;
     if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
-    TRY(check_loads_grow(s, statics_load_size(e, 0.25 * s->duration), statics_load_size(e, 0.5 * s->duration),
-                         statics_load_size(e, s->duration)));
+    TRY(check_loads_grow(s, statics_norm_of_prescribed_loads(e, 0.25 * s->duration),
+                         statics_norm_of_prescribed_loads(e, 0.5 * s->duration),
+                         statics_norm_of_prescribed_loads(e, s->duration)));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
@@ -338,10 +342,10 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
 static void warn_at_end(struct run *e)
 {
     real K[MODES];
-    sif_leading_tip_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
+    sif_leading_tip_compute_intensity_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
-    flow_turn_warn(&e->statics->turn, e->part.dim, &e->warnings);
+    flow_turn_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }
 
@@ -362,37 +366,37 @@ static status check_constrained(struct run *e, bool *apart)
 
 status engine_run_load_steps(struct run *e)
 {
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     timers_start(&e->timers);
     if (!e->statics->node) statics_unknowns_make(e); /* a resumed run has them */
-    statics_contact_first_search(e);
-    e->statics->gauge[0] = particles_nearest(&e->part, e->scene->steps.from);
-    e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
-    sif_cracks_initialise(e); /* for the plane of the tips, which a resumed run lacks */
+    statics_contact_search_before_first_solution(e);
+    e->statics->gauge[0] = particles_index_nearest_to_position(&e->part, e->scene->steps.from);
+    e->statics->gauge[1] = particles_index_nearest_to_position(&e->part, e->scene->steps.to);
+    sif_cracks_initialise_and_can_grow(e); /* for the plane of the tips, which a resumed run lacks */
     if (e->clock.step == 0) sample_take_in_equilibrium(e);
-    flow_turn_measure(e->statics, &e->part, e->tables.elastic, 0);
+    flow_turn_measure_over_load_step(e->statics, &e->part, e->tables.elastic, 0);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
         const status solved = load_step(e);
-        timer_add_elapsed(&e->timers, TIMER_BONDS);
+        timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
         TRY(solved);
         TRY(check_constrained(e, &apart));
-        flow_turn_measure(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
+        flow_turn_measure_over_load_step(e->statics, &e->part, e->tables.elastic, e->clock.load_step);
         plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_sample(e);
         sample_take_in_equilibrium(e);
-        statics_record_reset(e->statics);
+        statics_reset_history_counts(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
-        timer_add_elapsed(&e->timers, TIMER_BONDS);
+        timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
         if (e->clock.step == e->clock.steps) warn_at_end(e);
         snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
                  (long long)e->statics->solutions);
-        TRY(report_step(e));
+        TRY(report_finished_step(e));
     }
     statics_free(e->statics);
-    return report_end(e);
+    return report_finish_after_last_step(e);
 }

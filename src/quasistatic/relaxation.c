@@ -13,9 +13,9 @@
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6 /* ratio of kinetic to strain energy of a body at rest */
 
-real grid_relaxation_ramp_time(real length, real wave_speed, real dt)
+real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step)
 {
-    return ceil(2 * length / (wave_speed * dt)) * dt;
+    return ceil(2 * body_length / (wave_speed * time_step)) * time_step;
 }
 
 /* Adds the sums of m u^2 [kg m^2] and m v^2 [J] of particles first .. end - 1, with their masses m, displacements u and
@@ -98,11 +98,11 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
     loads_update_mirror_images(loads, p);
 }
 
-status grid_relaxation_step(struct run *e, bool *done)
+status grid_relaxation_step(struct run *e, bool *is_in_equilibrium)
 {
     TRY(step(e));
-    TRY(stability_check(e));
-    if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, done);
+    TRY(stability_check_after_step(e));
+    if (e->clock.step % ESTIMATE_STEPS == 0) estimate(e, is_in_equilibrium);
     damp_velocities(&e->part, &e->loads, e->optional & WITH_GRADIENT ? e->part.dim * e->part.dim : 0,
                     e->solver->damping);
     return OK;

@@ -5,11 +5,11 @@
 #include "run/run.h"
 
 /* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps dt [s] in
- * which a wave with the speed wave_speed [m/s] travels twice the length of the body, `length` [m]. */
-real grid_relaxation_ramp_time(real length, real wave_speed, real dt);
+ * which a wave with the speed wave_speed [m/s] travels twice the length of the body, `body_length` [m]. */
+real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step);
 
-/* Makes one damped time step towards equilibrium. Sets *done to true if the body has reached equilibrium, else leaves
- * *done unchanged. Returns FAILED if the step fails or is unstable. */
-status grid_relaxation_step(struct run *e, bool *done);
+/* Makes one damped time step towards equilibrium. Sets *is_in_equilibrium to true if the body has reached equilibrium,
+ * else leaves *is_in_equilibrium unchanged. Returns FAILED if the step fails or is unstable. */
+status grid_relaxation_step(struct run *e, bool *is_in_equilibrium);
 
 #endif

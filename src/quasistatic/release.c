@@ -96,13 +96,14 @@ static status steps_in_time(struct run *e, int64_t *broken)
     *broken = 0;
     for (int64_t k = 0; k < most && damped < damped_most; k++) {
         TRY(step(e));
-        TRY(divergence_check(e, true, true));
+        TRY(divergence_check_particles(e, true, true));
         if (e->diagnostics->bonds_broken > had) *broken += e->diagnostics->bonds_broken - had, last = k, damped = 0;
         had = e->diagnostics->bonds_broken;
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
         damped++;
-        if (k % ENERGY_STEPS == 0 && kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_strain_energy(e))
+        if (k % ENERGY_STEPS == 0 &&
+            kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_current_elastic_energy(e))
             break;
     }
     return OK;
@@ -111,21 +112,22 @@ static status steps_in_time(struct run *e, int64_t *broken)
 /* Returns the strain energy, contact energy and fracture energy minus the work of loads and supports [J]. */
 static real energy_budget(struct run *e)
 {
-    const real held = sample_strain_energy(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
+    const real held = sample_current_elastic_energy(e) + contact_elastic_energy(e->contact, &e->part) +
+                      bonds_fracture_energy(&e->bonds);
     return held - e->loads.work - e->loads.constraint_work;
 }
 
-status crack_increment_apply_dynamic(struct run *e)
+status crack_increment_apply_by_dynamic_release(struct run *e)
 {
     struct statics *s = e->statics;
     const struct run_clock clock = e->clock;
     const real before = energy_budget(e), damped = e->damped;
-    const int64_t broken = crack_increment_break_bonds(e);
+    const int64_t broken = crack_increment_break_bonds_and_move_tips(e);
     int64_t more;
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_freeze(e->scene, e->boundary, s->t);
     rigids_freeze(e->scene, e->rigid, true);
-    contact_end_equilibrium_selection(e->contact);
+    contact_discard_equilibrium_selection(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
     e->clock.step = 1, e->clock.steps = RELEASE_STEPS_MOST, e->clock.stride = 1;

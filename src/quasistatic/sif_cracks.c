@@ -1,7 +1,7 @@
 /* Tips of SIF-driven cracks: position, stress-intensity factors, direction of growth.
  *
  * A tip grows in the direction of the largest hoop stress of its stress-intensity factors (Erdogan & Sih 1963;
- * crack_kink_angle_of_sif). The factors are fitted in a frame that follows the direction of growth over a smoothing
+ * crack_kink_angle_from_sif). The factors are fitted in a frame that follows the direction of growth over a smoothing
  * length: a tip that turned at once, and whose factors were then fitted in a ring that its kink has not yet crossed,
  * would oscillate (fracture/growth.h). Where a pre-crack kinks, the crack grows straight on until the ring contains
  * nothing but the new segment. */
@@ -27,7 +27,7 @@
 
 enum { INCREMENT_SPACINGS = 2 };
 
-bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
+bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip)
 {
     real ahead[2];
     sif_plane_compute_point_ahead(tip->position, plane->spacing, tip->last, ahead);
@@ -89,36 +89,37 @@ static struct crack_medium medium_at(const struct sif_cracks *l, const struct pa
         const bool thin = sif_plane_body_width_along_front(&l->plane, p, tip->position, ahead) < 2 * radius;
         space = thin ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN;
     }
-    return crack_medium_of(material_at(l, p, tip), space);
+    return crack_medium_of_material(material_at(l, p, tip), space);
 }
 
-bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                             bool faces_in_contact, real K[MODES])
+bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
+                                       const struct sif_crack_tip *tip, bool faces_in_contact, real K[MODES])
 {
-    const real h = l->plane.spacing, inner = real_max(3 * h, INNER * l->source->family.horizon);
+    const real h = cracks->plane.spacing, inner = real_max(3 * h, INNER * cracks->source->family.horizon);
     struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
     for (int d = 0; d < 2; d++)
         view.place[d] = tip->position[d], view.along[d] = tip->along[d], view.last[d] = tip->last[d];
-    memcpy(view.axis, l->plane.axis, sizeof view.axis);
+    memcpy(view.axis, cracks->plane.axis, sizeof view.axis);
     view.outer = real_min(view.outer, real_max(tip->length_behind, LEAST * h));
-    view.medium = medium_at(l, p, tip, 0.5 * (view.inner + view.outer));
-    struct crack *crack = crack_segments(l, &view.cracks);
+    view.medium = medium_at(cracks, p, tip, 0.5 * (view.inner + view.outer));
+    struct crack *crack = crack_segments(cracks, &view.cracks);
     view.crack = crack;
-    const bool seen = crack_tip_fit_sif(&view, p, K);
+    const bool seen = crack_tip_fit_sif_to_displacements(&view, p, K);
     crack_segments_free(crack, view.cracks);
-    if (sif_tip_is_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
+    if (sif_tip_segment_is_on_mirror(&cracks->plane, tip)) K[MODE_II] = 0;
     if (faces_in_contact) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
     return seen;
 }
 
-void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
+void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip)
 {
-    if (tip->straight > AHEAD * l->plane.spacing || !sif_tip_compute_factors(l, p, tip, faces_in_contact, tip->K)) {
+    if (tip->straight > AHEAD * cracks->plane.spacing ||
+        !sif_tip_compute_intensity_factors(cracks, p, tip, faces_in_contact, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
-    const real angle = crack_kink_angle_of_sif(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
+    const real angle = crack_kink_angle_from_sif(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
@@ -134,18 +135,18 @@ static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool 
     return first;
 }
 
-void sif_leading_tip_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
-                             real K[MODES])
+void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
+                                               bool faces_in_contact, real K[MODES])
 {
-    const struct sif_crack_tip *first = tip_longest(l, true);
+    const struct sif_crack_tip *first = tip_longest(cracks, true);
     K[MODE_I] = K[MODE_II] = NAN;
-    if (first) sif_tip_compute_factors(l, p, first, faces_in_contact, K);
+    if (first) sif_tip_compute_intensity_factors(cracks, p, first, faces_in_contact, K);
 }
 
-void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX])
+void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX])
 {
-    const struct sif_plane *plane = &l->plane;
-    const struct sif_crack_tip *first = tip_longest(l, false);
+    const struct sif_plane *plane = &cracks->plane;
+    const struct sif_crack_tip *first = tip_longest(cracks, false);
     for (int d = 0; d < DIM_MAX; d++)
         position[d] = first ? first->position[0] * plane->axis[0][d] + first->position[1] * plane->axis[1][d] +
                                   plane->middle * plane->front[d]
@@ -175,8 +176,8 @@ static bool crack_ends_at_tip(const struct crack *c, const struct sif_crack_tip 
            sif_plane_point_distance(c->corner[1], tip->position) <= within;
 }
 
-void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                           real position[2])
+void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
+                                           const struct sif_crack_tip *tip, real position[2])
 {
     const real h = l->plane.spacing, energy = l->scene->steps.energy;
     real from[2], to[2], growth = INCREMENT_SPACINGS * h, share = 1;
@@ -195,9 +196,9 @@ void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p
     crack_segments_free(crack, cracks);
 }
 
-real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
+real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip)
 {
-    return toughness_of_material(&l->source->family, l->scene->model, material_at(l, p, tip));
+    return toughness_of_material(&cracks->source->family, cracks->scene->model, material_at(cracks, p, tip));
 }
 
 /* Returns true if the body continues ahead of the tip: if enough particles whose motion is not prescribed are near the
@@ -246,28 +247,28 @@ static void tip_frame_turn(struct sif_crack_tip *tip, real growth, real h)
     tip->straight = real_max(0, tip->straight - growth);
 }
 
-void sif_tip_move(struct sif_cracks *l, const struct particles *p, int k)
+void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int k)
 {
-    struct sif_crack_tip *tip = &l->tip[k];
-    const real h = l->plane.spacing;
+    struct sif_crack_tip *tip = &cracks->tip[k];
+    const real h = cracks->plane.spacing;
     real to[2];
-    sif_tip_next_position(l, p, tip, to);
+    sif_tip_compute_end_of_next_increment(cracks, p, tip, to);
     const real growth = sif_plane_point_distance(to, tip->position);
-    sif_path_add(l, k, to);
+    sif_path_add(cracks, k, to);
     tip_frame_turn(tip, growth, h);
     for (int d = 0; d < 2; d++) tip->last[d] = tip->heading[d], tip->position[d] = to[d];
     tip->grown += growth, tip->length_behind += growth;
-    sif_tip_next_position(l, p, tip, to);
-    tip->ended = !body_continues(l, p, tip) || sif_plane_point_distance(to, tip->position) < REST * h;
+    sif_tip_compute_end_of_next_increment(cracks, p, tip, to);
+    tip->ended = !body_continues(cracks, p, tip) || sif_plane_point_distance(to, tip->position) < REST * h;
 }
 
-void sif_tips_stop_all(struct sif_cracks *l)
+void sif_tips_stop_all(struct sif_cracks *cracks)
 {
-    for (int k = 0; k < l->n; k++) l->tip[k].ended = true;
+    for (int k = 0; k < cracks->n; k++) cracks->tip[k].ended = true;
 }
 
-void sif_cracks_free(struct sif_cracks *l)
+void sif_cracks_free(struct sif_cracks *cracks)
 {
-    memory_free(l->path);
-    memset(l, 0, sizeof *l);
+    memory_free(cracks->path);
+    memset(cracks, 0, sizeof *cracks);
 }

@@ -13,24 +13,25 @@
 
 /* Finds the plane in which the tips of the pre-cracks move, and stores its axes, the direction and middle of the crack
  * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
- * body_mirror of *plane. t: tips of the pre-cracks; cracks: the pre-cracks. Returns NULL, or the reason why there is
- * no such plane (a static text). */
-const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, const struct crack_list *cracks,
-                           const struct particles *p);
+ * body_mirror of *plane. tips: tips of the pre-cracks; precracks: the pre-cracks. Returns NULL, or the reason why there
+ * is no such plane (a static text). */
+const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
+                                            const struct crack_list *precracks, const struct particles *p);
 
 /* Projects the point X, dim components [m], onto the plane, and stores the two coordinates of the projection in the
  * plane in projection[2] [m]. */
-void sif_plane_project(const struct sif_plane *plane, const real *X, real projection[2]);
+void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2]);
 
 /* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in
  * projection[] [m]. */
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i,
+void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
                                 real projection[2]);
 
 /* Computes the straight segment in which the pre-crack c intersects the plane, and stores its ends in segment_end[0]
  * and segment_end[1], as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to the crack
  * fronts, i.e. not perpendicular to the plane. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real segment_end[2][DIM_MAX]);
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
+                               real segment_end[2][DIM_MAX]);
 
 /* Returns the width of the body along the crack front [m], averaged over the segment between the points `segment_start`
  * and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
@@ -47,63 +48,67 @@ real sif_plane_crack_area(const struct sif_plane *plane, const struct particles 
  * [m], lies on a plane of symmetry. */
 bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
 
-/* Computes the point ahead = from + distance * along. from: point of the plane of the tips [m]; along: unit vector in
- * the plane; distance and result in [m]. */
-static inline void sif_plane_compute_point_ahead(const real *from, real distance, const real *along, real ahead[2])
+/* Computes the point ahead = from + distance * along. start: point of the plane of the tips [m]; direction: unit vector
+ * in the plane; distance and result in [m]. */
+static inline void sif_plane_compute_point_ahead(const real *start, real distance, const real *direction, real ahead[2])
 {
-    for (int d = 0; d < 2; d++) ahead[d] = from[d] + distance * along[d];
+    for (int d = 0; d < 2; d++) ahead[d] = start[d] + distance * direction[d];
 }
 
 /* Returns the distance between the points a and b of the plane, two coordinates each [m]. */
-static inline real sif_plane_point_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
+static inline real sif_plane_point_distance(const real *point, const real *other_point)
+{
+    return hypot(point[0] - other_point[0], point[1] - other_point[1]);
+}
 
 /* ---- tips (sif_cracks.c)
  * ------------------------------------------------------------------------------------------------ */
 
 /* Returns true if the crack segment that ends at the tip lies on a plane of symmetry. */
-bool sif_tip_is_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
+bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
  * tip->along. faces_in_contact: crack faces are in contact (crack_faces_are_in_contact), which makes K_I at least 0.
  * Returns false if too few particles are near the tip. */
-bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                             bool faces_in_contact, real K[2]);
+bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
+                                       const struct sif_crack_tip *tip, bool faces_in_contact, real K[2]);
 
 /* Computes the position at which the next increment of a tip ends, two coordinates in the plane [m]. The increment is
  * 2 particle spacings long or, if the key steps.energy is set, as long as that energy suffices for; it ends at the
  * first other crack that it meets. */
-void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                           real position[2]);
+void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
+                                           const struct sif_crack_tip *tip, real position[2]);
 
 /* Returns the crack energy per area [J/m^2] of the material at a tip (toughness_of_material). */
-real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip);
+real sif_tip_toughness(const struct sif_cracks *cracks, const struct particles *p, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
  * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight is
  * positive or if too few particles are near the tip. faces_in_contact: crack faces are in contact. */
-void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact,
+void sif_tip_choose_direction(const struct sif_cracks *cracks, const struct particles *p, bool faces_in_contact,
                               struct sif_crack_tip *tip);
 
 /* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
  * sets `ended` of the tip if it has reached a surface or another crack. */
-void sif_tip_move(struct sif_cracks *l, const struct particles *p, int tip);
+void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct particles *p, int tip);
 
 /* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores them
- * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call sif_cracks_initialise
- * before. */
-void sif_leading_tip_factors(const struct sif_cracks *l, const struct particles *p, bool faces_in_contact, real K[2]);
+ * in K[] [Pa m^(1/2)]; NAN if no tip can grow. faces_in_contact: crack faces are in contact. Call
+ * sif_cracks_initialise_and_can_grow before. */
+void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
+                                               bool faces_in_contact, real K[2]);
 
 /* Stores the reference position of the tip that has grown most in position[] [m]; in three dimensions that of the
  * middle of its front. Stores NAN if there is no tip. */
-void sif_leading_tip_position(const struct sif_cracks *l, real position[DIM_MAX]);
+void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
  * since the tips then no longer describe the cracks. */
-void sif_tips_stop_all(struct sif_cracks *l);
+void sif_tips_stop_all(struct sif_cracks *cracks);
 
-/* Frees the stored path of the cracks and clears *l. */
-void sif_cracks_free(struct sif_cracks *l);
+/* Frees the stored path of the cracks and clears *cracks. */
+void sif_cracks_free(struct sif_cracks *cracks);
 
 /* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
@@ -119,12 +124,12 @@ status sif_increment_find(struct run *e);
 
 /* Moves all tips that take part in the present crack increment (member `selected` of struct sif_crack_tip) to the ends
  * of their increments, and clears `selected`. */
-void sif_tips_advance(struct sif_cracks *l, const struct particles *p);
+void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p);
 
 /* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
 /* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow. Returns false if
  * none can, or if the cracks of the scene are not SIF-driven; the reason is then in sif.fault of e->statics. */
-bool sif_cracks_initialise(struct run *e);
+bool sif_cracks_initialise_and_can_grow(struct run *e);
 
 #endif

@@ -66,7 +66,7 @@ static void segment_cost_set(const struct sif_cracks *l, const struct particles 
 {
     const bool state_based = l->scene->model != MODEL_BOND;
     real to[2], sum = 0;
-    sif_tip_next_position(l, p, tip, to);
+    sif_tip_compute_end_of_next_increment(l, p, tip, to);
     const real whole = sif_plane_crack_area(&l->plane, p, tip->position, to) * sif_tip_toughness(l, p, tip);
     for (int64_t k = 0; k < list->n; k++) sum += list->bond[k].held;
     for (int64_t k = 0; k < list->n; k++)
@@ -79,7 +79,7 @@ static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, con
 {
     struct crack_list segments;
     real cost = 0, to[2];
-    sif_tip_next_position(l, p, tip, to);
+    sif_tip_compute_end_of_next_increment(l, p, tip, to);
     segment_images(l, tip, tip->position, to, &segments);
     for (int64_t r = 0; r < b->rows; r++) row_bonds_cut(l, b, p, r, &segments, list);
     crack_list_free(&segments);
@@ -112,12 +112,12 @@ static int64_t segment_convert(const struct sif_cracks *l, struct particles *p, 
 {
     real to[DIM_MAX] = {0}, from[DIM_MAX] = {tip->position[0], tip->position[1]};
     int64_t marked = 0;
-    sif_tip_next_position(l, p, tip, to);
+    sif_tip_compute_end_of_next_increment(l, p, tip, to);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX] = {0};
         if (p->kind[i] != KIND_MPM || p->body[i] != tip->body) continue;
         sif_plane_project_particle(&l->plane, p, i, X);
-        if (segment_distance(from, to, X, 2) > l->source->family.cutoff) continue;
+        if (segment_distance_from_point(from, to, X, 2) > l->source->family.cutoff) continue;
         p->flag[i] |= FLAG_LOST_BOND;
         marked++;
     }
@@ -138,7 +138,7 @@ static status tips_turn_all(struct run *e)
             if (!l->tip[k].ended)
                 sif_tip_choose_direction(l, &e->part, closed, &l->tip[k]),
                     marked += segment_convert(l, &e->part, &l->tip[k]);
-        if (marked > 0) TRY(equilibrium_convert_points(e, 0));
+        if (marked > 0) TRY(equilibrium_convert_points_and_solve_again(e, 0));
     }
     return OK;
 }
@@ -151,8 +151,8 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     const real before = statics_energy_released(e->statics, &e->bonds);
     bonds_break_listed(e, l);
     const status tried = equilibrium_find_at_time(e, e->statics->t);
-    a->release =
-        (statics_energy_released(e->statics, &e->bonds) - before) / square(statics_load_size(e, e->statics->t));
+    a->release = (statics_energy_released(e->statics, &e->bonds) - before) /
+                 square(statics_norm_of_prescribed_loads(e, e->statics->t));
     return tried;
 }
 
@@ -166,12 +166,12 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     struct break_list list = {0};
     struct crack_increment second = {0};
     status tried = OK;
-    sif_tip_next_position(&e->statics->sif, &e->part, tip, beyond.position);
+    sif_tip_compute_end_of_next_increment(&e->statics->sif, &e->part, tip, beyond.position);
     second.cost = segment_bonds(&e->statics->sif, &e->bonds, &e->part, &beyond, &list);
     if (list.n > 0) {
         tried = list_break_try(e, &list, &second);
         bonds_restore_broken(e->statics, &e->bonds, &e->part, &list);
-        tip->behind = increment_extrapolate_previous(&tip->ahead, &second);
+        tip->behind = increment_extrapolate_before_first(&tip->ahead, &second);
     }
     memory_free(list.bond);
     return tried;
@@ -219,7 +219,7 @@ static void increment_choose(struct statics *s, struct break_list *list)
         s->ahead.cost += tip->ahead.cost, s->ahead.release += tip->ahead.release;
         s->behind.cost += tip->behind.cost, s->behind.release += tip->behind.release;
     }
-    s->due = increments_energy_balance_load(&s->ahead, &s->behind);
+    s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
 }
 
 /* If several tips are selected for the next crack increment, recomputes its energy release s->ahead.release by a trial
@@ -242,7 +242,7 @@ static status increment_try_together(struct run *e)
     trial_equilibrium_undo(e, &saved, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
-    if (grown) s->due = increments_energy_balance_load(&s->ahead, &s->behind);
+    if (grown) s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
     return tried;
 }
 
@@ -258,7 +258,7 @@ static status tip_try(struct run *e, struct sif_crack_tip *tip, struct break_lis
     tip->ended = list->n == 0;
     if (tip->ended) return OK;
     TRY(segment_try(e, tip, list));
-    tip->due = increments_energy_balance_load(&tip->ahead, &tip->behind);
+    tip->due = increments_joint_energy_balance_load_size(&tip->ahead, &tip->behind);
     return OK;
 }
 
@@ -267,7 +267,7 @@ status sif_increment_find(struct run *e)
     struct statics *s = e->statics;
     struct break_list list[SIF_TIPS_MAX] = {{0}};
     status tried = OK;
-    const real size = statics_load_size(e, s->t);
+    const real size = statics_norm_of_prescribed_loads(e, s->t);
     if (s->stretch_ratio < STRESSED || (s->next.n > 0 && (size >= s->due || size < AGAIN * s->sif.tried))) return OK;
     s->sif.tried = size;
     TRY(tips_turn_all(e));
@@ -279,12 +279,12 @@ status sif_increment_find(struct run *e)
     return tried;
 }
 
-void sif_tips_advance(struct sif_cracks *l, const struct particles *p)
+void sif_tips_move_selected(struct sif_cracks *cracks, const struct particles *p)
 {
-    for (int k = 0; k < l->n; k++) {
-        struct sif_crack_tip *tip = &l->tip[k];
+    for (int k = 0; k < cracks->n; k++) {
+        struct sif_crack_tip *tip = &cracks->tip[k];
         tip->behind = tip->selected ? tip->ahead : (struct crack_increment){0};
-        if (tip->selected) sif_tip_move(l, p, k);
+        if (tip->selected) sif_tip_move_to_end_of_increment(cracks, p, k);
         tip->selected = false;
     }
 }

@@ -48,15 +48,16 @@ static void axes_make(struct sif_plane *plane)
     vector_product(f, plane->axis[0], plane->axis[1]);
 }
 
-void sif_plane_project(const struct sif_plane *plane, const real *X, real projection[2])
+void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2])
 {
-    for (int a = 0; a < 2; a++) projection[a] = dot(plane->axis[a], X, plane->dim);
+    for (int a = 0; a < 2; a++) projection[a] = dot(plane->axis[a], point, plane->dim);
 }
 
-void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real projection[2])
+void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
+                                real projection[2])
 {
     real X[DIM_MAX] = {0};
-    particle_reference_position(p, i, X);
+    particle_reference_position(p, particle, X);
     sif_plane_project(plane, X, projection);
 }
 
@@ -107,16 +108,17 @@ static const char *mirrors_find(struct sif_plane *plane)
 /* Intersects pre-crack c, a polygon, with the plane in which crack tips move, and stores the ends of the common segment
  * in segment_end[0] and segment_end[1] [m]. Their order is such that the normal of the segment points to the same side
  * as the normal of the polygon. Returns false if the pre-crack is not parallel to the crack fronts. */
-bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *c, real segment_end[2][DIM_MAX])
+bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
+                               real segment_end[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
-    if (plane->dim == 2) return memcpy(segment_end, c->corner, 2 * sizeof *segment_end), true;
-    crack_area_vector(c, area);
+    if (plane->dim == 2) return memcpy(segment_end, precrack->corner, 2 * sizeof *segment_end), true;
+    crack_area_vector(precrack, area);
     sif_plane_project(plane, area, across);
     const real size = hypot(across[0], across[1]), along[2] = {across[1] / size, -across[0] / size};
-    for (int k = 0; k < c->n; k++) {
+    for (int k = 0; k < precrack->n; k++) {
         real P[2];
-        sif_plane_project(plane, c->corner[k], P);
+        sif_plane_project(plane, precrack->corner[k], P);
         const real s = dot(along, P, 2);
         for (int d = 0; d < 2 && s < least; d++) segment_end[0][d] = P[d];
         for (int d = 0; d < 2 && s > most; d++) segment_end[1][d] = P[d];
@@ -162,8 +164,8 @@ static const char *fronts_check(const struct crack_tips *t, const struct particl
     return NULL;
 }
 
-const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, const struct crack_list *cracks,
-                           const struct particles *p)
+const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
+                                            const struct crack_list *precracks, const struct particles *p)
 {
     const char *fault = NULL;
     if (plane->dim == 2) {
@@ -171,10 +173,10 @@ const char *sif_plane_find(struct sif_plane *plane, const struct crack_tips *t, 
         return mirrors_find(plane);
     }
     if (plane->dim != 3) return "a line has no crack tips";
-    fault = front_find(t, plane);
-    if (!fault) axes_make(plane), front_middle(t, plane), fault = mirrors_find(plane);
-    if (!fault) fault = cracks_check(cracks, plane);
-    return fault ? fault : fronts_check(t, p, plane);
+    fault = front_find(tips, plane);
+    if (!fault) axes_make(plane), front_middle(tips, plane), fault = mirrors_find(plane);
+    if (!fault) fault = cracks_check(precracks, plane);
+    return fault ? fault : fronts_check(tips, p, plane);
 }
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
@@ -220,7 +222,7 @@ real sif_plane_body_width_along_front(const struct sif_plane *plane, const struc
         const real position[DIM_MAX] = {p->X[0][i], p->X[1][i], p->X[2][i]};
         real X[2];
         sif_plane_project(plane, position, X);
-        if (segment_distance(a, b, X, 2) > cbrt(p->volume0[i])) continue;
+        if (segment_distance_from_point(a, b, X, 2) > cbrt(p->volume0[i])) continue;
         const real share = share_beside_mirrors(plane, p, i);
         for (int k = 0; k < SAMPLES; k++) {
             const real at = (k + 0.5) / SAMPLES, P[2] = {a[0] + at * (b[0] - a[0]), a[1] + at * (b[1] - a[1])};

@@ -47,7 +47,7 @@ static bool tip_off_row(const struct sif_plane *plane, const struct particles *p
         next = aside < ON_ROW * h ? next : real_min(next, aside);
     }
     const real below = (tip->reversed ? 0.5 : -0.5) * next;
-    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_is_along_mirror(plane, tip)) return false;
+    if (on < ROW_LEAST || next < ROWS_APART * h || sif_tip_segment_is_on_mirror(plane, tip)) return false;
     tip->position[0] -= below * along[1], tip->position[1] += below * along[0];
     memcpy(tip->start, tip->position, sizeof tip->start);
     return true;
@@ -91,10 +91,10 @@ const char *sif_growth_why_impossible(const struct run *e, struct sif_plane *pla
                                 .body_mirror = e->source.mirror};
     if (s->steps.path == PATH_BONDS) return "steps.path is bonds";
     if (s->steps.path == PATH_AUTO && !one) return "there are several bodies or materials";
-    return sif_plane_find(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
+    return sif_plane_find_or_return_reason(plane, &e->fracture->tips, &e->tables.cracks, &e->part);
 }
 
-status sif_growth_check(const struct run *e)
+status sif_growth_check_scene_allows_it(const struct run *e)
 {
     if (!scene_has_load_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
     const char *fault = sif_growth_why_impossible(e, NULL);
@@ -105,7 +105,7 @@ status sif_growth_check(const struct run *e)
                  : OK;
 }
 
-bool sif_cracks_initialise(struct run *e)
+bool sif_cracks_initialise_and_can_grow(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
     l->scene = e->scene, l->source = &e->source;

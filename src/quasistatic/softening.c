@@ -14,7 +14,7 @@ enum { BISECTIONS_MOST = 100 };
 #define FOR_SOFTENING_BONDS(b, row, it)                                                                                \
     for (int64_t row = 0; row < (b)->rows; row++)                                                                      \
         for (struct bond_iterator it = bond_iterator_of_row(b, row);                                                   \
-             row_block_has_softening(b, row / LANES) && bond_next(&it);)                                               \
+             bond_row_block_has_begun_softening(b, row / LANES) && bond_next(&it);)                                    \
             if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
@@ -31,10 +31,11 @@ static void softening_list_add(struct softening_list *l, const struct bonds *b, 
                                 soft.onset,  soft.end,         0.5 * b->stiffness * bond->w / bond->inverse_length};
 }
 
-void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor)
+void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
+                         real stretch_divisor)
 {
     l->n = 0, l->curve = b->soft.curve;
-    FOR_SOFTENING_BONDS(b, row, it) softening_list_add(l, b, p, row, &it.bond, factor);
+    FOR_SOFTENING_BONDS(b, row, it) softening_list_add(l, b, p, row, &it.bond, stretch_divisor);
 }
 
 /* Returns the energy that a bond has dissipated once its largest stretch is k [J]. */
@@ -43,12 +44,12 @@ static real spent_at(const struct softening_list *l, const struct softening_bond
     return bond->energy * softening_normalised_dissipated_energy(l->curve, bond->onset, bond->end, k);
 }
 
-real softening_list_dissipated_energy(const struct softening_list *l, real factor)
+real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor)
 {
     real sum = 0;
     for (int64_t k = 0; k < l->n; k++) {
         const struct softening_bond *bond = &l->bond[k];
-        const real stretch = factor * bond->stretch;
+        const real stretch = stretch_factor * bond->stretch;
         if (stretch > bond->settled) sum += spent_at(l, bond, stretch) - spent_at(l, bond, bond->settled);
     }
     return sum;
@@ -78,11 +79,11 @@ real softening_list_factor_for_energy(const struct softening_list *l, real energ
     return max_factor;
 }
 
-void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real factor)
+void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor)
 {
     for (int64_t k = 0; k < l->n; k++) {
         const struct softening_bond *bond = &l->bond[k];
-        b->soft.most[bond->entry] = (float)real_max(bond->settled, factor * bond->stretch);
+        b->soft.most[bond->entry] = (float)real_max(bond->settled, stretch_factor * bond->stretch);
     }
 }
 

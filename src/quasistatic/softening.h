@@ -21,21 +21,22 @@ struct softening_list {
 };
 
 /* Lists in l the intact bonds that soften, in the order of rows, with their stretches at the present displacements
- * divided by `factor` [1]. Replaces the former contents of *l; free l->bond with memory_free. */
-void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p, real factor);
+ * divided by `stretch_divisor` [1]. Replaces the former contents of *l; free l->bond with memory_free. */
+void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
+                         real stretch_divisor);
 
 /* Returns the energy that the bonds of the list would have dissipated since the last equilibrium if their stretches
- * were `factor` times those stored in the list [J]. */
-real softening_list_dissipated_energy(const struct softening_list *l, real factor);
+ * were `stretch_factor` times those stored in the list [J]. */
+real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor);
 
 /* Returns the smallest factor on the stretches of the list, between 0 and `max_factor`, at which the bonds have
  * dissipated the energy `energy` since the last equilibrium [J] (softening_list_dissipated_energy). At the factor
  * `max_factor` they must have dissipated at least `energy`. */
 real softening_list_factor_for_energy(const struct softening_list *l, real energy, real max_factor);
 
-/* Sets the largest stretch of each bond of the list to that of the last equilibrium or, if larger, to `factor` times
- * the stretch stored in the list. */
-void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real factor);
+/* Sets the largest stretch of each bond of the list to that of the last equilibrium or, if larger, to `stretch_factor`
+ * times the stretch stored in the list. */
+void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
 
 /* Stores the present largest stretches of bonds as those of the last equilibrium, from which later solutions start.
  * Bonds that have not exceeded their onset of softening are marked as not begun again, so that the stress across them

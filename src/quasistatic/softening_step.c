@@ -100,7 +100,7 @@ static status search_run(struct run *e, struct search *f)
     const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance);
     status found = OK;
     for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
-        const real size = statics_load_size(e, s->t), last = statics_load_size(e, f->end);
+        const real size = statics_norm_of_prescribed_loads(e, s->t), last = statics_norm_of_prescribed_loads(e, f->end);
         real *applied[DIM_MAX] = {0},
              t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
         f->residual = 1;
@@ -112,7 +112,7 @@ static status search_run(struct run *e, struct search *f)
         }
         applied_forces_copy(applied, s, &e->part);
         s->balance.tolerance = real_max(tolerance, real_min(SOLVED_LEAST, SOLVED_TO * f->residual));
-        found = equilibrium_solve(e, t, applied);
+        found = equilibrium_solve_without_work_account(e, t, applied);
         s->balance.tolerance = tolerance, s->balance.lost = lost;
         for (int d = 0; d < e->part.dim; d++) memory_free(applied[d]);
     }
@@ -148,7 +148,7 @@ static status step_try(struct run *e, real t, real spent)
         return found;
     }
     memory_archive_free(&saved);
-    work_account_end(&account, s, &e->part, &e->loads, 0);
+    work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
                       e->kernels.bond_energy(&e->bonds, &e->part) - bonds_fracture_energy(&e->bonds);
     if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
@@ -156,44 +156,44 @@ static status step_try(struct run *e, real t, real spent)
     return OK;
 }
 
-real softening_least_toughness(const struct scene *s, const struct bond_source *source)
+real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source)
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++)
         if (material_has_softening_bonds(&s->material[m]))
-            least = real_min(least, toughness_of_material(&source->family, s->model, &s->material[m]));
+            least = real_min(least, toughness_of_material(&bond_source->family, s->model, &s->material[m]));
     return least;
 }
 
 /* Makes one load step of a body whose bonds soften. Under energy control, bonds dissipate a given energy in each step.
  * If no equilibrium is found, the search is repeated with a half, a quarter .. of this energy. The first step under
  * energy control dissipates the share FIRST_SHARE of it only: on a coarse lattice loads may be largest where bonds
- * begin to soften, and the work over a step is computed from both its ends. t: pseudo-time at the end of the step under
- * other controls [s]. */
-status softening_step(struct run *e, real t)
+ * begin to soften, and the work over a step is computed from both its ends. pseudo_time: pseudo-time at the end of the
+ * step under other controls [s]. */
+status softening_make_load_step(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;
     const real toughness = softening_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
     const real before = bonds_fracture_energy(&e->bonds);
     const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
-    if (by_energy) t = e->scene->duration;
+    if (by_energy) pseudo_time = e->scene->duration;
     real spent = !by_energy  ? INFINITY
                  : given > 0 ? given
                              : STEP_SPACINGS * toughness * crack_area_of_growth_by_one_spacing(e);
     if (before == 0) spent *= FIRST_SHARE;
     softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
-    status tried = step_try(e, t, spent);
+    status tried = step_try(e, pseudo_time, spent);
     for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
-        tried = step_try(e, t, 0.5 * spent);
+        tried = step_try(e, pseudo_time, 0.5 * spent);
     TRY(tried);
     const int64_t ended = bonds_end_softened(&e->bonds, &e->part);
     s->record.broken += (bonds_fracture_energy(&e->bonds) - before) / toughness;
     s->precondition_stale = true, s->fragments_stale |= ended > 0;
-    reactions_store(s, &e->part, &e->loads);
+    reactions_compute_and_store(s, &e->part, &e->loads);
     s->solutions++;
     s->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
-    const real size = statics_load_size(e, s->t);
+    const real size = statics_norm_of_prescribed_loads(e, s->t);
     s->record.load_most = real_max(s->record.load_most, size);
     s->severs = by_energy && size < THROUGH * s->record.load_most;
-    return equilibrium_convert_points(e, ended);
+    return equilibrium_convert_points_and_solve_again(e, ended);
 }

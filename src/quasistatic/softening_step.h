@@ -8,9 +8,9 @@
  * `steps.energy` in the step, and the size of the loads follows from it; with the control `load`, the pseudo-time
  * becomes t [s]. Breaks the bonds that have no stiffness left. Returns FAILED if no equilibrium is found, INTERRUPTED
  * if the run is to stop. */
-status softening_step(struct run *e, real t);
+status softening_make_load_step(struct run *e, real pseudo_time);
 
 /* Returns the smallest crack energy per area of the materials whose bonds soften [J/m^2], INFINITY without any. */
-real softening_least_toughness(const struct scene *s, const struct bond_source *source);
+real softening_least_toughness(const struct scene *s, const struct bond_source *bond_source);
 
 #endif

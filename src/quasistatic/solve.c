@@ -34,10 +34,10 @@ status engine_static_solver_make(struct run *e)
                                ? 1
                                : grid_relaxation_ramp_time(particles_bounding_box_longest_edge(&e->part) + s->spacing,
                                                            e->tables.wave_speed, e->clock.dt);
-    static_boundaries_make(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
+    static_boundaries_make_from_dynamic(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(static_solver_make(e->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
-        static_solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
+        static_solver_make_iteration_vectors(e->solver, &body, s->solver == SOLVER_CG);
     else
         for (int b = 0; b < e->loads.n; b++) /* the time steps on the grid add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
@@ -106,7 +106,7 @@ static void solver_finish(struct run *e)
     e->clock.steps = e->clock.step;
     e->report->sampling.due = false;
     e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
-    sample_update_probes(e);
+    sample_update_probes_of_every_step(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
     warn_past_limit(&e->warnings, e->solver->past_limit);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
@@ -140,7 +140,7 @@ static status solve_step(struct run *e, bool *done)
     const struct static_body body = static_body_of(e);
     if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
     TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
-    timer_add_elapsed(&e->timers, TIMER_BONDS);
+    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
     e->clock.step++;
     return OK;
 }
@@ -151,9 +151,9 @@ static void solve_start(struct static_solver *s, const struct particles *p)
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
 
-status engine_solve_static(struct run *e)
+status engine_solve_single_equilibrium(struct run *e)
 {
-    TRY(report_start(e));
+    TRY(report_start_before_first_step(e));
     timers_start(&e->timers);
     if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_take_in_equilibrium(e);
     if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
@@ -164,7 +164,7 @@ status engine_solve_static(struct run *e)
             solver_finish(e);
         else if (e->clock.step >= e->clock.steps || isnan(e->solver->residual))
             return not_converged(e->solver, e->scene->solver_tolerance, e->clock.step);
-        TRY(report_step(e));
+        TRY(report_finished_step(e));
     }
-    return report_end(e);
+    return report_finish_after_last_step(e);
 }

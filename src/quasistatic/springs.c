@@ -69,7 +69,7 @@ static struct movers movers_list(const struct springs *s, int64_t i)
  * receives -1 if component d of an image moves opposite to that of the particle that it mirrors, else 1. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
-    image_displacement_signs(&s->e->part, &s->e->loads, i, sign);
+    image_compute_displacement_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_source_particle(&s->e->part, s->e->loads.image, i));
 }
 
@@ -165,8 +165,8 @@ static void springs_visit(struct springs *s)
     for (int64_t r = 0; r < b->rows; r++)
         if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
     for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
-        if (mesh_cell_has_body(mesh, I)) cell_add(s, I);
-    contact_visit_springs(s->e->contact, &s->e->part, contact_add_spring, s);
+        if (mesh_cell_contains_material(mesh, I)) cell_add(s, I);
+    contact_visit_selected_as_springs(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
 /* Sorts the entries first .. end - 1 of a row by column and adds up entries of one column. Returns the number of
@@ -296,7 +296,7 @@ void statics_preconditioner_make(struct run *e)
     for (int d = 0; d < e->part.dim; d++) place[d] = BARE("springs.place", s->balance.n, real);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX];
-        unknown_position(s, &e->part, &e->frame->mesh, k, X);
+        unknown_compute_reference_position(s, &e->part, &e->frame->mesh, k, X);
         for (int d = 0; d < e->part.dim; d++) place[d][k] = X[d];
     }
     multigrid_make(&s->precondition, s->matrix, place, s->balance.held);
@@ -304,21 +304,21 @@ void statics_preconditioner_make(struct run *e)
     s->directions = 0, s->precondition_stale = false;
 }
 
-void statics_preconditioner_apply(void *engine, const struct field *residual, struct field *result)
+void statics_preconditioner_apply(void *run, const struct field *residual, struct field *result)
 {
-    struct run *e = engine;
+    struct run *e = run;
     if (!e->statics->precondition) statics_preconditioner_make(e);
-    multigrid_apply(e->statics->precondition, residual->of, result->of);
+    multigrid_apply_v_cycle(e->statics->precondition, residual->of, result->of);
     field_remove_free_rigid_motion(e->statics, result);
 }
 
 /* Frees the preconditioner if the last solution needed far more search directions than the first one with it: more than
- * 1.5 times as many plus 8. directions: number of directions of the last solution. */
-void statics_preconditioner_free_if_costly(struct statics *s, int64_t directions)
+ * 1.5 times as many plus 8. search_directions: number of directions of the last solution. */
+void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions)
 {
     if (!s->precondition) return;
     if (s->directions == 0)
-        s->directions = directions;
-    else if (2 * directions > 3 * s->directions + 16)
+        s->directions = search_directions;
+    else if (2 * search_directions > 3 * s->directions + 16)
         statics_preconditioner_free(s);
 }

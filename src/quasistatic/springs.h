@@ -6,18 +6,18 @@
 #include "run/run.h"
 
 /* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
- * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. engine: a struct
+ * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. run: a struct
  * run; residual: residual forces [N]; result: result. */
-void statics_preconditioner_apply(void *engine, const struct field *residual, struct field *result);
+void statics_preconditioner_apply(void *run, const struct field *residual, struct field *result);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
  * e->statics. */
 void statics_preconditioner_make(struct run *e);
 
-/* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. directions: number of
- * search directions of the last solution. The limit is 1.5 times that of the first solution with the preconditioner,
- * plus 8 (empirical). */
-void statics_preconditioner_free_if_costly(struct statics *s, int64_t directions);
+/* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. search_directions:
+ * number of search directions of the last solution. The limit is 1.5 times that of the first solution with the
+ * preconditioner, plus 8 (empirical). */
+void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions);
 
 /* Frees the preconditioner. Does nothing if there is none. */
 void statics_preconditioner_free(struct statics *s);

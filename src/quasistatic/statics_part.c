@@ -28,10 +28,11 @@ static void warn_of_yielding_bonds(const struct scene *s, const struct family *f
         const real dissipated = toughness_of_material(family, s->model, own),
                    elastic = family_crack_energy_per_area(family, own);
         if (dissipated < (1 - ROUNDING) * elastic)
-            warnings_add(to,
-                         "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
-                         "bonds of the same critical stretch would dissipate %.3g J/m^2",
-                         own->name, dissipated, elastic);
+            warnings_add_if_new(
+                to,
+                "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
+                "bonds of the same critical stretch would dissipate %.3g J/m^2",
+                own->name, dissipated, elastic);
     }
 }
 
@@ -44,7 +45,7 @@ static void warn_of_large_steps(const struct scene *s, real of_spacing, struct w
     const real given = s->steps.energy, spacings = given / of_spacing;
     if (s->steps.control != CONTROL_ENERGY || !(given > 0)) return;
     if (spacings <= ALIKE * STEP_SPACINGS_MOST) return;
-    warnings_add(
+    warnings_add_if_new(
         to,
         "steps.energy: one load step dissipates as much energy as a crack that grows by %.3g spacings, so that "
         "the largest load may be off by %s; at most %.3g J keeps the error within 4 %%, as the default does",
@@ -66,19 +67,21 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     if (!scene_is_single_equilibrium(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
-            warnings_add(to, "a static equilibrium has no velocities: the velocities of `initial` are ignored");
+            warnings_add_if_new(to, "a static equilibrium has no velocities: the velocities of `initial` are ignored");
     for (int b = 0; b < s->bodies; b++)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
-            warnings_add(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
-                         s->body[b].name);
+            warnings_add_if_new(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
+                                s->body[b].name);
     if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_silences_warning(s, ACCEPT_CONTACT))
-        warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
-                         "where they close; if they do not close: accept: [contact]");
+        warnings_add_if_new(
+            to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
+                "where they close; if they do not close: accept: [contact]");
     if (e->solver->applied == 0 && field_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
-        warnings_add(to,
-                     "nothing loads the body at t = %.4g s, the end of the duration, whose loads this solver applies "
-                     "(a load with time: {step: ...} that ends earlier is zero then)",
-                     s->duration);
+        warnings_add_if_new(
+            to,
+            "nothing loads the body at t = %.4g s, the end of the duration, whose loads this solver applies "
+            "(a load with time: {step: ...} that ends earlier is zero then)",
+            s->duration);
 }
 
 /* Writes the results of load steps to the summary j: control, steps, equilibria, energy released. It is the callback
@@ -107,7 +110,7 @@ static void put_load_steps(const struct run *e, struct json *j)
 const struct part part_statics = {PART(statics, statics),
                                   .free = statics_free_all,
                                   .columns = statics_list_history_columns,
-                                  .record = statics_write_history_values,
+                                  .record = statics_compute_history_values,
                                   .summary = put_load_steps,
                                   .state = statics_save_or_load,
                                   .warn = warn_of_solver};

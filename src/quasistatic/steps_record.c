@@ -96,7 +96,7 @@ static void measure(struct run *e)
     const bool solid = e->part.dim == 3 && path.own == 0;
     const struct crack_area bonds = {r->broken / crack_energy_share_by_symmetry(&e->fracture->tips, &e->source, -1),
                                      r->broken},
-                            damaged = solid ? bonds : tips_crack_area(&e->fracture->tips, &e->part, &around);
+                            damaged = solid ? bonds : tips_total_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path.own > 0 && damaged.own <= path.own + 1.5 * spacing;
     const real area = by_path ? path.own : damaged.own, growth = by_path || solid ? 0 : GROWTH * spacing;
     r->released = statics_energy_released(s, &e->bonds);
@@ -108,7 +108,7 @@ static void measure(struct run *e)
     r->mark[1] = (struct release_mark){area, r->released};
 }
 
-void statics_write_history_values(struct run *e, real *record)
+void statics_compute_history_values(struct run *e, real *record)
 {
     const struct statics *s = e->statics;
     real place[DIM_MAX];
@@ -124,12 +124,13 @@ void statics_write_history_values(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    sif_leading_tip_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact), record + COUNT_OF(own));
-    sif_leading_tip_position(&s->sif, place);
+    sif_leading_tip_compute_intensity_factors(&s->sif, &e->part, crack_faces_are_in_contact(e->contact),
+                                              record + COUNT_OF(own));
+    sif_leading_tip_compute_position(&s->sif, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
-void statics_record_reset(struct statics *s)
+void statics_reset_history_counts(struct statics *s)
 {
     s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
 }

@@ -12,10 +12,10 @@ int statics_list_history_columns(const struct run *e, struct column *column);
 
 /* Computes the values of the columns that load steps add to history.csv and stores them in record[], in the order of
  * statics_list_history_columns. Call it after a load step. */
-void statics_write_history_values(struct run *e, real *record);
+void statics_compute_history_values(struct run *e, real *record);
 
 /* Stores the present numbers of search directions and equilibria of the solver. The next call of
- * statics_write_history_values reports the numbers since then. */
-void statics_record_reset(struct statics *s);
+ * statics_compute_history_values reports the numbers since then. */
+void statics_reset_history_counts(struct statics *s);
 
 #endif

@@ -168,14 +168,16 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
 }
 
 /* Breaks the bonds with the largest ratios of stretch to critical stretch, and appends them to the list of the next
- * crack increment: those whose ratio is within the fraction `tolerance` of the largest one, at most about max_pairs
- * pairs. Adds their energy at the critical stretch to *cost [J] and their crack area to *area [m^2]. Returns the number
- * of directed bonds broken. State-based bonds have no energy of their own: the energy that is lost as they break is
- * divided among them, after division by the mean square of their ratios, as in a linear body. */
-int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area)
+ * crack increment: those whose ratio is within the fraction `ratio_tolerance` of the largest one, at most about
+ * max_pairs pairs. Adds their energy at the critical stretch to *added_energy [J] and their crack area to
+ * *added_crack_area [m^2]. Returns the number of directed bonds broken. State-based bonds have no energy of their own:
+ * the energy that is lost as they break is divided among them, after division by the mean square of their ratios, as in
+ * a linear body. */
+int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
+                                  real *added_crack_area)
 {
     struct break_list *l = &e->statics->next;
-    const real least = e->statics->stretch_ratio * (1 - real_max(tolerance, ALIKE)),
+    const real least = e->statics->stretch_ratio * (1 - real_max(ratio_tolerance, ALIKE)),
                before = bonds_fracture_energy(&e->bonds);
     const real weakest = critical_stretch_least(&e->source.limit, &e->part);
     struct overstretched o = {0};
@@ -190,8 +192,8 @@ int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pai
     const real held = (bonds_fracture_energy(&e->bonds) - before) / square_mean;
     for (int64_t k = had; k < l->n && e->scene->model != MODEL_BOND; k++) l->bond[k].held = held / (real)(l->n - had);
     for (int64_t k = had; k < l->n; k++) {
-        *cost += l->bond[k].held;
-        *area +=
+        *added_energy += l->bond[k].held;
+        *added_crack_area +=
             l->bond[k].held / toughness_between_particles(e->scene, &e->source, &e->part, l->bond[k].i, l->bond[k].j);
     }
     memory_free(o.ratio);

@@ -10,11 +10,12 @@
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
- * largest one by at most the fraction `tolerance` [1]. No more than `max_pairs` pairs of particles are separated, plus
- * pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the next crack
- * increment (statics.next). Adds their energy at the critical stretch to *cost [J], and the crack area that corresponds
- * to it to *area [m^2]. Returns the number of directed bonds broken. */
-int64_t bonds_break_overstretched(struct run *e, real tolerance, int64_t max_pairs, real *cost, real *area);
+ * largest one by at most the fraction `ratio_tolerance` [1]. No more than `max_pairs` pairs of particles are separated,
+ * plus pairs whose ratio equals that of the last one up to round-off. Appends the bonds to the list of the next crack
+ * increment (statics.next). Adds their energy at the critical stretch to *added_energy [J], and the crack area that
+ * corresponds to it to *added_crack_area [m^2]. Returns the number of directed bonds broken. */
+int64_t bonds_break_overstretched(struct run *e, real ratio_tolerance, int64_t max_pairs, real *added_energy,
+                                  real *added_crack_area);
 
 /* Breaks the bonds of the list l. What a bond stores beyond its energy at the critical stretch (member `held` of its
  * record) is not fracture energy; it is added to the energy lost by the solver and by the run. */

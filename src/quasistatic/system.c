@@ -33,7 +33,7 @@ void plastic_state_save(struct memory_archive *m, struct bonds *b, struct partic
 void plastic_state_restore(struct memory_archive *m, struct bonds *b, struct particles *p, int optional_arrays)
 {
     if (m->n == 0) return;
-    memory_archive_rewind(m);
+    memory_archive_rewind_for_loading(m);
     const status restored = plastic_state_save_or_load(b, p, optional_arrays, &m->archive);
     INVARIANT(restored == OK);
 }
@@ -63,9 +63,9 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) reference_frame_update_exposed_points(e->frame, &e->part);
+    if (has_mesh) reference_frame_move_bonded_or_loaded_points(e->frame, &e->part);
     loads_update_mirror_images(&e->loads, &e->part);
-    loads_clear_forces(&e->loads, &e->part);
+    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     plastic_state_restore(&e->statics->plastic, &e->bonds, &e->part,
                           e->optional); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
@@ -91,7 +91,7 @@ static void statics_forces(void *context, const struct field *u, struct field *f
     field_remove_free_rigid_motion(s, f);
 }
 
-void plastic_state_update(struct run *e)
+void plastic_state_update_at_last_solution(struct run *e)
 {
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     if (e->statics->plastic.n > 0) forces_present(e);
@@ -113,8 +113,8 @@ void statics_unknowns_make(struct run *e)
     const struct newton_solver kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct newton_solver){.force = statics_forces,
                                         .precondition = statics_preconditioner_apply,
-                                        .settle = statics_contact_update_active_set,
-                                        .laws = statics_contact_select_acting,
+                                        .settle = statics_contact_update_and_is_set_unchanged,
+                                        .laws = statics_contact_select_acting_contacts,
                                         .context = e,
                                         .tolerance = e->scene->solver_tolerance,
                                         .length = e->scene->spacing,

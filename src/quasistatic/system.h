@@ -15,7 +15,7 @@ void statics_unknowns_free(struct statics *s);
 
 /* Moves particles and nodes to the displacements of the last solution. If the body can yield, also computes the forces
  * there, which updates the plastic state of bonds and points. */
-void plastic_state_update(struct run *e);
+void plastic_state_update_at_last_solution(struct run *e);
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
  * optional_arrays: which optional arrays the particles have, a set of bits WITH_... Returns FAILED if an entry is

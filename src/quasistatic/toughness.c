@@ -41,8 +41,9 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
     return family_crack_energy_per_area(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
 }
 
-real toughness_between_particles(const struct scene *s, const struct bond_source *source, const struct particles *p,
-                                 int64_t i, int64_t j)
+real toughness_between_particles(const struct scene *s, const struct bond_source *bond_source,
+                                 const struct particles *p, int64_t particle, int64_t other_particle)
 {
-    return toughness_of_pair(s, source, p->material[i], p->material[j]) * square(bond_strength_factor(p, i, j));
+    return toughness_of_pair(s, bond_source, p->material[particle], p->material[other_particle]) *
+           square(bond_strength_factor(p, particle, other_particle));
 }

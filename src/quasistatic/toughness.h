@@ -13,8 +13,8 @@ real toughness_of_material(const struct family *family, enum model model, const 
 /* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
  * materials that of their interface if the scene defines it, else that of the weaker material. Where the strength of
  * bonds scatters, the value is multiplied by the square of the relative strength of the bond i-j. */
-real toughness_between_particles(const struct scene *s, const struct bond_source *source, const struct particles *p,
-                                 int64_t i, int64_t j);
+real toughness_between_particles(const struct scene *s, const struct bond_source *bond_source,
+                                 const struct particles *p, int64_t particle, int64_t other_particle);
 
 /* Returns the work that stretches a bond from zero force by the elastic stretch `elastic_stretch` beyond its plastic
  * stretch, divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch

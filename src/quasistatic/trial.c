@@ -31,17 +31,17 @@ void trial_equilibrium_begin(struct run *e, struct memory_archive *m)
     INVARIANT(saved == OK);
 }
 
-void trial_equilibrium_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
+void trial_equilibrium_undo(struct run *e, struct memory_archive *m, const struct break_list *broken_bonds)
 {
-    if (broken) bonds_restore_broken(e->statics, &e->bonds, &e->part, broken);
-    memory_archive_rewind(m);
+    if (broken_bonds) bonds_restore_broken(e->statics, &e->bonds, &e->part, broken_bonds);
+    memory_archive_rewind_for_loading(m);
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part,
                        e->optional); /* a nested trial may have saved a different one */
     unknowns_apply_displacements(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    reference_frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     loads_update_mirror_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
-    reactions_store(e->statics, &e->part, &e->loads);
+    reactions_compute_and_store(e->statics, &e->part, &e->loads);
 }

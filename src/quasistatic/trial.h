@@ -12,8 +12,8 @@
 void trial_equilibrium_begin(struct run *e, struct memory_archive *saved);
 
 /* Ends a trial equilibrium: restores the equilibrium saved in *saved, the plastic state at trial_equilibrium_begin, and
- * the bonds that the trial has broken, listed in `broken` (NULL: none); frees *saved. The system of equations must have
- * the same unknowns as at trial_equilibrium_begin. */
-void trial_equilibrium_undo(struct run *e, struct memory_archive *saved, const struct break_list *broken);
+ * the bonds that the trial has broken, listed in `broken_bonds` (NULL: none); frees *saved. The system of equations
+ * must have the same unknowns as at trial_equilibrium_begin. */
+void trial_equilibrium_undo(struct run *e, struct memory_archive *saved, const struct break_list *broken_bonds);
 
 #endif

@@ -58,7 +58,7 @@ static void cells_join(const struct search *s)
     const struct mesh *mesh = s->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         int32_t first = -1;
-        if (!mesh_cell_has_body(mesh, I)) continue;
+        if (!mesh_cell_contains_material(mesh, I)) continue;
         for (int c = 0; c < 1 << s->part->dim; c++) {
             const int32_t k = s->node[mesh_cell_corner_node(mesh, I, c)];
             if (k < 0) continue;
@@ -119,7 +119,7 @@ static void unconstrained_search_begin(struct search *s)
     for (int d = 0; d < s->part->dim; d++) s->x.of[d] = BARE("pieces.x", n, real);
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX];
-        unknown_position(s->statics, s->part, s->mesh, k, X);
+        unknown_compute_reference_position(s->statics, s->part, s->mesh, k, X);
         for (int d = 0; d < s->part->dim; d++) s->x.of[d][k] = X[d] + s->statics->balance.u.of[d][k];
         s->parent[k] = (int32_t)k;
     }
@@ -202,7 +202,7 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
     const int64_t j = image_source_particle(p, s->loads->image, image);
     real sign[DIM_MAX], x[DIM_MAX], y[DIM_MAX], u[DIM_MAX], v[DIM_MAX], along[MODES_MOST] = {0}, length2 = 0;
     for (int d = 0; d < dim; d++) x[d] = p->x[d][i], y[d] = p->x[d][j], length2 += square(p->x[d][image] - p->x[d][i]);
-    image_displacement_signs(p, s->loads, image, sign);
+    image_compute_displacement_signs(p, s->loads, image, sign);
     for (int a = 0; a < m; a++) {
         motion_at(c, dim, a, x, u);
         motion_at(c, dim, a, y, v);
@@ -266,7 +266,7 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
         if (fragment_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-        image_displacement_signs(p, s->loads, t->particle[q], sign);
+        image_compute_displacement_signs(p, s->loads, t->particle[q], sign);
         motion_at(&s->candidate[which], p->dim, a, x, u);
         for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
     }
@@ -377,7 +377,7 @@ static void fragment_motions(const struct search *s, struct unconstrained_fragme
         f->node[f->n++] = (int32_t)k;
     }
     motions_orthonormal(f, dim);
-    unknown_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
+    unknown_compute_reference_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
 }
 
 /* Numbers the fragments in the order of their first nodes, s->fragment, and computes their centres and radii. */
@@ -417,7 +417,7 @@ void unconstrained_fragments_find(struct run *e)
     supports_resist(&search);
     images_resist(&search, &e->bonds);
     mirror_nodes_resist(&search);
-    contact_visit_springs(e->contact, &e->part, contact_resists, &search);
+    contact_visit_selected_as_springs(e->contact, &e->part, contact_resists, &search);
     for (int64_t q = 0; q < search.n; q++) s->fragments += motions_free(&search.candidate[q], m, free) > 0;
     s->fragment = NEW("pieces.free", s->fragments, struct unconstrained_fragment);
     s->fragments = 0;

@@ -134,29 +134,30 @@ void unknowns_free(struct statics *s)
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Stores the reference position of unknown k, a particle or a mesh node, in X[] [m]. */
-void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X)
+/* Stores the reference position of unknown k, a particle or a mesh node, in position[] [m]. */
+void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
+                                        int64_t unknown_number, real *position)
 {
-    const int32_t i = s->node[k];
-    if (k < s->particles) {
-        particle_reference_position(p, i, X);
+    const int32_t i = s->node[unknown_number];
+    if (unknown_number < s->particles) {
+        particle_reference_position(p, i, position);
         return;
     }
     const int64_t at = mesh_regular_node_of_doubled_node(mesh, i);
     for (int d = 0; d < p->dim; d++)
-        X[d] = grid_node_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
+        position[d] = grid_node_position(&mesh->grid, d, at / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
-                                  const struct field *u)
+                                  const struct field *displacement)
 {
     for (int d = 0; d < p->dim; d++) {
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < s->balance.n; k++)
             if (k < s->particles)
-                p->x[d][s->node[k]] = p->X[d][s->node[k]] + u->of[d][k];
+                p->x[d][s->node[k]] = p->X[d][s->node[k]] + displacement->of[d][k];
             else
-                mesh->displacement[d][s->node[k]] = u->of[d][k];
+                mesh->displacement[d][s->node[k]] = displacement->of[d][k];
         for (int64_t k = mesh->grid.mirror_nodes - 1; mesh->points > 0 && k >= 0; k--) {
             const struct mirror_node *m = &mesh->grid.mirror_node[k];
             mesh->displacement[d][m->node] = m->sign[d] * mesh->displacement[d][m->image];
@@ -164,11 +165,12 @@ void unknowns_apply_displacements(const struct statics *s, struct particles *p, 
     }
 }
 
-void image_displacement_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX])
+void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
+                                      real sign[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) sign[d] = 1;
-    for (; i >= p->n; i = loads->image[i - p->n].source) {
-        const struct boundary *b = loads->load[loads->image[i - p->n].load].boundary;
+    for (; image >= p->n; image = loads->image[image - p->n].source) {
+        const struct boundary *b = loads->load[loads->image[image - p->n].load].boundary;
         for (int d = 0; d < p->dim; d++)
             if (d == b->axis || b->hold_tangential) sign[d] = -sign[d];
     }
@@ -178,7 +180,7 @@ void image_displacement_signs(const struct particles *p, const struct loads *loa
 
 /* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
  * the body [N]. Allocates these arrays on the first call. */
-void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t)
+void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time)
 {
     for (int d = 0; d < p->dim; d++) {
         if (!s->applied[d]) s->applied[d] = NEW("statics.applied", p->n, real);
@@ -188,7 +190,7 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
         const struct load *l = &loads->load[b];
         for (int64_t k = 0; boundary_applies_force(l->boundary) && k < l->n; k++) {
             real force[DIM_MAX];
-            load_force_on_particle(l, p, k, t, force);
+            load_force_on_particle(l, p, k, pseudo_time, force);
             for (int d = 0; d < p->dim; d++) s->applied[d][l->particle[k]] += force[d];
         }
     }
@@ -222,7 +224,7 @@ real applied_forces_norm(const struct statics *s, const struct particles *p, con
     return hypot(sqrt(sum), contact_rigid_force_norm(c, p));
 }
 
-void reactions_store(const struct statics *s, const struct particles *p, struct loads *loads)
+void reactions_compute_and_store(const struct statics *s, const struct particles *p, struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
         struct load *l = &loads->load[b];

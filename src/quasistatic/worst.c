@@ -41,8 +41,8 @@ static void products(const struct run *e, real t, real u, real *product)
     }
     for (int k = 0; k < e->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_prescribed_displacement(&e->rigid->body[k], t, x);
-        rigid_prescribed_displacement(&e->rigid->body[k], u, y);
+        rigid_compute_prescribed_displacement(&e->rigid->body[k], t, x);
+        rigid_compute_prescribed_displacement(&e->rigid->body[k], u, y);
         product[DISPLACEMENTS] += dot(x, y, dim);
     }
 }
@@ -119,7 +119,7 @@ static void worst_times_find(const struct run *e, struct worst *worst, struct fo
     memory_free(t);
 }
 
-status engine_find_trial_equilibrium(struct run *e, real t)
+status engine_find_equilibrium_for_cost_estimate(struct run *e, real t)
 {
     statics_unknowns_make(e);
     TRY(equilibrium_find_at_time(e, t));

@@ -94,14 +94,14 @@ static void frame_scan(struct film *f, struct film_frame *shown, const struct ou
     for (int d = 0; d < f->dim; d++)
         for (int64_t i = 0; i < frame->n; i++)
             if (isfinite(frame->u[d][i])) f->reach[d] = fmax(f->reach[d], fabs((double)frame->u[d][i]));
-    film_fields_scan(f, frame, path);
+    film_update_field_ranges_from_frame(f, frame, path);
 }
 
 /* Returns the k-th of at most `most` numbers that are evenly spread over 0..n-1, with 0 and n-1 included. If n <= most,
  * returns k. */
 static int spread(int k, int n, int most) { return n <= most ? k : (int)lround((double)k * (n - 1) / (most - 1)); }
 
-status film_read(struct film *f, const char *folder, const struct scene *scene)
+status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene)
 {
     struct listed_frame *list = NULL;
     *f = (struct film){.folder = folder, .scene = scene, .every = 1};
@@ -114,12 +114,12 @@ status film_read(struct film *f, const char *folder, const struct scene *scene)
         f->frame[k].listed = list[spread(k, f->listed, f->frames)];
         s = run_read_frame(&frame, folder, f->frame[k].listed.number);
         if (s != OK) break;
-        if (k == 0) f->dim = frame.dim, f->spacing = frame_spacing(&frame), film_fields_list(f);
+        if (k == 0) f->dim = frame.dim, f->spacing = frame_particle_spacing(&frame), film_fill_table_of_fields(f);
         frame_scan(f, &f->frame[k], &frame, run_frame_path(folder, f->frame[k].listed.number).text);
         frame_free(&frame);
     }
     memory_free(list);
-    film_fields_choose_ranges(f);
+    film_choose_stored_ranges_of_fields(f);
     if (s != OK) film_free(f);
     return s;
 }
@@ -147,13 +147,13 @@ static void frames_use(struct film *f, int most)
  * f->every-th group is shown; groups with damaged or yielded particles are exempt unless f->thins_busy is true. */
 static void film_group(struct film *f)
 {
-    for (int k = 0; k < f->sets; k++) film_set_form_groups(&f->set[k], f);
+    for (int k = 0; k < f->sets; k++) film_particle_set_form_groups(&f->set[k], f);
 }
 
 /* Returns true if the film, with the frames, fields and groups that are selected now, takes at most `budget` bytes. */
 static bool fits(const struct film *f, int64_t budget)
 {
-    const int64_t each = 2 * f->dim + film_fields_bytes(f), once = 2 * f->dim + 6;
+    const int64_t each = 2 * f->dim + film_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
     int64_t bytes = 0;
     for (int k = 0; k < f->sets; k++) bytes += once * f->set[k].shown;
     for (int k = 0; k < f->frames; k++) bytes += f->frame[k].used ? each * f->set[f->frame[k].set].shown : 0;
@@ -174,21 +174,21 @@ static void film_fill(struct film *f, int64_t budget)
     frames_use(f, used);
 }
 
-void film_fit_to_budget(struct film *f, int64_t budget)
+void film_select_within_byte_budget(struct film *f, int64_t byte_budget)
 {
     frames_use(f, FILM_FRAMES_MOST);
     film_group(f);
-    f->lacks_extra = !fits(f, budget);
-    if (fits(f, budget)) return;
+    f->lacks_extra = !fits(f, byte_budget);
+    if (fits(f, byte_budget)) return;
     frames_use(f, FRAMES_FEWER);
-    while (!fits(f, budget) && f->levels < FILM_LEVELS) f->levels++, film_group(f);
-    if (!fits(f, budget)) frames_use(f, FRAMES_FEWEST);
-    while (!fits(f, budget)) {
+    while (!fits(f, byte_budget) && f->levels < FILM_LEVELS) f->levels++, film_group(f);
+    if (!fits(f, byte_budget)) frames_use(f, FRAMES_FEWEST);
+    while (!fits(f, byte_budget)) {
         f->every *= 2;
         f->thins_busy = f->every > EVERY_MOST;
         film_group(f);
     }
-    film_fill(f, budget);
+    film_fill(f, byte_budget);
 }
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
@@ -238,7 +238,7 @@ static void write_sizes(struct page *p, const struct film *f, const struct film_
     float *size = NEW("report.size", s->shown, float);
     int64_t n = 0;
     for (int64_t g = 0; g < s->groups; g++)
-        if (!s->hidden[g]) size[n++] = (float)film_group_size(s, f, g);
+        if (!s->hidden[g]) size[n++] = (float)film_edge_length_of_group(s, f, g);
     if (s->size || f->levels > 0 || f->every > 1) page_add_array(p, "size", PAGE_F32, size, n);
     memory_free(size);
 }
@@ -258,7 +258,7 @@ static void write_film_set(struct page *p, const struct film *f, const struct fi
     json_open(&p->json, "fixed", '{');
     for (int k = 0; k < f->fields; k++)
         if (f->field[k].fixed && film_field_is_shown(f, &f->field[k]))
-            film_field_write(p, &f->field[k], s, frame, path);
+            film_write_field_values_of_frame(p, &f->field[k], s, frame, path);
     json_close(&p->json, '}');
     json_close(&p->json, '}');
 }
@@ -320,32 +320,32 @@ static status write_frame(struct page *p, const struct film *f, const struct fil
     json_open(&p->json, "values", '{');
     for (int k = 0; k < f->fields; k++)
         if (film_field_is_shown(f, &f->field[k]) && !f->field[k].fixed)
-            film_field_write(p, &f->field[k], s, &frame, path.text);
+            film_write_field_values_of_frame(p, &f->field[k], s, &frame, path.text);
     json_close(&p->json, '}');
-    film_rigids_write_frame(p, f, shown->listed.number);
+    film_write_rigid_body_motion_of_frame(p, f, shown->listed.number);
     json_close(&p->json, '}');
     frame_free(&frame);
     return OK;
 }
 
-status film_write(struct page *p, const struct film *f)
+status film_write(struct page *page, const struct film *f)
 {
-    json_open(&p->json, "film", '{');
-    json_write_integer(&p->json, "dim", f->dim);
-    json_write_rounded(&p->json, "spacing", f->spacing, JSON_TIMING);
-    json_write_integer(&p->json, "listed", f->listed);
-    json_write_integer(&p->json, "levels", f->levels);
-    json_write_integer(&p->json, "every", f->every);
-    json_open(&p->json, "reach", '[');
-    for (int d = 0; d < f->dim; d++) json_write_rounded(&p->json, NULL, f->reach[d], JSON_TIMING);
-    json_close(&p->json, ']');
-    write_fields(p, f);
-    film_rigids_write(p, f);
-    TRY(write_sets(p, f));
-    json_open(&p->json, "frames", '[');
+    json_open(&page->json, "film", '{');
+    json_write_integer(&page->json, "dim", f->dim);
+    json_write_rounded(&page->json, "spacing", f->spacing, JSON_TIMING);
+    json_write_integer(&page->json, "listed", f->listed);
+    json_write_integer(&page->json, "levels", f->levels);
+    json_write_integer(&page->json, "every", f->every);
+    json_open(&page->json, "reach", '[');
+    for (int d = 0; d < f->dim; d++) json_write_rounded(&page->json, NULL, f->reach[d], JSON_TIMING);
+    json_close(&page->json, ']');
+    write_fields(page, f);
+    film_write_rigid_body_surfaces(page, f);
+    TRY(write_sets(page, f));
+    json_open(&page->json, "frames", '[');
     for (int k = 0; k < f->frames; k++)
-        if (f->frame[k].used) TRY(write_frame(p, f, &f->frame[k]));
-    json_close(&p->json, ']');
-    json_close(&p->json, '}');
+        if (f->frame[k].used) TRY(write_frame(page, f, &f->frame[k]));
+    json_close(&page->json, ']');
+    json_close(&page->json, '}');
     return OK;
 }

@@ -1,5 +1,5 @@
 /* The frames of a run as a page shows them: selected frames, particle sets that frames share, fields and their ranges.
- * A page has a budget of bytes; film_fit_to_budget keeps it. */
+ * A page has a budget of bytes; film_select_within_byte_budget keeps it. */
 #ifndef CLEAVE_REPORT_FILM
 #define CLEAVE_REPORT_FILM
 
@@ -66,15 +66,15 @@ struct film {
 /* Reads at most about sixty frames of the run in `folder`. Finds the particle sets that frames share, the largest
  * displacements and the ranges of the fields. scene: scene of the run, NULL if it is not known; it must exist as long
  * as f. Returns FAILED if a frame cannot be read. Release f with film_free. */
-status film_read(struct film *f, const char *folder, const struct scene *scene);
+status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
 
-/* Selects the frames, the fields and the groups of particles that are shown, such that the film takes at most `budget`
- * bytes on the page. */
-void film_fit_to_budget(struct film *f, int64_t budget);
+/* Selects the frames, the fields and the groups of particles that are shown, such that the film takes at most
+ * `byte_budget` bytes on the page. */
+void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
 
 /* Writes the selected frames and fields of f to the page p as the entry `film` of its JSON. Returns FAILED if a frame
  * cannot be read again. */
-status film_write(struct page *p, const struct film *f);
+status film_write(struct page *page, const struct film *f);
 
 /* Releases the memory of *f. */
 void film_free(struct film *f);
@@ -82,26 +82,26 @@ void film_free(struct film *f);
 /* Divides the particles of the set s into groups, each of which is shown as one particle. Particles that fill a cubic
  * cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or has yielded in
  * any frame and all have the same kind and fragment in every frame. Each other particle is a group. */
-void film_set_form_groups(struct film_set *s, const struct film *f);
+void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
 /* Returns the edge of group number `group` of the set s [m]: the spacing of a single particle, or the edge of a cubic
  * cell of merged particles. */
-double film_group_size(const struct film_set *s, const struct film *f, int64_t group);
+double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
 
 /* Fills the table f->field with the fields that a run of the dimension f->dim may have. */
-void film_fields_list(struct film *f);
+void film_fill_table_of_fields(struct film *f);
 
 /* Updates the ranges and the sampled values of all fields of the film from the frame `frame`, which was read from the
  * file `path`. */
-void film_fields_scan(struct film *f, const struct output_frame *frame, const char *path);
+void film_update_field_ranges_from_frame(struct film *f, const struct output_frame *frame, const char *path);
 
 /* Chooses for each field of the film the range of values that its stored numbers of 8 or 16 bits represent. Sets `used`
  * to false for fields with the same value in all frames at all particles. */
-void film_fields_choose_ranges(struct film *f);
+void film_choose_stored_ranges_of_fields(struct film *f);
 
 /* Returns the number of bytes that one group of particles takes in one frame, over all fields that are shown and change
  * with time. */
-int film_fields_bytes(const struct film *f);
+int film_bytes_per_group_and_frame(const struct film *f);
 
 /* Returns true if the field is written to the page: its values differ between particles or frames, and it is not left
  * out to save space. */
@@ -109,16 +109,17 @@ bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
 /* Writes the values of one field in the frame `frame` as an array: means over the particles of each shown group of s.
  * path: file from which the frame was read. */
-void film_field_write(struct page *p, const struct film_field *field, const struct film_set *s,
-                      const struct output_frame *frame, const char *path);
+void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
+                                      const struct film_set *particle_set, const struct output_frame *frame,
+                                      const char *path);
 
 /* Writes the surfaces of the rigid bodies of f->scene to the page as the entry `rigid`: line segments in 2D,
  * quadrilaterals in 3D. */
-void film_rigids_write(struct page *p, const struct film *f);
+void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
 
 /* Writes the positions and rotations of the rigid bodies in frame `frame_number` as the entry `rigid` of that frame.
  * For each body these are its position, `dim` coordinates [m], and the rows of its rotation matrix [dim][dim]. Writes
  * nothing if the run has no file of rigid bodies for this frame. */
-void film_rigids_write_frame(struct page *p, const struct film *f, int frame_number);
+void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, int frame_number);
 
 #endif

@@ -27,14 +27,14 @@ static const struct {
     {"velocity_y", true, false}, {"velocity_z", true, false},
 };
 
-void film_fields_list(struct film *f)
+void film_fill_table_of_fields(struct film *f)
 {
     f->fields = 0;
     for (size_t k = 0; k < COUNT_OF(wanted); k++) {
         struct film_field *field = &f->field[f->fields];
         *field = (struct film_field){
             .extra = wanted[k].extra, .fixed = wanted[k].fixed, .least = INFINITY, .most = -INFINITY};
-        if (plot_field_find(&field->of, wanted[k].name, f->dim) == OK) f->fields++;
+        if (plot_field_find_by_name(&field->of, wanted[k].name, f->dim) == OK) f->fields++;
     }
 }
 
@@ -50,7 +50,7 @@ static void field_scan(struct film_field *field, const float *value, int64_t n)
     }
 }
 
-void film_fields_scan(struct film *f, const struct output_frame *frame, const char *path)
+void film_update_field_ranges_from_frame(struct film *f, const struct output_frame *frame, const char *path)
 {
     for (int k = 0; k < f->fields; k++) {
         float *value;
@@ -86,7 +86,7 @@ static void field_settle(struct film_field *field)
     if (damage) field->low = 0, field->high = 1;
 }
 
-void film_fields_choose_ranges(struct film *f)
+void film_choose_stored_ranges_of_fields(struct film *f)
 {
     for (int k = 0; k < f->fields; k++) field_settle(&f->field[k]);
 }
@@ -98,7 +98,7 @@ bool film_field_is_shown(const struct film *f, const struct film_field *field)
 
 static bool is_fragment(const struct film_field *field) { return strcmp(field->of->name, "fragment") == 0; }
 
-int film_fields_bytes(const struct film *f)
+int film_bytes_per_group_and_frame(const struct film *f)
 {
     int bytes = 0;
     for (int k = 0; k < f->fields; k++)
@@ -121,17 +121,18 @@ static unsigned value_stored(const struct film_field *field, const struct film_s
     return (unsigned)lround(VALUE_MOST * fmin(fmax((mean - field->low) / (field->high - field->low), 0), 1));
 }
 
-void film_field_write(struct page *p, const struct film_field *field, const struct film_set *s,
-                      const struct output_frame *frame, const char *path)
+void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
+                                      const struct film_set *particle_set, const struct output_frame *frame,
+                                      const char *path)
 {
     float *value = NULL;
     if (plot_field_read(&value, field->of, frame, path) != OK) value = NEW("report.field", frame->n, float);
-    uint16_t *wide = BARE("report.wide", s->shown, uint16_t);
-    uint8_t *narrow = BARE("report.narrow", s->shown, uint8_t);
+    uint16_t *wide = BARE("report.wide", particle_set->shown, uint16_t);
+    uint8_t *narrow = BARE("report.narrow", particle_set->shown, uint8_t);
     int64_t n = 0;
-    for (int64_t g = 0; g < s->groups; g++) {
-        if (s->hidden[g]) continue;
-        const unsigned stored = value_stored(field, s, value, g);
+    for (int64_t g = 0; g < particle_set->groups; g++) {
+        if (particle_set->hidden[g]) continue;
+        const unsigned stored = value_stored(field, particle_set, value, g);
         wide[n] = (uint16_t)stored;
         narrow[n++] = (uint8_t)stored;
     }

@@ -86,27 +86,29 @@ static void film_groups_fill(struct film_set *s, const struct film *f, const dou
     memory_free(m);
 }
 
-void film_set_form_groups(struct film_set *s, const struct film *f)
+void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f)
 {
     double from[DIM_MAX] = {0};
     for (int d = 0; d < f->dim; d++) {
         from[d] = INFINITY;
-        for (int64_t i = 0; i < s->n; i++) from[d] = fmin(from[d], s->X[d][i]);
+        for (int64_t i = 0; i < particle_set->n; i++) from[d] = fmin(from[d], particle_set->X[d][i]);
     }
-    array_fill_bytes(s->level, 0, s->n, sizeof *s->level);
-    for (int level = 1; level <= f->levels; level++) merge_cells(s, f, from, level);
-    film_groups_fill(s, f, from);
-    s->shown = 0;
-    for (int64_t g = 0; g < s->groups; g++) {
-        s->hidden[g] = g % f->every != 0 && (f->thins_busy || !s->busy[s->member[s->first[g]]]);
-        s->shown += !s->hidden[g];
+    array_fill_bytes(particle_set->level, 0, particle_set->n, sizeof *particle_set->level);
+    for (int level = 1; level <= f->levels; level++) merge_cells(particle_set, f, from, level);
+    film_groups_fill(particle_set, f, from);
+    particle_set->shown = 0;
+    for (int64_t g = 0; g < particle_set->groups; g++) {
+        particle_set->hidden[g] =
+            g % f->every != 0 && (f->thins_busy || !particle_set->busy[particle_set->member[particle_set->first[g]]]);
+        particle_set->shown += !particle_set->hidden[g];
     }
 }
 
-double film_group_size(const struct film_set *s, const struct film *f, int64_t group)
+double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group)
 {
-    const int32_t i = s->member[s->first[group]];
-    const bool thins = f->thins_busy || !s->busy[i];
-    const double own = s->size ? s->size[i] : f->spacing, thinned = thins ? pow(f->every, 1.0 / f->dim) : 1;
-    return own * (1 << s->level[i]) * thinned;
+    const int32_t i = particle_set->member[particle_set->first[group]];
+    const bool thins = f->thins_busy || !particle_set->busy[i];
+    const double own = particle_set->size ? particle_set->size[i] : f->spacing,
+                 thinned = thins ? pow(f->every, 1.0 / f->dim) : 1;
+    return own * (1 << particle_set->level[i]) * thinned;
 }

@@ -42,11 +42,11 @@ static void write_surface(struct page *p, const struct rigid_surface *s, int dim
     memory_free(X), memory_free(corner);
 }
 
-void film_rigids_write(struct page *p, const struct film *f)
+void film_write_rigid_body_surfaces(struct page *p, const struct film *f)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
-    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, f->frame[0].listed.number)) {
+    if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, f->frame[0].listed.number)) {
         json_open(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             const struct scene_body *body = &f->scene->body[f->scene->bodies + b];
@@ -54,7 +54,7 @@ void film_rigids_write(struct page *p, const struct film *f)
             struct rigid_surface surface;
             particles_box(f, low, high);
             (void)rigid_compute_shown_box(&body->shape, f->dim, low, high);
-            rigid_surface_make(&surface, &body->shape, f->dim, low, high);
+            rigid_surface_approximate_by_polygons(&surface, &body->shape, f->dim, low, high);
             json_open(&p->json, NULL, '{');
             json_write_text(&p->json, "name", body->name);
             write_vector(p, "centre", at[b].centre, f->dim);
@@ -67,11 +67,11 @@ void film_rigids_write(struct page *p, const struct film *f)
     memory_free(at);
 }
 
-void film_rigids_write_frame(struct page *p, const struct film *f, int frame_number)
+void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, int frame_number)
 {
     const int rigids = rigids_of(f);
     struct rigid_placement *at = NEW("report.rigid", rigids, struct rigid_placement);
-    if (rigids > 0 && rigids_read_frame(at, rigids, f->folder, frame_number)) {
+    if (rigids > 0 && rigids_read_placements_of_frame(at, rigids, f->folder, frame_number)) {
         json_open(&p->json, "rigid", '[');
         for (int b = 0; b < rigids; b++) {
             json_open(&p->json, NULL, '{');

@@ -19,7 +19,7 @@ static const struct {
     [PAGE_F32] = {"f32", 4}, [PAGE_PNG] = {"png", 1},
 };
 
-status page_make(struct page *p)
+status page_begin_in_memory(struct page *p)
 {
     *p = (struct page){.json = {.depth = 1}};
     p->json.file = memory_stream_open(&p->text, &p->text_length);
@@ -46,44 +46,44 @@ static void write_base64(FILE *to, const unsigned char *bytes, size_t length)
     }
 }
 
-void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t n)
+void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t value_count)
 {
     json_open(&p->json, key, '{');
     json_write_integer(&p->json, "array", p->count);
     json_write_text(&p->json, "type", types[type].name);
-    json_write_integer(&p->json, "length", n);
+    json_write_integer(&p->json, "length", value_count);
     json_close(&p->json, '}');
     fprintf(p->arrays, "<script type=\"text/plain\" id=\"array%d\">", p->count++);
-    write_base64(p->arrays, values, (size_t)n * types[type].size);
+    write_base64(p->arrays, values, (size_t)value_count * types[type].size);
     fputs("</script>\n", p->arrays);
 }
 
-status page_add_picture(struct page *p, const char *key, const char *path)
+status page_add_picture(struct page *p, const char *entry_name, const char *path)
 {
     char *bytes;
     size_t length;
     TRY(file_read_whole(path, &bytes, &length));
-    page_add_array(p, key, PAGE_PNG, bytes, (int64_t)length);
+    page_add_array(p, entry_name, PAGE_PNG, bytes, (int64_t)length);
     memory_free(bytes);
     return OK;
 }
 
-void page_add_text_file(struct page *p, const char *key, const char *folder, const char *name)
+void page_add_text_file(struct page *p, const char *entry_name, const char *folder, const char *file_name)
 {
     char *text;
     size_t length;
-    const struct path path = path_join(folder, name);
+    const struct path path = path_join(folder, file_name);
     if (!path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK) return;
-    json_write_text(&p->json, key, text);
+    json_write_text(&p->json, entry_name, text);
     memory_free(text);
 }
 
-void page_add_time(struct page *p, const char *key, time_t at)
+void page_add_time(struct page *p, const char *entry_name, time_t moment)
 {
     char text[64];
     struct tm tm;
-    if (gmtime_r(&at, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
-        json_write_text(&p->json, key, text);
+    if (gmtime_r(&moment, &tm) && strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &tm) > 0)
+        json_write_text(&p->json, entry_name, text);
 }
 
 /* Writes a text as the content of an HTML element, with < and & escaped. */
@@ -139,7 +139,7 @@ static status page_close(struct page *p)
     return json && arrays ? OK : status_set(FAILED, "report: out of memory");
 }
 
-status page_write(struct page *p, const char *path, const char *title, int64_t *bytes)
+status page_complete_and_write_file(struct page *p, const char *path, const char *title, int64_t *file_size)
 {
     char *text = NULL;
     size_t length = 0;
@@ -148,7 +148,7 @@ status page_write(struct page *p, const char *path, const char *title, int64_t *
     if (!to) return status_set(FAILED, "report: out of memory");
     write_page(to, p, title);
     const bool whole = fclose(to) == 0;
-    *bytes = (int64_t)length;
+    *file_size = (int64_t)length;
     const status written = whole ? file_write_whole(path, text, length) : status_set(FAILED, "report: out of memory");
     free(text);
     return written;

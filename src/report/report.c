@@ -41,7 +41,7 @@ static status page_destination(struct path *path, const struct report_request *r
                           printable_name(out).text);
     snprintf(path->text, sizeof path->text, "%s", out);
     for (size_t end = length; end > 1 && path->text[end - 1] == '/'; end--) path->text[end - 1] = '\0';
-    TRY(folder_make_above(out));
+    TRY(folder_make_for_file(out));
     if (path_is_folder(path->text)) *path = path_join(path->text, PAGE_NAME);
     TRY(file_check_replaceable(path->text));
     if (r->overwrite || !path_exists(path->text) || page_file_is_from_cleave(path->text)) return OK;
@@ -65,14 +65,14 @@ static status report_page(const struct report_request *r, const struct path *pat
     struct page p;
     char name[NAME_MAX_LENGTH];
     int64_t bytes = 0;
-    TRY(page_make(&p));
+    TRY(page_begin_in_memory(&p));
     write_origin(&p, r);
     status s = OK;
     if (folder_holds_study(r->folder))
-        report_write_study(&p, r->folder);
+        report_write_page_of_study(&p, r->folder);
     else
-        s = report_write_run(&p, r, path->text);
-    if (s == OK) s = page_write(&p, path->text, path_last_name(name, sizeof name, r->folder), &bytes);
+        s = report_write_page_of_run(&p, r, path->text);
+    if (s == OK) s = page_complete_and_write_file(&p, path->text, path_last_name(name, sizeof name, r->folder), &bytes);
     page_release(&p);
     TRY(s);
     if (r->quiet) return OK;
@@ -81,7 +81,7 @@ static status report_page(const struct report_request *r, const struct path *pat
     return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
-status report_write(const struct report_request *r)
+status report_write_html_page(const struct report_request *r)
 {
     struct path path;
     TRY(folder_check_kind(r->folder));

@@ -35,7 +35,7 @@ static void write_unit(void *context, const char *key, double value)
     const struct units *u = context;
     char unit[UNIT_ROOM];
     (void)value;
-    study_result_unit(unit, sizeof unit, u->header, key);
+    study_write_unit_of_result(unit, sizeof unit, u->header, key);
     if (unit[0]) json_write_text(&u->page->json, key, unit);
 }
 
@@ -154,28 +154,28 @@ static status write_film(struct page *p, const char *folder, const struct scene 
     struct film f;
     *particles = 0;
     if (!run_has_file(folder, "frames.hdf.series")) return OK;
-    TRY(film_read(&f, folder, scene));
+    TRY(film_read_frames_of_run(&f, folder, scene));
     *particles = f.set[0].n;
-    film_fit_to_budget(&f, FILM_BYTES);
+    film_select_within_byte_budget(&f, FILM_BYTES);
     const status s = film_write(p, &f);
     film_free(&f);
     return s;
 }
 
-status report_write_run(struct page *p, const struct report_request *r, const char *path)
+status report_write_page_of_run(struct page *p, const struct report_request *request, const char *page_path)
 {
     char header[HEADER_ROOM];
     int64_t particles;
     struct scene scene;
     json_write_text(&p->json, "kind", "run");
-    page_add_text_file(p, "scene", r->folder, "scene.yaml");
-    const bool known = scene_read(&scene, path_join(r->folder, "scene.yaml").text, NULL, 0) == OK;
+    page_add_text_file(p, "scene", request->folder, "scene.yaml");
+    const bool known = scene_read(&scene, path_join(request->folder, "scene.yaml").text, NULL, 0) == OK;
     if (!known) json_write_text(&p->json, "picture_missing", status_message());
-    history_read_header(header, sizeof header, r->folder);
-    write_figures(p, r->folder, header);
-    status s = write_film(p, r->folder, known ? &scene : NULL, &particles);
-    if (s == OK) s = write_history(p, r->folder, header);
-    if (s == OK && known) write_scene(p, r->folder, &scene, particles, path);
+    history_read_header(header, sizeof header, request->folder);
+    write_figures(p, request->folder, header);
+    status s = write_film(p, request->folder, known ? &scene : NULL, &particles);
+    if (s == OK) s = write_history(p, request->folder, header);
+    if (s == OK && known) write_scene(p, request->folder, &scene, particles, page_path);
     if (known) scene_free(&scene);
     return s;
 }

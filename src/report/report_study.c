@@ -112,23 +112,23 @@ static void write_study_units(struct page *p, const char *folder)
         if (keys)
             snprintf(unit, sizeof unit, "%s", scene_key_unit(column));
         else
-            study_result_unit(unit, sizeof unit, header, column);
+            study_write_unit_of_result(unit, sizeof unit, header, column);
         if (unit[0]) json_write_text(&p->json, column, unit);
     }
     json_close(&p->json, '}');
     memory_free(table);
 }
 
-void report_write_study(struct page *p, const char *folder)
+void report_write_page_of_study(struct page *p, const char *study_folder)
 {
-    const bool sweep = path_is_file(path_join(folder, "sweep.csv").text);
+    const bool sweep = path_is_file(path_join(study_folder, "sweep.csv").text);
     json_write_text(&p->json, "kind", sweep ? "sweep" : "converge");
-    page_add_text_file(p, "table", folder, sweep ? "sweep.csv" : "converge.csv");
-    page_add_text_file(p, "scene", folder, STUDY_SCENE);
-    char *options = study_options_read(folder);
+    page_add_text_file(p, "table", study_folder, sweep ? "sweep.csv" : "converge.csv");
+    page_add_text_file(p, "scene", study_folder, STUDY_SCENE);
+    char *options = study_options_read(study_folder);
     if (options) json_write_text(&p->json, "options", options);
     memory_free(options);
-    if (sweep) write_study_units(p, folder);
-    write_warnings(p, folder);
-    write_pictures(p, folder);
+    if (sweep) write_study_units(p, study_folder);
+    write_warnings(p, study_folder);
+    write_pictures(p, study_folder);
 }

@@ -117,7 +117,7 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 {
     struct box box = {{0}, {0}};
     real second[DIM_MAX][DIM_MAX] = {{0}};
-    const bool bounded = region_bounding_box(shape, dim, box.from, box.to);
+    const bool bounded = region_compute_bounding_box_if_finite(shape, dim, box.from, box.to);
     r->shape = shape, r->dim = dim, r->mass = mass;
     r->motion = mass > 0 ? RIGID_FREE : dot(velocity, velocity, dim) > 0 ? RIGID_DRIVEN : RIGID_FIXED;
     array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
@@ -145,14 +145,14 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* Returns the distance of point x[DIM_MAX] [m] from the surface of rigid body r [m], negative inside. normal: receives
  * the outward unit normal of the nearest surface point. */
-real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
+real rigid_signed_distance(const struct rigid_body *r, const real *x, real *normal)
 {
     real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
     memcpy(turn, r->turn, sizeof turn);
     for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
     turn_vector(turn, arm, true, X);
     for (int d = 0; d < r->dim; d++) X[d] += r->centre[d];
-    const real distance = region_distance(r->shape, X, r->dim, own);
+    const real distance = region_signed_distance(r->shape, X, r->dim, own);
     turn_vector(turn, own, false, normal);
     return distance;
 }
@@ -166,14 +166,14 @@ void rigid_present_position_of_point(const struct rigid_body *r, const real *X, 
     for (int d = 0; d < r->dim; d++) x[d] = r->x[d] + turned[d];
 }
 
-void rigid_velocity_at_point(const struct rigid_body *r, const real *x, real *v)
+void rigid_compute_velocity_at_point(const struct rigid_body *r, const real *x, real *velocity)
 {
     const real *w = r->spin;
     real arm[DIM_MAX] = {0};
     for (int d = 0; d < r->dim; d++) arm[d] = x[d] - r->x[d];
     const real turning[] = {w[1] * arm[2] - w[2] * arm[1], w[2] * arm[0] - w[0] * arm[2],
                             w[0] * arm[1] - w[1] * arm[0]};
-    for (int d = 0; d < DIM_MAX; d++) v[d] = r->v[d] + turning[d];
+    for (int d = 0; d < DIM_MAX; d++) velocity[d] = r->v[d] + turning[d];
 }
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
@@ -196,16 +196,16 @@ static void turn_on(struct rigid_body *r, real dt)
     rotate_further(r->turn, half);
 }
 
-void rigid_prescribed_velocity(const struct rigid_body *r, real t, real *v)
+void rigid_compute_prescribed_velocity(const struct rigid_body *r, real t, real *velocity)
 {
     const real share = r->ramp > 0 ? real_min(1, t / r->ramp) : 1;
-    for (int d = 0; d < r->dim; d++) v[d] = r->speed[d] * share;
+    for (int d = 0; d < r->dim; d++) velocity[d] = r->speed[d] * share;
 }
 
-void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
+void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
 {
     real kinetic = 0, driven[DIM_MAX] = {0};
-    rigid_prescribed_velocity(r, t_middle, driven);
+    rigid_compute_prescribed_velocity(r, t_middle, driven);
     for (int d = 0; d < r->dim; d++) {
         const real before = r->v[d];
         if (r->motion == RIGID_DRIVEN) r->v[d] = driven[d];
@@ -223,17 +223,17 @@ void rigid_move(struct rigid_body *r, real t_middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
-real rigid_prescribed_displacement(const struct rigid_body *r, real t, real *u)
+real rigid_compute_prescribed_displacement(const struct rigid_body *r, real t, real *displacement)
 {
     const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
-    for (int d = 0; d < DIM_MAX; d++) u[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
-    return sqrt(dot(u, u, r->dim));
+    for (int d = 0; d < DIM_MAX; d++) displacement[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
+    return sqrt(dot(displacement, displacement, r->dim));
 }
 
 void rigid_move_to_prescribed_position(struct rigid_body *r, real t)
 {
     real u[DIM_MAX];
-    rigid_prescribed_displacement(r, t, u);
+    rigid_compute_prescribed_displacement(r, t, u);
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
         const real x = r->centre[d] + u[d];
         r->increment[d] += x - r->x[d];
@@ -253,7 +253,7 @@ static real work_of_step(const struct rigid_body *r)
     return work;
 }
 
-real rigid_total_work(const struct rigid_body *r)
+real rigid_work_of_drive_and_weight(const struct rigid_body *r)
 {
     real fallen = 0;
     for (int d = 0; d < r->dim; d++) fallen += r->weight[d] * (r->x[d] - r->centre[d]);
@@ -265,7 +265,7 @@ void rigid_update_largest_force(struct rigid_body *r)
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
 }
 
-void rigid_add_drive_work(struct rigid_body *r)
+void rigid_add_work_of_prescribed_motion(struct rigid_body *r)
 {
     r->work += work_of_step(r);
     memcpy(r->force_previous, r->force, sizeof r->force_previous);
@@ -277,7 +277,7 @@ real rigid_kinetic_energy(const struct rigid_body *r)
     return 0.5 * r->mass * dot(r->v, r->v, r->dim) + 0.5 * dot(r->angular, r->spin, DIM_MAX);
 }
 
-real rigid_leapfrog_energy_gap(const struct rigid_body *r, real dt)
+real rigid_half_step_kinetic_energy_change(const struct rigid_body *r, real dt)
 {
     if (r->motion != RIGID_FREE) return 0;
     const real turning = r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0;

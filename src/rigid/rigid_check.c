@@ -18,7 +18,7 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
     int64_t at = -1;
     for (int64_t i = 0; i < p->n; i++) {
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
-        const real distance = rigid_distance(r, x, normal);
+        const real distance = rigid_signed_distance(r, x, normal);
         if (distance < deepest) deepest = distance, at = i;
     }
     if (!(deepest < -DEEP_MOST * s->spacing)) return OK;
@@ -31,7 +31,7 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];
-    if (r->motion != RIGID_FREE || !region_bounding_box(r->shape, s->dim, from, to)) return OK;
+    if (r->motion != RIGID_FREE || !region_compute_bounding_box_if_finite(r->shape, s->dim, from, to)) return OK;
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *mirror = &s->boundary[b];
         const real at = mirror->at, gap = s->spacing;
@@ -78,7 +78,9 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
     const int dim = r->dim;
     int64_t n[DIM_MAX] = {1, 1, 1};
     memcpy(x, r->x, sizeof x);
-    if (!region_bounding_box(r->shape, dim, from, to) || rigid_distance(other, x, normal) > r->radius) return false;
+    if (!region_compute_bounding_box_if_finite(r->shape, dim, from, to) ||
+        rigid_signed_distance(other, x, normal) > r->radius)
+        return false;
     real step = spacing;
     for (int d = 0; d < dim; d++) step = real_max(step, (to[d] - from[d]) / 40);
     for (int d = 0; d < dim; d++) n[d] = (int64_t)((to[d] - from[d]) / step) + 1;
@@ -89,12 +91,12 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
             X[d] = from[d] + 0.5 * (to[d] - from[d] - (real)(n[d] - 1) * step) + (real)at[d] * step;
         if (!region_contains(r->shape, X, dim, 0)) continue;
         rigid_present_position_of_point(r, X, x);
-        if (rigid_distance(other, x, normal) < -0.5 * spacing) return true;
+        if (rigid_signed_distance(other, x, normal) < -0.5 * spacing) return true;
     }
     return false;
 }
 
-void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *to)
+void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *warning_list)
 {
     for (int a = 0; a < rigid->n && !rigid->met; a++)
         for (int b = 0; b < rigid->n && !rigid->met; b++) {
@@ -105,7 +107,7 @@ void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struc
                      "rigid bodies %.60s and %.60s overlap at t = %.3g s: rigid bodies push particles, not each other; "
                      "change their motion, or make one of them a body of particles",
                      one->name, other->name, t);
-            warnings_add_and_print(to, text);
+            warnings_add_and_print(warning_list, text);
             rigid->met = true;
         }
 }

@@ -25,18 +25,18 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
     return OK;
 }
 
-void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
+void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
-        rigid_add_drive_work(&rigid->body[k]);
+        rigid_add_work_of_prescribed_motion(&rigid->body[k]);
         rigid_update_largest_force(&rigid->body[k]);
         for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
 }
 
-void rigids_move(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity)
+void rigids_advance_one_step(struct rigid_set *rigid, real t_middle, real dt, real dt_velocity)
 {
-    for (int k = 0; k < rigid->n; k++) rigid_move(&rigid->body[k], t_middle, dt, dt_velocity);
+    for (int k = 0; k < rigid->n; k++) rigid_advance_one_step(&rigid->body[k], t_middle, dt, dt_velocity);
 }
 
 struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt)
@@ -46,8 +46,8 @@ struct rigid_energy rigids_compute_energy(const struct rigid_set *rigid, real dt
         const struct rigid_body *r = &rigid->body[k];
         sum.before += rigid_kinetic_energy(r);
         sum.step += r->kinetic;
-        sum.last += rigid_kinetic_energy(r) + rigid_leapfrog_energy_gap(r, dt);
-        sum.work += rigid_total_work(r);
+        sum.last += rigid_kinetic_energy(r) + rigid_half_step_kinetic_energy_change(r, dt);
+        sum.work += rigid_work_of_drive_and_weight(r);
     }
     return sum;
 }
@@ -89,11 +89,11 @@ void rigids_store_motion_for_sample(struct rigid_set *rigid, real t)
         real *x = rigid->motion + 2 * DIM_MAX * k, *v = x + DIM_MAX;
         array_copy(x, r->x, DIM_MAX, sizeof *x);
         array_copy(v, r->v, DIM_MAX, sizeof *v);
-        if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_prescribed_velocity(r, t, v);
+        if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_compute_prescribed_velocity(r, t, v);
     }
 }
 
-void rigids_average_velocities(struct rigid_set *rigid)
+void rigids_average_velocities_for_sample(struct rigid_set *rigid)
 {
     for (int k = 0; k < rigid->n; k++) {
         real *v = rigid->motion + 2 * DIM_MAX * k + DIM_MAX;
@@ -106,12 +106,12 @@ void rigids_velocity_of_body(const struct rigid_set *rigid, int k, real t, real 
 {
     const struct rigid_body *r = &rigid->body[k];
     array_copy(v, r->v, DIM_MAX, sizeof *v);
-    if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_prescribed_velocity(r, t, v);
+    if (r->motion == RIGID_DRIVEN && rigid->moves) rigid_compute_prescribed_velocity(r, t, v);
     for (int d = 0; d < DIM_MAX && r->motion == RIGID_FREE && rigid->moves; d++)
         v[d] += 0.5 * dt * (r->force[d] + r->weight[d]) / r->mass;
 }
 
-void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt)
+void rigids_extrapolate_velocities_for_sample(struct rigid_set *rigid, real t, real dt)
 {
     for (int k = 0; k < rigid->n; k++)
         rigids_velocity_of_body(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);

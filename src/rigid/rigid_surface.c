@@ -133,7 +133,8 @@ static void surface_faces_make(struct rigid_surface *s, const struct net *g)
         }
 }
 
-void rigid_surface_make(struct rigid_surface *s, const struct region *shape, int dim, const real *low, const real *high)
+void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct region *shape, int dim,
+                                           const real *low, const real *high)
 {
     struct net g;
     *s = (struct rigid_surface){0};
@@ -194,7 +195,7 @@ static void box_extend_to_region(const struct region *shape, int dim, real *low,
 bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, real *high)
 {
     real from[DIM_MAX], to[DIM_MAX], longest = 0;
-    const bool bounded = region_bounding_box(shape, dim, from, to);
+    const bool bounded = region_compute_bounding_box_if_finite(shape, dim, from, to);
     for (int d = 0; d < dim; d++) longest = real_max(longest, high[d] - low[d]);
     for (int d = 0; d < dim; d++) {
         low[d] = bounded ? from[d] : low[d] - RIGID_BESIDE * longest;
@@ -213,7 +214,7 @@ static void rigid_surfaces_make(struct rigid_set *rigid, const struct particles 
         real low[DIM_MAX], high[DIM_MAX];
         for (int d = 0; d < rigid->dim; d++) particles_coordinate_range(part, part->n, d, &low[d], &high[d]);
         (void)rigid_compute_shown_box(rigid->body[b].shape, rigid->dim, low, high);
-        rigid_surface_make(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
+        rigid_surface_approximate_by_polygons(&rigid->surface[b], rigid->body[b].shape, rigid->dim, low, high);
     }
 }
 
@@ -224,8 +225,8 @@ static void print_array(FILE *to, const char *type, const char *name, int column
             columns);
 }
 
-/* Prints a VTK data array with centre, present position and rotation matrix of each rigid body, which rigids_read_frame
- * reads. */
+/* Prints a VTK data array with centre, present position and rotation matrix of each rigid body, which
+ * rigids_read_placements_of_frame reads. */
 static void print_motion(FILE *to, const struct rigid_set *rigid)
 {
     fprintf(to, "<DataArray type=\"Float64\" Name=\"motion\" NumberOfTuples=\"%d\" format=\"ascii\">\n", 15 * rigid->n);
@@ -331,7 +332,7 @@ static struct path rigid_path(const char *folder, int number)
     return path_join(folder, name);
 }
 
-status rigids_write_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part)
+status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part)
 {
     const struct frame_series *s = &o->series[0];
     if (rigid->n == 0 || rigid->dim < 2 || s->frames == 0) return OK;
@@ -352,17 +353,19 @@ static bool numbers_read(const char *text, real *value, int n)
     return true;
 }
 
-bool rigids_read_frame(struct rigid_placement *placement, int rigids, const char *folder, int frame_number)
+bool rigids_read_placements_of_frame(struct rigid_placement *placement, int rigid_body_count, const char *folder,
+                                     int frame_number)
 {
     const struct path path = rigid_path(folder, frame_number);
     char *text, words[64];
     size_t length;
-    if (rigids == 0 || !path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK) return false;
-    snprintf(words, sizeof words, "Name=\"motion\" NumberOfTuples=\"%d\"", 15 * rigids);
+    if (rigid_body_count == 0 || !path_is_file(path.text) || file_read_whole(path.text, &text, &length) != OK)
+        return false;
+    snprintf(words, sizeof words, "Name=\"motion\" NumberOfTuples=\"%d\"", 15 * rigid_body_count);
     const char *at = strstr(text, words);
-    real *value = NEW("rigid.motion", 15 * rigids, real);
-    const bool read = at && (at = strchr(at, '>')) && numbers_read(at + 1, value, 15 * rigids);
-    for (int b = 0; b < rigids && read; b++) {
+    real *value = NEW("rigid.motion", 15 * rigid_body_count, real);
+    const bool read = at && (at = strchr(at, '>')) && numbers_read(at + 1, value, 15 * rigid_body_count);
+    for (int b = 0; b < rigid_body_count && read; b++) {
         memcpy(placement[b].centre, value + 15 * b, sizeof placement->centre);
         memcpy(placement[b].x, value + 15 * b + 3, sizeof placement->x);
         memcpy(placement[b].turn, value + 15 * b + 6, sizeof placement->turn);

@@ -22,7 +22,7 @@ static struct impedance impedance_lattice(const struct bond_source *source, cons
     return impedance_of(m, c11, scene->dim > 1 ? c12 : 0);
 }
 
-struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source)
+struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source)
 {
     bool any = false;
     for (int b = 0; b < s->boundaries; b++) any = any || s->boundary[b].kind == BOUNDARY_ABSORBING;

@@ -34,19 +34,19 @@ static real largest_motion(const struct bond_operator *body, const real *u)
     return most;
 }
 
-void bond_operator_apply(void *context, const real *u, real *y)
+void bond_operator_apply(void *context, const real *displacement, real *result)
 {
     const struct bond_operator *body = context;
     struct particles *p = body->p;
-    const real most = largest_motion(body, u), scale = most > 0 ? STRAIN * body->spacing / most : 0;
+    const real most = largest_motion(body, displacement), scale = most > 0 ? STRAIN * body->spacing / most : 0;
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
+        for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * displacement[a * p->n + i] / body->root[i];
     if (body->loads) loads_update_mirror_images(body->loads, p);
     bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
-        for (int64_t i = 0; i < p->n; i++) y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
+        for (int64_t i = 0; i < p->n; i++) result[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
 real bonds_critical_time_step_by_iteration(struct bonds *b, struct particles *p, bond_force_fn *force,
@@ -108,8 +108,8 @@ real lattice_critical_time_step(const struct bond_source *source, bond_force_fn 
         p.mass[i] = density * f->cell_volume;
         p.kind[i] = KIND_PD;
     }
-    particles_update_kind_lists(&p);
-    cells_make(&cells, &p, f->cutoff * (1 + 1e-9));
+    particles_rebuild_lists_by_kind(&p);
+    cells_make_for_neighbour_search(&cells, &p, f->cutoff * (1 + 1e-9));
     s.family.surface = SURFACE_NONE;
     s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
     s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;

@@ -52,7 +52,8 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start)
+status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s,
+                               bool run_begins)
 {
     real wave_speed = 0;
     for (int m = 0; m < s->materials; m++) wave_speed = real_max(wave_speed, s->material[m].wave_speed);
@@ -62,7 +63,7 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
         if (b->kind != BOUNDARY_VELOCITY) continue;
         TRY(status_prepend_location(b->place, position_dependent_on_grid(b, p, l)));
         if (!b->displaces) continue;
-        if (start) TRY(status_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
+        if (run_begins) TRY(status_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
         if (s->solver != SOLVER_EXPLICIT) continue;
         TRY(status_prepend_location(b->place, starts_at_rest(b, p, l, s->spacing)));
         const real speed = load_largest_displacement_speed(l, p, s->duration);

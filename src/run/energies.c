@@ -198,7 +198,7 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX]; /* [materials] C^-1 in symmetric components */
 };
 
-real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, int64_t i)
+real point_energy_fraction_not_carried_by_bonds(const struct partial_stress *partial, int dim, int64_t i)
 {
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
     const int n = symmetric_component_count(dim);
@@ -213,7 +213,7 @@ real point_mpm_energy_fraction(const struct partial_stress *partial, int dim, in
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
-    return point_mpm_energy_fraction(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
+    return point_energy_fraction_not_carried_by_bonds(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
@@ -259,16 +259,16 @@ static void strain_block(const void *context, int64_t first, int64_t end, real *
 }
 
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
-                                  const struct partial_stress *partial, const int32_t *list, int64_t n)
+                                  const struct partial_stress *partial, const int32_t *point_list, int64_t point_count)
 {
     int materials = 0;
-    for (int64_t k = 0; k < n; k++)
-        if (p->material[list[k]] >= materials) materials = p->material[list[k]] + 1;
-    struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
+    for (int64_t k = 0; k < point_count; k++)
+        if (p->material[point_list[k]] >= materials) materials = p->material[point_list[k]] + 1;
+    struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = point_list};
     s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
     for (int k = 0; k < materials; k++) material_compliance_matrix(&m[k], p->dim, s.compliance[k]);
     real sum;
-    reproducible_sums(n, 1, strain_block, &s, &sum);
+    reproducible_sums(point_count, 1, strain_block, &s, &sum);
     memory_free(s.compliance);
     return sum;
 }
@@ -285,7 +285,7 @@ static real plastic_term(const void *context, int64_t k)
     const struct particles *p = s->p;
     const int64_t i = s->list[k];
     if (p->plastic_work[i] == 0) return 0;
-    return point_mpm_energy_fraction(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
+    return point_energy_fraction_not_carried_by_bonds(s->partial, s->p->dim, i) * p->plastic_work[i] * p->volume0[i];
 }
 
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial)
@@ -295,8 +295,8 @@ real points_plastic_work(const struct particles *p, const struct material *m, co
                             &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
 }
 
-void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum,
-                               real *momentum_scale)
+void particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grid_count,
+                               real *momentum, real *momentum_scale)
 {
     void (*const block)(const void *, int64_t, int64_t, real *) =
         momentum_scale ? momentum_and_size_block : momentum_block;
@@ -304,7 +304,7 @@ void particles_linear_momentum(const struct particles *p, const struct grid *con
     const int sums = p->dim + (momentum_scale != NULL);
     real sum[DIM_MAX + 1], more[DIM_MAX + 1];
     reproducible_sums(p->n, sums, block, &m, sum);
-    for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
+    for (int g = 0; g < grid_count && nodes[g]->n > 0; g++) {
         const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
         reproducible_sums(nodes[g]->n, sums, block, &n, more);
         for (int k = 0; k < sums; k++) sum[k] += more[k];

@@ -12,7 +12,7 @@ static bool are_near(const struct particles *p, const struct cells *cells, real 
     for (int64_t i = 0; i < p->n && !found; i++) {
         const real X[DIM_MAX] = {p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0};
         if (!region_contains(one, X, p->dim, tolerance)) continue;
-        particles_find_near(&near, cells, p, i, cutoff, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, cutoff, false);
         for (int k = 0; k < near.n && !found; k++) {
             const int32_t j = near.at[k];
             const real Y[DIM_MAX] = {p->X[0][j], p->dim > 1 ? p->X[1][j] : 0, p->dim > 2 ? p->X[2][j] : 0};
@@ -23,7 +23,8 @@ static bool are_near(const struct particles *p, const struct cells *cells, real 
     return found;
 }
 
-status joined_bodies_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff)
+status joined_bodies_check_close_enough(const struct scene *s, const struct particles *p, const struct cells *cells,
+                                        real cutoff)
 {
     const real tolerance = ON_SURFACE * s->spacing;
     for (int k = 0; k < s->interfaces; k++) {

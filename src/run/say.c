@@ -15,12 +15,12 @@ static const struct {
                   [SPACE_PLANE_STRAIN] = {"plate in plane strain", 1.30, 1.76, 0.20},
                   [SPACE_SOLID] = {"solid", 1.83, 2.21, 0.14}};
 
-void warn_of_bond_plasticity(const struct scene *s, struct warnings *to)
+void warn_of_bond_plasticity(const struct scene *s, struct warnings *warning_list)
 {
     for (int m = 0; m < s->materials && s->method != METHOD_MPM && s->dim > 1; m++)
         if (material_yields(&s->material[m]))
-            warnings_add(
-                to,
+            warnings_add_if_new(
+                warning_list,
                 "material %s: bonds%s yield one by one, so that a %s yields at about %.2f times the yield_stress in "
                 "tension and %.2f times the von Mises stress in shear, and its lateral plastic strain is %.2f of the "
                 "axial one; with method: mpm (von Mises) these ratios are 1, 1 and %s",

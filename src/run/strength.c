@@ -2,7 +2,7 @@
  * themselves with their own trigger (point_conversion_stress). */
 #include "run/make.h"
 
-void conversion_stress_reduce_to_weakest(struct elastic *elastic, const struct particles *p)
+void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n && p->strength; i++) {
         struct elastic *m = &elastic[p->material[i]];

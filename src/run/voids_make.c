@@ -22,11 +22,12 @@ static bool may_have_voids(const struct scene *s)
     return any;
 }
 
-bool joined_bodies_have_exact_surface(const struct scene *s, int body)
+bool joined_bodies_are_all_defined_by_solids(const struct scene *s, int first_body)
 {
     bool known = true;
     for (int b = 0; b < s->bodies; b++)
-        if (s->body[b].joined == body) known = known && !s->body[b].file && !region_has_voxel_image(&s->body[b].shape);
+        if (s->body[b].joined == first_body)
+            known = known && !s->body[b].file && !region_has_voxel_image(&s->body[b].shape);
     return known;
 }
 
@@ -37,7 +38,7 @@ static void list_shapes(const struct scene *s, struct voids *v)
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined != b || region_may_have_voids(&s->body[b].shape))
-            wanted[s->body[b].joined] = joined_bodies_have_exact_surface(s, s->body[b].joined);
+            wanted[s->body[b].joined] = joined_bodies_are_all_defined_by_solids(s, s->body[b].joined);
     v->shape = NEW("voids.shape", s->bodies, const struct region *);
     v->body = NEW("voids.body", s->bodies, int);
     for (int b = 0; b < s->bodies; b++)

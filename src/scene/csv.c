@@ -6,9 +6,9 @@
 
 #include "base/input.h"
 
-status csv_open(struct csv_file *c, const char *path, const char *contents)
+status csv_open(struct csv_file *c, const char *path, const char *line_description)
 {
-    *c = (struct csv_file){.path = path, .holds = contents, .separator = ','};
+    *c = (struct csv_file){.path = path, .holds = line_description, .separator = ','};
     return input_file_open(&c->file, path, NULL);
 }
 
@@ -18,7 +18,7 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
-status csv_read_line(struct csv_file *c, bool *line_was_read, bool *comment)
+status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comment)
 {
     while ((*line_was_read = fgets(c->text, sizeof c->text, c->file) != NULL)) {
         c->line++;
@@ -30,10 +30,10 @@ status csv_read_line(struct csv_file *c, bool *line_was_read, bool *comment)
             return status_set(REFUSED, "%s:%lld: not a line of text; %s", c->path, (long long)c->line, c->holds);
         if (c->line == 1 && strncmp(c->text, "\xEF\xBB\xBF", 3) == 0) memmove(c->text, c->text + 3, length - 2);
         size_t blank = strspn(c->text, " \t\r\n");
-        *comment = c->text[blank] == '#';
+        *line_is_comment = c->text[blank] == '#';
         if (c->text[blank] != '\0') return OK;
     }
-    *comment = false;
+    *line_is_comment = false;
     return ferror(c->file) ? status_set(REFUSED, "%s: cannot be read", c->path) : OK;
 }
 
@@ -97,15 +97,15 @@ char *csv_cut_field(const struct csv_file *c, char **rest_of_line)
     return csv_trim(field);
 }
 
-char *csv_cut_unit(char *name)
+char *csv_cut_unit_off_column_name(char *column_name)
 {
-    char *end = name + strlen(name), *open = end;
-    if (end > name && end[-1] == ']') open = strchr(name, '[');
-    if (end > name && end[-1] == ')') open = strchr(name, '(');
+    char *end = column_name + strlen(column_name), *open = end;
+    if (end > column_name && end[-1] == ']') open = strchr(column_name, '[');
+    if (end > column_name && end[-1] == ')') open = strchr(column_name, '(');
     if (!open || open == end) return end;
     end[-1] = '\0';
     *open = '\0';
-    for (char *c = open; c > name && strchr(" \t", c[-1]) != NULL; c--) c[-1] = '\0';
+    for (char *c = open; c > column_name && strchr(" \t", c[-1]) != NULL; c--) c[-1] = '\0';
     return open + 1;
 }
 

@@ -17,16 +17,17 @@ struct csv_file {
     char text[CSV_LINE_LENGTH];
 };
 
-/* Opens the CSV file `path` for reading. contents: what a line of it contains, in words for messages. Both texts are
- * kept by reference. Returns REFUSED, with a message, if the file cannot be read. Close c with csv_close. */
-status csv_open(struct csv_file *c, const char *path, const char *contents);
+/* Opens the CSV file `path` for reading. line_description: what a line of it contains, in words for messages. Both
+ * texts are kept by reference. Returns REFUSED, with a message, if the file cannot be read. Close c with csv_close. */
+status csv_open(struct csv_file *c, const char *path, const char *line_description);
 
 /* Closes the CSV file c. */
 void csv_close(struct csv_file *c);
 
-/* Reads the next line that is not blank into c->text. Sets *line_was_read to false at the end of the file, and *comment
- * to true if the line begins with #. Returns REFUSED, with a message, if the line is too long or cannot be read. */
-status csv_read_line(struct csv_file *c, bool *line_was_read, bool *comment);
+/* Reads the next line that is not blank into c->text. Sets *line_was_read to false at the end of the file, and
+ * *line_is_comment to true if the line begins with #. Returns REFUSED, with a message, if the line is too long or
+ * cannot be read. */
+status csv_read_line(struct csv_file *c, bool *line_was_read, bool *line_is_comment);
 
 /* Reads the next line that is neither blank nor a comment into c->text. Sets *line_was_read to false at the end of the
  * file. Returns REFUSED, with a message, if the line is too long or cannot be read. */
@@ -43,7 +44,7 @@ char *csv_cut_field(const struct csv_file *c, char **rest_of_line);
 
 /* Cuts the unit off the name of a column, such as `time [us]` or `time (us)`, in place, and returns a pointer to the
  * unit; "" if there is none. */
-char *csv_cut_unit(char *name);
+char *csv_cut_unit_off_column_name(char *column_name);
 
 /* Returns REFUSED with the message `file:line:column: TEXT`. field: a field of the current line of c, whose location
  * the message gives; format: TEXT as in printf. */

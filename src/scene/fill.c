@@ -34,10 +34,10 @@ static void draft_free(struct particle_draft *d)
     memory_free(d->id);
 }
 
-status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why)
+status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason)
 {
-    const struct scene_body *b = &d->scene->body[body];
-    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
+    const struct scene_body *b = &d->scene->body[body_number];
+    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, reason));
 }
 
 static void draft_grow(struct particle_draft *d)
@@ -52,16 +52,17 @@ static void draft_grow(struct particle_draft *d)
     GROW("fill.id", d->id, d->room);
 }
 
-status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body)
+status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
+                                      int body_number)
 {
     if (d->n + d->skipped >= PARTICLES_MAX)
-        return particle_draft_refuse_body(d, body, "more than 2147483583 particles; use a larger spacing");
+        return particle_draft_refuse_body(d, body_number, "more than 2147483583 particles; use a larger spacing");
     if (d->n == d->room) draft_grow(d);
-    for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = X[a];
+    for (int a = 0; a < d->scene->dim; a++) d->X[a][d->n] = position[a];
     for (int a = 0; a < d->scene->dim; a++) d->v[a][d->n] = NAN;
     d->volume[d->n] = volume, d->mass[d->n] = NAN;
-    d->material[d->n] = (uint8_t)material;
-    d->body[d->n] = (uint8_t)body;
+    d->material[d->n] = (uint8_t)material_number;
+    d->body[d->n] = (uint8_t)body_number;
     d->id[d->n] = (int32_t)(d->n + d->skipped);
     d->n++;
     return OK;
@@ -98,10 +99,11 @@ static void axis_round(struct axis *a)
  * shape begins with an intersection of solids, of the whole shape. Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
-    if (shape->n > 0 && shape->solid[0].intersect) return region_bounding_box(shape, dim, low, high);
+    if (shape->n > 0 && shape->solid[0].intersect) return region_compute_bounding_box_if_finite(shape, dim, low, high);
     for (int k = 0; k < shape->n; k++)
         if (!shape->solid[k].subtract)
-            return region_bounding_box(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low, high);
+            return region_compute_bounding_box_if_finite(&(struct region){.n = 1, .solid = &shape->solid[k]}, dim, low,
+                                                         high);
     return false;
 }
 
@@ -123,7 +125,7 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
 {
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
-    if (!region_bounding_box(&s->body[body].shape, s->dim, from, to))
+    if (!region_compute_bounding_box_if_finite(&s->body[body].shape, s->dim, from, to))
         return particle_draft_refuse_body(d, body,
                                           "its shape is infinite; add boxes, balls or cylinders of finite size");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
@@ -169,7 +171,8 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
-    return particle_draft_add(d, X, volume, scene_material_at(s, &s->body[body], place, s->body[body].material), body);
+    return particle_draft_append_particle(
+        d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
 }
 
 /* Adds the particles of the lattice in the shape of the body with the index `body` to d, the list of particles to be
@@ -212,7 +215,7 @@ static status draft_empty(const struct particle_draft *d, int body, bool listed)
     char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
     if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it");
-    region_bounding_box(&d->scene->body[body].shape, d->scene->dim, from, to);
+    region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
     snprintf(why + used, sizeof why - used,
@@ -228,7 +231,7 @@ static status draft_make(struct particle_draft *d)
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        TRY(listed ? particle_draft_add_list(d, body) : fill_lattice(d, body));
+        TRY(listed ? particle_draft_append_body_from_file(d, body) : fill_lattice(d, body));
         if (d->n == before && d->skipped == 0) return draft_empty(d, body, listed);
     }
     return OK;
@@ -331,17 +334,19 @@ static status check_distances(const struct particles *p, const struct particle_d
     int64_t first = p->n;
     int32_t other = -1;
     real X[DIM_MAX] = {0};
-    cells_make(&cells, p, 3 * spacing); /* cells of a third of this edge: about one particle each */
+    cells_make_for_neighbour_search(&cells, p, 3 * spacing); /* cells have a third of this edge: one particle each */
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t i = 0; i < p->n; i++) {
         real here[DIM_MAX];
         int32_t found;
         particle_reference_position(p, i, here);
-        if (cells_find_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
+        if (cells_list_particles_near_point(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 &&
+            i < first)
+            first = i;
     }
     if (first < p->n) {
         particle_reference_position(p, first, X);
-        cells_find_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
+        cells_list_particles_near_point(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
     }
     cells_free(&cells);
     if (first == p->n) return OK;
@@ -490,11 +495,11 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
     real spacing = spacing_of(d);
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
-    fill_strength_factors(p, s);
-    fill_initial_temperature(p, s);
+    fill_set_particle_strength_factors(p, s);
+    fill_set_initial_temperatures(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
-    TRY(fill_check_particle_lists(p, s));
+    TRY(fill_check_particle_lists_fit_spacing(p, s));
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
         start_particle(p, i, s, spacing);
@@ -507,8 +512,8 @@ static status fill_made(struct particles *p, const struct particle_draft *d, int
     return OK;
 }
 
-status fill_particles(struct particles *p, const struct scene *s, const struct cells_without_particles *hollow,
-                      int optional_arrays)
+status fill_bodies_with_particles(struct particles *p, const struct scene *s,
+                                  const struct cells_without_particles *hollow, int optional_arrays)
 {
     struct particle_draft draft = {.scene = s, .hollow = hollow};
     *p = (struct particles){0};

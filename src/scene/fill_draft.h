@@ -19,15 +19,16 @@ struct particle_draft {
 };
 
 /* Appends a particle at the position X (dim coordinates [m]) to d, the list of particles to be created. volume: of the
- * particle [m^3]; material, body: their indices in the scene. Returns REFUSED, with a message, if there would be more
- * than PARTICLES_MAX particles. */
-status particle_draft_add(struct particle_draft *d, const real *X, real volume, int material, int body);
+ * particle [m^3]; material, body_number: their indices in the scene. Returns REFUSED, with a message, if there would be
+ * more than PARTICLES_MAX particles. */
+status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
+                                      int body_number);
 
-/* Returns REFUSED with a message that names the body with the index `body` and ends with the text `why`. */
-status particle_draft_refuse_body(const struct particle_draft *d, int body, const char *why);
+/* Returns REFUSED with a message that names the body with the index `body_number` and ends with the text `reason`. */
+status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason);
 
-/* Appends the particles of the body with the index `body` from its particle list file to d, the list of particles to be
- * created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
-status particle_draft_add_list(struct particle_draft *d, int body);
+/* Appends the particles of the body with the index `body_number` from its particle list file to d, the list of
+ * particles to be created. Returns REFUSED, with a message, if the file cannot be read or is invalid. */
+status particle_draft_append_body_from_file(struct particle_draft *d, int body_number);
 
 #endif

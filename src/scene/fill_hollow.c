@@ -16,9 +16,9 @@ static bool cell_inside(const struct grid *box, const struct region *shape, int6
     return true;
 }
 
-void fill_mark_whole_cells(struct cells_without_particles *h, const struct scene *s, int body)
+void fill_mark_cells_inside_body(struct cells_without_particles *h, const struct scene *s, int body_index)
 {
     h->whole = NEW("hollow.whole", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096)
-    for (int64_t I = 0; I < h->box.n; I++) h->whole[I] = cell_inside(&h->box, &s->body[body].shape, I);
+    for (int64_t I = 0; I < h->box.n; I++) h->whole[I] = cell_inside(&h->box, &s->body[body_index].shape, I);
 }

@@ -77,7 +77,8 @@ static status take_entry(struct particle_draft *d, int body, const struct partic
     real X[DIM_MAX];
     TRY(entry_material(s, l, b, i, &material));
     for (int a = 0; a < s->dim; a++) X[a] = l->X[a][i];
-    TRY(particle_draft_add(d, X, l->volume ? l->volume[i] : volume, scene_material_at(s, b, X, material), body));
+    TRY(particle_draft_append_particle(d, X, l->volume ? l->volume[i] : volume,
+                                       scene_material_at_position(s, b, X, material), body));
     const int64_t last = d->n - 1;
     for (int a = 0; a < s->dim; a++)
         if (l->v[a]) d->v[a][last] = l->v[a][i];
@@ -123,13 +124,13 @@ static void take_lattice(struct particle_draft *d, int64_t first)
     }
 }
 
-status particle_draft_add_list(struct particle_draft *d, int body)
+status particle_draft_append_body_from_file(struct particle_draft *d, int body_number)
 {
     const int64_t first = d->n;
     struct particle_list list;
-    TRY(particle_list_read(&list, d->scene->body[body].file, &d->scene->body[body].form, d->scene->dim));
-    status s = take_list(d, body, &list);
+    TRY(particle_list_read(&list, d->scene->body[body_number].file, &d->scene->body[body_number].form, d->scene->dim));
+    status s = take_list(d, body_number, &list);
     particle_list_free(&list);
-    if (s == OK && d->scene->body[body].list.lattice) take_lattice(d, first);
+    if (s == OK && d->scene->body[body_number].list.lattice) take_lattice(d, first);
     return s;
 }

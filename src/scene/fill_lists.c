@@ -217,7 +217,7 @@ static real fill_lists_reach_of(const struct scene *s)
     return real_max(REACH_LEAST, real_max(bonds, grid));
 }
 
-status fill_check_particle_lists(const struct particles *p, const struct scene *s)
+status fill_check_particle_lists_fit_spacing(const struct particles *p, const struct scene *s)
 {
     status result = OK;
     for (int b = 0; b < s->bodies && result == OK; b++) {

@@ -1,7 +1,7 @@
 /* Sets the strength of particles of materials whose strength scatters in space, and initial temperatures. */
 #include "scene/fill.h"
 
-void fill_strength_factors(struct particles *p, const struct scene *s)
+void fill_set_particle_strength_factors(struct particles *p, const struct scene *s)
 {
     if (!p->strength) return;
 #pragma omp parallel for schedule(static)
@@ -12,7 +12,7 @@ void fill_strength_factors(struct particles *p, const struct scene *s)
     }
 }
 
-void fill_initial_temperature(struct particles *p, const struct scene *s)
+void fill_set_initial_temperatures(struct particles *p, const struct scene *s)
 {
     if (!p->temperature) return;
 #pragma omp parallel for schedule(static)

@@ -44,7 +44,7 @@ static bool sites_dense(struct site *site, int64_t n)
     return (real)beside >= NEIGHBOURS_LEAST * (real)n;
 }
 
-bool particle_list_is_lattice(const struct particle_list *l, real spacing, real volume)
+bool particle_list_is_lattice(const struct particle_list *l, real spacing, real cell_volume)
 {
     int64_t first[BODIES];
     bool lattice = l->n > 1 && spacing > 0;
@@ -54,7 +54,7 @@ bool particle_list_is_lattice(const struct particle_list *l, real spacing, real 
         const int body = list_body(l, i);
         if (first[body] < 0) first[body] = i;
         site[i].body = body;
-        if (l->volume) lattice = fabs(l->volume[i] / volume - 1) <= EVEN;
+        if (l->volume) lattice = fabs(l->volume[i] / cell_volume - 1) <= EVEN;
         for (int d = 0; d < l->dim && lattice; d++) {
             const real at = (l->X[d][i] - l->X[d][first[body]]) / spacing, whole = nearbyint(at);
             lattice = fabs(at - whole) <= DECIMALS && fabs(whole) <= FARTHEST;
@@ -69,26 +69,26 @@ bool particle_list_is_lattice(const struct particle_list *l, real spacing, real 
 /* Returns 2^(ceil(log2 most) - 53), a power of two whose multiples up to `most` are all exact doubles. */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
-void coordinates_round_to_lattice(real *X, int64_t n, real spacing, real anchor)
+void coordinates_round_to_lattice(real *coordinate, int64_t count, real spacing, real plane_coordinate)
 {
-    if (n == 0) return;
-    real off = 0, low = X[0], high = X[0], least = 0, most = 0;
-    const real start = X[0];
-    for (int64_t i = 0; i < n; i++) {
-        const real at = (X[i] - start) / spacing, beside = at - nearbyint(at);
-        off += beside / (real)n;
+    if (count == 0) return;
+    real off = 0, low = coordinate[0], high = coordinate[0], least = 0, most = 0;
+    const real start = coordinate[0];
+    for (int64_t i = 0; i < count; i++) {
+        const real at = (coordinate[i] - start) / spacing, beside = at - nearbyint(at);
+        off += beside / (real)count;
         least = real_min(least, beside), most = real_max(most, beside);
-        low = real_min(low, X[i]), high = real_max(high, X[i]);
+        low = real_min(low, coordinate[i]), high = real_max(high, coordinate[i]);
     }
     if (most - least <= 0.5 * LATTICE_NEAR) return; /* to all digits already */
     real first = start + off * spacing;
-    const real halves = 2 * (first - anchor) / spacing;
-    if (fabs(halves - nearbyint(halves)) <= 2 * DECIMALS) first = anchor + 0.5 * nearbyint(halves) * spacing;
+    const real halves = 2 * (first - plane_coordinate) / spacing;
+    if (fabs(halves - nearbyint(halves)) <= 2 * DECIMALS) first = plane_coordinate + 0.5 * nearbyint(halves) * spacing;
     const real unit = lattice_unit(real_max(fabs(low), fabs(high)) + (high - low) + 2 * spacing);
     const real step = nearbyint(spacing / unit) * unit, origin = nearbyint(first / unit) * unit;
     const bool exact = fabs(step - spacing) * (high - low) <= 0.5 * LATTICE_NEAR * square(spacing);
-    for (int64_t i = 0; i < n; i++) {
-        const real site = nearbyint((X[i] - start) / spacing);
-        X[i] = exact ? origin + site * step : first + site * spacing;
+    for (int64_t i = 0; i < count; i++) {
+        const real site = nearbyint((coordinate[i] - start) / spacing);
+        coordinate[i] = exact ? origin + site * step : first + site * spacing;
     }
 }

@@ -96,7 +96,7 @@ static status table_take(struct particle_list *l, int column, const struct table
     *particle_list_column_array(l, column) = array;
     for (int64_t i = 0; i < l->n; i++) {
         array[i] = t->value[i * t->columns + k] * t->factor;
-        const char *fault = particle_list_value_fault(column, array[i]);
+        const char *fault = particle_list_reason_value_is_invalid(column, array[i]);
         if (fault != NULL)
             return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, list_quantity[column].name,
                               array[i], fault);
@@ -116,12 +116,12 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     TRY(table_read(file, path, name, &t));
     status s = OK;
     hdf_read_text_attribute(file, name, "unit", unit, UNIT_TEXT);
-    if (!unit[0]) t.factor = particle_list_default_factor(l, column);
+    if (!unit[0]) t.factor = particle_list_default_factor_to_si(l, column);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
         s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; %lld x %d are expected", path, name,
                        (long long)t.rows, (long long)t.columns, (long long)l->n, count);
-    else if (unit[0] && !unit_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
+    else if (unit[0] && !unit_find_factor_to_si(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
         particle_list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
@@ -144,7 +144,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
         TRY(hdf5_column(l, file, path, sets[k].name, sets[k].column, sets[k].column == COLUMN_VX ? l->dim : 1));
         has[sets[k].column] = true;
     }
-    particle_list_note_columns(&l->head, has);
+    particle_list_note_missing_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(
         REFUSED, "%s: mass and density are both given, and each determines the other; leave one of them out", path);
@@ -155,7 +155,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
-    input_file_register(path);
+    input_file_register_as_read(path);
     crash_message_set_file_in_use(path);
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
@@ -218,8 +218,8 @@ status particle_list_read(struct particle_list *l, const char *path, const struc
     return list_read(l, path, form, dim, false);
 }
 
-status particle_list_read_head(struct particle_list_head *head, const char *path, const struct particle_list_form *form,
-                               int dim)
+status particle_list_read_column_names(struct particle_list_head *head, const char *path,
+                                       const struct particle_list_form *form, int dim)
 {
     struct particle_list l;
     TRY(list_read(&l, path, form, dim, true));

@@ -35,7 +35,7 @@ real **particle_list_column_array(struct particle_list *l, int column)
     }
 }
 
-bool particle_list_column_is_unused(int column, int dim)
+bool particle_list_column_exceeds_dimension(int column, int dim)
 {
     return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
@@ -46,14 +46,15 @@ void particle_list_note_append(struct particle_list_head *head, const char *sepa
     snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? separator : "", addition);
 }
 
-void particle_list_note_columns(struct particle_list_head *head, const bool *has)
+void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column)
 {
-    head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
-    head->volumes = has[COLUMN_VOLUME];
+    head->material = file_has_column[COLUMN_MATERIAL],
+    head->mass = file_has_column[COLUMN_MASS] || file_has_column[COLUMN_DENSITY];
+    head->volumes = file_has_column[COLUMN_VOLUME];
     if (head->note[0]) particle_list_note_append(head, " ", "not read");
     if (head->unnamed) particle_list_note_append(head, "; ", "read as x y z block_id volume");
     if (head->block) particle_list_note_append(head, "; ", "block_id is the material, counted from 1");
-    if (!has[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: each that of the spacing");
+    if (!file_has_column[COLUMN_VOLUME]) particle_list_note_append(head, "; ", "no volumes: each that of the spacing");
 }
 
 void particle_list_free(struct particle_list *l)
@@ -65,7 +66,7 @@ void particle_list_free(struct particle_list *l)
     *l = (struct particle_list){0};
 }
 
-const char *particle_list_value_fault(int column, real value)
+const char *particle_list_reason_value_is_invalid(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
     if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
@@ -74,16 +75,16 @@ const char *particle_list_value_fault(int column, real value)
     return NULL;
 }
 
-bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char *message, size_t capacity)
+bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_kind, char *message, size_t capacity)
 {
     char number[UNIT_TEXT + 2];
     *factor = 1;
     if (*unit == '\0') return true;
     snprintf(number, sizeof number, "1 %.*s", UNIT_TEXT - 1, unit);
-    return number_read(factor, number, expected, false, message, capacity);
+    return number_read(factor, number, expected_kind, false, message, capacity);
 }
 
-real particle_list_default_factor(const struct particle_list *l, int column)
+real particle_list_default_factor_to_si(const struct particle_list *l, int column)
 {
     const real scale = l->form.scale > 0 ? l->form.scale : 1;
     return column <= COLUMN_Z ? scale : column == COLUMN_VOLUME ? scale * scale * scale : 1;
@@ -91,10 +92,11 @@ real particle_list_default_factor(const struct particle_list *l, int column)
 
 enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
 
-status particle_list_check_memory(const char *path, int64_t n)
+status particle_list_check_memory(const char *path, int64_t particle_count)
 {
-    const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
+    const real bytes = (real)particle_count * PARTICLE_NUMBERS * sizeof(real);
     if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
     return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, and %.2g GB are available (%s)",
-                      path, (real)n, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(), machine_memory_limit_name());
+                      path, (real)particle_count, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(),
+                      machine_memory_limit_name());
 }

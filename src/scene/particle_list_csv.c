@@ -49,7 +49,7 @@ static int column_named(const char *name, int dim)
                                   : COLUMN_NONE;
     for (int k = 0; k < COLUMNS; k++)
         if (strcasecmp(name, list_quantity[k].name) == 0) found = k;
-    return found == COLUMN_NONE || particle_list_column_is_unused(found, dim) ? COLUMN_NONE : found;
+    return found == COLUMN_NONE || particle_list_column_exceeds_dimension(found, dim) ? COLUMN_NONE : found;
 }
 
 /* Decides by its unit whether a column called `weight` is a mass or a volume. Sets *column to COLUMN_MASS or
@@ -59,8 +59,8 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
 {
     char what[160];
     real one;
-    *column = unit_factor_to_si(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
-    if (*unit && unit_factor_to_si(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
+    *column = unit_find_factor_to_si(&one, unit, UNIT_MASS, what, sizeof what) ? COLUMN_MASS : COLUMN_VOLUME;
+    if (*unit && unit_find_factor_to_si(&one, unit, list_quantity[*column].unit, what, sizeof what)) return OK;
     return csv_report_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
@@ -70,7 +70,7 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
-    const char *unit = csv_cut_unit(name);
+    const char *unit = csv_cut_unit_off_column_name(name);
     int k = column_named(name, l->dim);
     if (c->fields == FIELDS_MAX) return csv_report_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
     if (strpbrk(name, "\"'"))
@@ -81,11 +81,11 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
         particle_list_note_append(&l->head, ", ", *name ? name : "a column without a name");
     else if (has[k])
         return csv_report_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
-    else if (!unit_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
+    else if (!unit_find_factor_to_si(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
         return csv_report_fault(&c->in, unit, "%s: [%.40s] %s", list_quantity[k].name, unit, what);
     else
         has[k] = true;
-    if (k != COLUMN_NONE && !*unit) c->factor[c->fields] = particle_list_default_factor(l, k);
+    if (k != COLUMN_NONE && !*unit) c->factor[c->fields] = particle_list_default_factor_to_si(l, k);
     if (k == COLUMN_MATERIAL && names_block(name)) l->head.block = true, c->first[c->fields] = 1;
     c->column[c->fields++] = k;
     return OK;
@@ -130,7 +130,7 @@ static status header_read(struct csv *c, struct particle_list *l)
         return csv_report_fault(
             &c->in, c->in.text,
             "mass and density are both given, and each determines the other; leave one of them out");
-    particle_list_note_columns(&l->head, has);
+    particle_list_note_missing_columns(&l->head, has);
     return OK;
 }
 
@@ -165,7 +165,7 @@ static int header_count(const char *names, int dim, bool *all)
     header_separate(&trial);
     char *rest = trial.in.text;
     for (char *name; (name = csv_cut_field(&trial.in, &rest)) != NULL; n++) {
-        csv_cut_unit(name);
+        csv_cut_unit_off_column_name(name);
         has[column_named(name, dim)] = true;
     }
     *all = true;
@@ -349,7 +349,7 @@ static status csv_value(struct csv *c, struct particle_list *l, int k, const cha
         return csv_report_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
                                 strchr(field, ',') ? "; numbers have a point, not a comma" : "");
     value = value * c->factor[k] - c->first[k];
-    const char *fault = particle_list_value_fault(column, value);
+    const char *fault = particle_list_reason_value_is_invalid(column, value);
     if (fault != NULL)
         return csv_report_fault(&c->in, field, "%s: %.40s %s", name, field,
                                 c->first[k] ? "must be a whole number from 1 to 256" : fault);

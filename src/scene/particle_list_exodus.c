@@ -32,7 +32,7 @@ static int64_t volume_column(const struct exodus_file *f, int64_t number, int64_
  * that is invalid in this column. */
 static status value_take(struct exodus_list *x, int column, int64_t entry, real value)
 {
-    const char *fault = particle_list_value_fault(column, value);
+    const char *fault = particle_list_reason_value_is_invalid(column, value);
     if (fault)
         return exodus_report_fault(&x->file, "element %lld: %s: %g %s", (long long)entry + 1,
                                    list_quantity[column].name, value, fault);
@@ -70,11 +70,12 @@ static status block_read(struct exodus_list *x, int64_t number)
             s = exodus_report_fault(&x->file, "element %lld has node %lld; nodes from 1 to %lld are expected",
                                     (long long)l->n + 1, (long long)node[k], (long long)x->file.nodes);
         for (int d = 0; d < l->dim && s == OK; d++)
-            s = value_take(x, COLUMN_X + d, l->n, x->axis[d][node[k] - 1] * particle_list_default_factor(l, COLUMN_X));
+            s = value_take(x, COLUMN_X + d, l->n,
+                           x->axis[d][node[k] - 1] * particle_list_default_factor_to_si(l, COLUMN_X));
         if (s == OK) s = value_take(x, COLUMN_MATERIAL, l->n, (real)(number - 1));
         if (s == OK && volume >= 0)
             s = value_take(x, COLUMN_VOLUME, l->n,
-                           attribute[k * attributes + volume] * particle_list_default_factor(l, COLUMN_VOLUME));
+                           attribute[k * attributes + volume] * particle_list_default_factor_to_si(l, COLUMN_VOLUME));
     }
     memory_free(node);
     memory_free(attribute);
@@ -93,7 +94,7 @@ static status blocks_read(struct exodus_list *x)
         if (exodus_has_array(&x->file, "connect", k)) TRY(block_read(x, k));
     has[COLUMN_VOLUME] = x->volumes, has[COLUMN_MATERIAL] = true;
     x->l->head.block = true;
-    particle_list_note_columns(&x->l->head, has);
+    particle_list_note_missing_columns(&x->l->head, has);
     return OK;
 }
 

@@ -36,32 +36,32 @@ real **particle_list_column_array(struct particle_list *l, int column);
 
 /* Returns true if `column` (COLUMN_*) is a component of position or velocity along an axis that a space of `dim`
  * dimensions does not have. */
-bool particle_list_column_is_unused(int column, int dim);
+bool particle_list_column_exceeds_dimension(int column, int dim);
 
 /* Returns the reason why `value` [SI] is invalid in the column `column` (COLUMN_*), as a static text for the end of a
  * sentence. Returns NULL if it is valid. */
-const char *particle_list_value_fault(int column, real value);
+const char *particle_list_reason_value_is_invalid(int column, real value);
 
 /* Finds the factor by which a number in the unit `unit` is multiplied to convert it to SI units, and stores it in
- * *factor; 1 if `unit` is empty. expected: kind of quantity. Returns false if `unit` is not of this kind, and writes
- * the fault to message[capacity] as the rest of a sentence. */
-bool unit_factor_to_si(real *factor, const char *unit, enum unit expected, char *message, size_t capacity);
+ * *factor; 1 if `unit` is empty. expected_kind: kind of quantity. Returns false if `unit` is not of this kind, and
+ * writes the fault to message[capacity] as the rest of a sentence. */
+bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_kind, char *message, size_t capacity);
 
 /* Returns the factor to SI units of a number in a column without a unit. For coordinates and volumes it follows from
  * the unit that the scene gives for the list l, else it is 1. */
-real particle_list_default_factor(const struct particle_list *l, int column);
+real particle_list_default_factor_to_si(const struct particle_list *l, int column);
 
 /* Appends the text `addition` to the note in *head, which is printed about the list, preceded by `separator` if the
  * note is not empty. */
 void particle_list_note_append(struct particle_list_head *head, const char *separator, const char *addition);
 
 /* Stores in *head whether the file has columns of materials, masses and volumes, and adds to its note which defaults
- * replace missing columns. has[COLUMNS]: true for each column that the file has. */
-void particle_list_note_columns(struct particle_list_head *head, const bool *has);
+ * replace missing columns. file_has_column[COLUMNS]: true for each column that the file has. */
+void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column);
 
 /* Returns REFUSED, with a message that names the file `path`, if a run with n particles needs more memory than the
  * machine has. */
-status particle_list_check_memory(const char *path, int64_t n);
+status particle_list_check_memory(const char *path, int64_t particle_count);
 
 /* Reads a particle list from the Exodus II file `path` into *l. Returns REFUSED, with a message, if the file cannot be
  * read or is invalid. */

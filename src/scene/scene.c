@@ -15,13 +15,13 @@ static status read_space(struct reader *r, const struct yaml_node *root)
 {
     const struct key *k = key_find("", "space");
     const struct yaml_node *space = yaml_node_find(root, "space");
-    if (!space) return fault_missing_key(r, root, k);
+    if (!space) return fault_report_missing_key(r, root, k);
     TRY(read_value_of_key(r, k, space, r->scene));
     r->dim = r->scene->dim = space_dim(r->scene->space);
     return OK;
 }
 
-status scene_from_tree(struct reader *r, const struct yaml_node *root)
+status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     TRY(expect_node_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
@@ -31,25 +31,25 @@ status scene_from_tree(struct reader *r, const struct yaml_node *root)
     TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;
     TRY(read_keys_of_group(r, root, root, "", s));
-    TRY(check_keys_of_scene(r, root));
+    TRY(check_scene_keys_and_set_defaults(r, root));
     TRY(read_materials(r, root));
     TRY(read_bodies(r, root));
     TRY(read_interfaces(r, root));
-    resolve_safety_factor(r, root);
-    resolve_particle_lists(r, root);
-    resolve_reference_frames(s);
-    TRY(check_particle_count(r, root));
+    resolve_default_time_step_safety_factor(r, root);
+    resolve_lattices_of_particle_lists(r, root);
+    resolve_automatic_frames_of_bodies(s);
+    TRY(check_particle_count_fits_indices(r, root));
     TRY(read_cracks(r, root));
     TRY(read_initial_states(r, root));
     TRY(read_boundaries(r, root));
     TRY(check_friction_is_supported(r, root));
-    TRY(check_absorbing_needs_dynamics(r, root));
-    TRY(check_supported_loads(r, root));
-    TRY(check_joined_bodies(r, root));
+    TRY(check_no_absorbing_boundary_if_static(r, root));
+    TRY(check_loads_are_supported(r, root));
+    TRY(check_boundaries_of_joined_bodies(r, root));
     TRY(read_probes(r, root));
-    TRY(read_frame_regions(r, root));
+    TRY(read_regions_of_output_frames(r, root));
     TRY(read_crack_growths(r, root));
-    TRY(resolve_contact(r, root));
+    TRY(resolve_default_contact_bodies(r, root));
     return check_keys_for_static_solver(r, root);
 }
 

@@ -22,7 +22,7 @@ static status check_measure(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *thickness = yaml_node_find(root, "thickness"), *section = yaml_node_find(root, "section");
     const char *space = space_names[s->space];
-    if (s->dim == 2 && !thickness) return fault_missing_key(r, root, key_find("", "thickness"));
+    if (s->dim == 2 && !thickness) return fault_report_missing_key(r, root, key_find("", "thickness"));
     if (s->dim != 2 && thickness) return fault(r, thickness, "space %s has no thickness; leave it out", space);
     if (s->dim != 1 && section) return fault(r, section, "space %s has no section; leave it out", space);
     if (s->dim != 2) s->thickness = 1;
@@ -43,13 +43,13 @@ static real longest_side(const real *from, const real *to, int dim)
 /* Returns REFUSED if the bodies of the scene would have more than 2e9 particles, the limit of 32-bit indices and of
  * memory, or if the box around a surface from a file has more than PLACES_OF_FILES lattice positions. Numbers of
  * particles are estimated from bounding boxes. root: tree of the scene, for the location in the message. */
-status check_particle_count(struct reader *r, const struct yaml_node *root)
+status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     real total = 0, longest = 0, from[DIM_MAX], to[DIM_MAX];
     for (int b = 0; b < s->bodies; b++) {
         real count = 1;
-        if (s->body[b].file || !region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
+        if (s->body[b].file || !region_compute_bounding_box_if_finite(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
             return status_prepend_location(
@@ -84,7 +84,7 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
 }
 
 /* Returns REFUSED if a static problem has absorbing faces. root: tree of the scene, for the location in the message. */
-status check_absorbing_needs_dynamics(struct reader *r, const struct yaml_node *root)
+status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
@@ -117,7 +117,7 @@ static status check_damping(struct reader *r, const struct yaml_node *root)
 /* Returns REFUSED for loads that other keys of the scene exclude: pressures on particles at irregular (randomly
  * shifted) positions; with static solvers, pressures that follow the surface, rotations, and velocities by formula,
  * whose displacement is unknown. root: tree of the scene, for the location in the message. */
-status check_supported_loads(struct reader *r, const struct yaml_node *root)
+status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
@@ -187,7 +187,7 @@ static status check_transfer(struct reader *r, const struct yaml_node *root)
  * path can change above 0.3 to 0.5. Metals keep 0.8: at 0.5 they need 1.6 times the steps, and taylor_bar loses 0.09 %
  * of its energy instead of 0.04 %. Only bars shorter than two diameters are more accurate at 0.5, for which
  * say_flow_error prints a remark. root: tree of the scene, to see whether the key is given. */
-void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
+void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     if (!scene_check_below(root, "time", "safety"))
@@ -197,20 +197,20 @@ void resolve_safety_factor(struct reader *r, const struct yaml_node *root)
 /* Sets the default of contact.between: contact exists if the scene has several bodies, rigid bodies or cracks, but
  * not with static solvers or if bonds soften in load steps. root: tree of the scene. Returns REFUSED for contact
  * settings that contradict the solver or the model. */
-status resolve_contact(struct reader *r, const struct yaml_node *root)
+status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *between = scene_check_below(root, "contact", "between");
     const struct yaml_node *friction = scene_check_below(root, "contact", "friction");
     const bool faces = s->bodies + s->rigids > 1 || (scene_can_crack(s) && s->method != METHOD_MPM);
-    const bool meet = !scene_is_single_equilibrium(s) && !scene_load_steps_soften_bonds(s) && faces;
+    const bool meet = !scene_is_single_equilibrium(s) && !scene_has_load_steps_with_softening_bonds(s) && faces;
     if (!between) s->contact_between = !meet ? CONTACT_NONE : s->method == METHOD_MPM ? CONTACT_BODIES : CONTACT_ALL;
     if (s->contact_distance == DISTANCE_LAMMPS && (s->contact_form != CONTACT_PAIR || s->model != MODEL_BOND))
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
     if (s->contact_between != CONTACT_NONE && scene_is_single_equilibrium(s))
         return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
-    if (s->contact_between != CONTACT_NONE && scene_load_steps_soften_bonds(s))
+    if (s->contact_between != CONTACT_NONE && scene_has_load_steps_with_softening_bonds(s))
         return fault(r, between,
                      "load steps of bonds that soften have no contact; none, or solver: explicit, is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
@@ -226,7 +226,7 @@ status resolve_contact(struct reader *r, const struct yaml_node *root)
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) /* set by resolve_particle_lists */
+    for (int b = 0; b < s->bodies; b++) /* set by resolve_lattices_of_particle_lists */
         lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (scene_has_load_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
@@ -266,7 +266,7 @@ static bool list_lattice(const struct scene *s, int body)
     return lattice;
 }
 
-void resolve_particle_lists(struct reader *r, const struct yaml_node *root)
+void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     for (int b = 0; b < s->bodies; b++)
@@ -298,7 +298,7 @@ static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 static bool body_yields(const struct scene *s, int body)
 {
     for (int m = 0; m < s->materials; m++)
-        if (scene_body_has_material(&s->body[body], m) && material_yields(&s->material[m])) return true;
+        if (scene_body_can_have_material(&s->body[body], m) && material_yields(&s->material[m])) return true;
     return false;
 }
 
@@ -323,7 +323,7 @@ const char *scene_why_reference_frame_unsupported(const struct scene *s, int bod
     return NULL;
 }
 
-const char *scene_why_reference_frame_not_auto(const struct scene *s, int body)
+const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body)
 {
     const char *why = scene_why_reference_frame_unsupported(s, body);
     if (why) return why;
@@ -334,10 +334,10 @@ const char *scene_why_reference_frame_not_auto(const struct scene *s, int body)
     return NULL;
 }
 
-const char *scene_why_reference_frame_no_remedy(const struct scene *s)
+const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
 {
     const char *why = NULL;
-    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_reference_frame_not_auto(s, b);
+    for (int b = 0; b < s->bodies && !why; b++) why = scene_why_reference_frame_not_chosen_by_auto(s, b);
     return why;
 }
 
@@ -363,14 +363,14 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s)
  * then has the frame `auto`, marks the keys mpm.shape, mpm.transfer and interface_damping as given, so that
  * scene_echo.c writes them. While a body has the frame `auto` they must not be written: these keys have a meaning in
  * the current frame only, and a scene that gives them requires it. */
-void resolve_reference_frames(struct scene *s)
+void resolve_automatic_frames_of_bodies(struct scene *s)
 {
     bool open = false;
     s->current_frame_key = current_frame_key(s);
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
         if (body->frame == FRAME_AUTO && s->method != METHOD_PD) {
-            body->frame_reason = scene_why_reference_frame_not_auto(s, b);
+            body->frame_reason = scene_why_reference_frame_not_chosen_by_auto(s, b);
             if (!body->frame_reason) body->frame_reason = s->current_frame_key;
             if (body->frame_reason) body->frame = FRAME_CURRENT;
         }
@@ -391,13 +391,13 @@ static status check_times(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *frames = scene_check_below(root, "output", "frames"),
                            *every = s->every > 0 ? scene_check_below(root, "output", "every") : NULL,
                            *times = scene_check_below(root, "output", "times");
-    if (every && (frames || times)) return fault_exclusive_keys(r, frames ? frames : times, every);
+    if (every && (frames || times)) return fault_report_exclusive_keys(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "an interval of %s makes more than %d frames; at least %.3g s is expected",
                      node_text(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
-    if (frames) return fault_exclusive_keys(r, frames, times);
+    if (frames) return fault_report_exclusive_keys(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
     return OK;
 }
@@ -485,7 +485,7 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     return OK;
 }
 
-status check_keys_of_scene(struct reader *r, const struct yaml_node *root)
+status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root)
 {
     resolve_defaults(r, root);
     TRY(check_measure(r, root));

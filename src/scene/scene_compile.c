@@ -10,15 +10,15 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
-/* Returns the number, from 1, of the UTF-8 character at `place`, a position inside c->text. */
-int compile_character_number(const struct compile *c, const char *place)
+/* Returns the number, from 1, of the UTF-8 character at `character`, a position inside c->text. */
+int compile_character_number(const struct compile *c, const char *character)
 {
     int characters = 1;
-    for (const char *at = c->text; at < place; at++) characters += ((unsigned char)*at & 0xC0) != 0x80;
+    for (const char *at = c->text; at < character; at++) characters += ((unsigned char)*at & 0xC0) != 0x80;
     return characters;
 }
 
-bool compile_report_fault(struct compile *c, const char *format, ...)
+bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -48,38 +48,41 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
-        return compile_report_fault(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
+        return compile_write_fault_and_return_false(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
     c->step[c->steps++] = (struct expression_step){op, value};
     return true;
 }
 
-bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *q)
+bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *q)
 {
     if (c->operands == EXPRESSION_STACK)
-        return compile_report_fault(c, "holds more than %d values open", EXPRESSION_STACK);
-    c->operand[c->operands++] = (struct operand){*q, op == EXPRESSION_NUMBER};
-    return add_step(c, op, q->value);
+        return compile_write_fault_and_return_false(c, "holds more than %d values open", EXPRESSION_STACK);
+    c->operand[c->operands++] = (struct operand){*q, operation == EXPRESSION_NUMBER};
+    return add_step(c, operation, q->value);
 }
 
-struct operand *compile_operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
-
-/* Applies the operation `op` to the topmost operand, or to two of them for a binary operation: replaces them by the
- * result and appends a step to the expression. unit: unit of the result, which the caller derives. If the operands are
- * constant, evaluates the operation now and appends its value as a number instead. Returns false, with a message in c,
- * if the value is not finite or the expression is too long. */
-bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
+struct operand *compile_operand_from_top(struct compile *c, int entries_below_top)
 {
-    const bool two = expression_op_is_binary(op);
+    return &c->operand[c->operands - 1 - entries_below_top];
+}
+
+/* Applies the operation `operation` to the topmost operand, or to two of them for a binary operation: replaces them by
+ * the result and appends a step to the expression. result_unit: unit of the result, which the caller derives. If the
+ * operands are constant, evaluates the operation now and appends its value as a number instead. Returns false, with a
+ * message in c, if the value is not finite or the expression is too long. */
+bool compile_append_operation(struct compile *c, enum expression_op operation, const struct quantity *result_unit)
+{
+    const bool two = expression_op_is_binary(operation);
     struct operand *a = compile_operand_from_top(c, two), *b = compile_operand_from_top(c, 0);
     const bool constant = a->constant && b->constant, bare = a->q.bare && b->q.bare;
-    a->q.value = expression_op_apply(op, a->q.value, b->q.value);
-    memcpy(a->q.twice, unit->twice, sizeof a->q.twice);
+    a->q.value = expression_op_apply(operation, a->q.value, b->q.value);
+    memcpy(a->q.twice, result_unit->twice, sizeof a->q.twice);
     a->q.bare = bare;
     c->operands -= two;
     a->constant = constant;
-    if (!constant) return add_step(c, op, 0);
+    if (!constant) return add_step(c, operation, 0);
     c->steps -= two ? 2 : 1;
-    if (!isfinite(a->q.value)) return compile_report_fault(c, "has a part that is no finite number");
+    if (!isfinite(a->q.value)) return compile_write_fault_and_return_false(c, "has a part that is no finite number");
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
@@ -87,49 +90,52 @@ bool compile_add_operation(struct compile *c, enum expression_op op, const struc
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
 /* Checks that the two topmost operands have the same unit. A 0 without a unit gets the unit of the other operand. If
- * the units differ, returns false with a message in c that names the operation `word` at position `at` of c->text. */
-bool compile_check_equal_units(struct compile *c, const char *word, const char *at)
+ * the units differ, returns false with a message in c that names the operation `operation_name` at position
+ * `operator_in_text` of c->text. */
+bool compile_match_units_of_top_operands(struct compile *c, const char *operation_name, const char *operator_in_text)
 {
     struct quantity *a = &compile_operand_from_top(c, 1)->q, *b = &compile_operand_from_top(c, 0)->q;
     if (is_nothing(compile_operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
     if (is_nothing(compile_operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_report_fault(c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
-                                quantity_unit_name(a).text, quantity_unit_name(b).text, word,
-                                compile_character_number(c, at));
+    return compile_write_fault_and_return_false(
+        c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
+        quantity_unit_name(a).text, quantity_unit_name(b).text, operation_name,
+        compile_character_number(c, operator_in_text));
 }
 
 static bool unit_in_bounds(struct compile *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
-            return compile_report_fault(c, "has a power of a unit beyond %d", POWER_MOST / 2);
+            return compile_write_fault_and_return_false(c, "has a power of a unit beyond %d", POWER_MOST / 2);
     return true;
 }
 
-bool compile_add_negation(struct compile *c)
+bool compile_append_negation(struct compile *c)
 {
     const struct quantity unit = compile_operand_from_top(c, 0)->q;
-    return compile_add_operation(c, EXPRESSION_MINUS, &unit);
+    return compile_append_operation(c, EXPRESSION_MINUS, &unit);
 }
 
-bool compile_add_sum(struct compile *c, char sign, const char *at)
+bool compile_append_sum_or_difference(struct compile *c, char sign, const char *operator_in_text)
 {
     const char word[2] = {sign, 0};
-    if (!compile_check_equal_units(c, word, at)) return false;
+    if (!compile_match_units_of_top_operands(c, word, operator_in_text)) return false;
     const struct quantity unit = compile_operand_from_top(c, 1)->q;
-    return compile_add_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
+    return compile_append_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
 }
 
-bool compile_add_product(struct compile *c, char sign, const char *at)
+bool compile_append_product_or_quotient(struct compile *c, char sign, const char *operator_in_text)
 {
     struct quantity unit = compile_operand_from_top(c, 1)->q;
     const struct operand *b = compile_operand_from_top(c, 0);
     for (int k = 0; k < 3; k++) unit.twice[k] += sign == '*' ? b->q.twice[k] : -b->q.twice[k];
     if (sign == '/' && b->constant && b->q.value == 0)
-        return compile_report_fault(c, "divides by 0 (character %d)", compile_character_number(c, at));
+        return compile_write_fault_and_return_false(c, "divides by 0 (character %d)",
+                                                    compile_character_number(c, operator_in_text));
     return unit_in_bounds(c, &unit) &&
-           compile_add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
+           compile_append_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
 /* Raises *unit to the power `power`: multiplies the exponents of m, kg and s by it. place: number of the operator's
@@ -140,7 +146,7 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
-            return compile_report_fault(
+            return compile_write_fault_and_return_false(
                 c,
                 "raises %s (character %d) to a power whose unit cannot be represented; whole and half "
                 "powers of m, kg and s can be",
@@ -151,21 +157,21 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
 }
 
 /* Appends the operation a^b on the two topmost operands a, b. Returns false, with a message in c, if the exponent b has
- * a unit, or if a has a unit and b is not constant. at: position of the operator in c->text. */
-bool compile_add_power(struct compile *c, const char *at)
+ * a unit, or if a has a unit and b is not constant. operator_in_text: position of the operator in c->text. */
+bool compile_append_power(struct compile *c, const char *operator_in_text)
 {
     const struct operand *b = compile_operand_from_top(c, 0);
     struct quantity unit = compile_operand_from_top(c, 1)->q;
-    const int place = compile_character_number(c, at);
+    const int place = compile_character_number(c, operator_in_text);
     const bool two = b->constant && b->q.value == 2;
     if (!quantity_is_dimensionless(&b->q))
-        return compile_report_fault(c, "has %s as a power (character %d); a plain number is expected",
-                                    quantity_unit_name(&b->q).text, place);
+        return compile_write_fault_and_return_false(c, "has %s as a power (character %d); a plain number is expected",
+                                                    quantity_unit_name(&b->q).text, place);
     if (!quantity_is_dimensionless(&unit) && !b->constant)
-        return compile_report_fault(
+        return compile_write_fault_and_return_false(
             c, "raises %s to a power that varies (character %d); a constant number is expected as the power",
             quantity_unit_name(&unit).text, place);
     if (!quantity_is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
-    return compile_add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
+    return compile_append_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

@@ -29,10 +29,11 @@ struct compile {
 };
 
 /* Writes a message about a fault, composed as by printf, to c->what. Returns false. */
-bool compile_report_fault(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 
-/* Returns the number of the character at `place` in c->text, from 1. */
-int compile_character_number(const struct compile *c, const char *place);
+/* Returns the number of the character at `character` in c->text, from 1. */
+int compile_character_number(const struct compile *c, const char *character);
 
 /* Text of a unit for a message, returned by value. */
 struct named {
@@ -45,40 +46,40 @@ struct named quantity_unit_name(const struct quantity *q);
 /* Returns true if q has no dimension. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
-/* Returns the operand that is `below` entries below the top of the stack of c; 0 for the topmost one. */
-struct operand *compile_operand_from_top(struct compile *c, int below);
+/* Returns the operand that is `entries_below_top` entries below the top of the stack of c; 0 for the topmost one. */
+struct operand *compile_operand_from_top(struct compile *c, int entries_below_top);
 
 /* Appends a step that pushes a value on the stack: a number or variable (op EXPRESSION_NUMBER), a coordinate or the
  * time. quantity: unit and, for a number, value. Returns false, with a message in c->what, if the expression is too
  * long or the stack too deep. */
-bool compile_add_operand(struct compile *c, enum expression_op op, const struct quantity *quantity);
+bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *quantity);
 
-/* Appends a step that applies `op` to the topmost operand, or to two of them for a binary operation. unit: unit of the
- * result. Returns false, with a message in c->what, if the expression is too long or a constant result is not
- * finite. */
-bool compile_add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);
+/* Appends a step that applies `operation` to the topmost operand, or to two of them for a binary operation.
+ * result_unit: unit of the result. Returns false, with a message in c->what, if the expression is too long or a
+ * constant result is not finite. */
+bool compile_append_operation(struct compile *c, enum expression_op operation, const struct quantity *result_unit);
 
 /* Appends a step that negates the topmost operand. Returns false, with a message in c->what, if the expression is too
  * long. */
-bool compile_add_negation(struct compile *c);
+bool compile_append_negation(struct compile *c);
 
-/* Appends a step that adds (sign '+') or subtracts (sign '-') the two topmost operands. at: position of the operator in
- * the text, for messages. Returns false, with a message in c->what, if their units differ. */
-bool compile_add_sum(struct compile *c, char sign, const char *at);
+/* Appends a step that adds (sign '+') or subtracts (sign '-') the two topmost operands. operator_in_text: position of
+ * the operator in the text, for messages. Returns false, with a message in c->what, if their units differ. */
+bool compile_append_sum_or_difference(struct compile *c, char sign, const char *operator_in_text);
 
-/* Appends a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units. at:
- * position of the operator in the text, for messages. Returns false, with a message in c->what, if the result is
- * invalid. */
-bool compile_add_product(struct compile *c, char sign, const char *at);
+/* Appends a step that multiplies (sign '*') or divides (sign '/') the two topmost operands and their units.
+ * operator_in_text: position of the operator in the text, for messages. Returns false, with a message in c->what, if
+ * the result is invalid. */
+bool compile_append_product_or_quotient(struct compile *c, char sign, const char *operator_in_text);
 
-/* Appends a step that raises the second topmost operand to the power of the topmost one. at: position of the operator
- * in the text, for messages. Returns false, with a message in c->what, if the exponent has a unit or the power has none
- * that is valid. */
-bool compile_add_power(struct compile *c, const char *at);
+/* Appends a step that raises the second topmost operand to the power of the topmost one. operator_in_text: position of
+ * the operator in the text, for messages. Returns false, with a message in c->what, if the exponent has a unit or the
+ * power has none that is valid. */
+bool compile_append_power(struct compile *c, const char *operator_in_text);
 
 /* Checks that the two topmost operands have the same unit. A constant 0 without unit first receives the unit of the
- * other operand. word: name of the operation, and at: its position in the text, for the message. Returns false, with a
- * message in c->what, if the units differ. */
-bool compile_check_equal_units(struct compile *c, const char *word, const char *at);
+ * other operand. operation_name: name of the operation, and operator_in_text: its position in the text, for the
+ * message. Returns false, with a message in c->what, if the units differ. */
+bool compile_match_units_of_top_operands(struct compile *c, const char *operation_name, const char *operator_in_text);
 
 #endif

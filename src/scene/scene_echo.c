@@ -22,9 +22,9 @@ void yaml_write_real(struct writer *w, real value)
     fputs(number_write_shortest(text, value), w->out);
 }
 
-void yaml_write_number_list(struct writer *w, const real *value, int n)
+void yaml_write_number_list(struct writer *w, const real *value, int count)
 {
-    for (int k = 0; k < n; k++) {
+    for (int k = 0; k < count; k++) {
         fputs(k ? ", " : "[", w->out);
         yaml_write_real(w, value[k]);
     }
@@ -173,9 +173,9 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     return true;
 }
 
-const void *key_value_address(const struct key *k, const void *base)
+const void *key_value_address(const struct key *k, const void *group_values)
 {
-    return k->place ? (const char *)base + (k->place - 1) : NULL;
+    return k->place ? (const char *)group_values + (k->place - 1) : NULL;
 }
 
 /* Returns true if key k of `bodies` has no meaning for the body `base`. For a rigid body these are material and
@@ -187,7 +187,7 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     const struct scene_body *b = base;
     size_t n = 0;
     if (strcmp(group, "bodies") != 0) return false;
-    while (n < COUNT_OF(words) && strcmp(key_leaf(k), words[n]) != 0) n++;
+    while (n < COUNT_OF(words) && strcmp(key_last_part(k), words[n]) != 0) n++;
     if (!b->rigid) return n >= 2 && n < COUNT_OF(words);
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
@@ -208,25 +208,25 @@ static void write_series(struct writer *w)
     w->indent -= 4;
 }
 
-/* Writes all keys that are directly below the path `group` and have a value in the structure `base`, with their units
- * as comments. */
-void yaml_write_keys_of_group(struct writer *w, const char *group, const void *base)
+/* Writes all keys that are directly below the path `group_path` and have a value in the structure `group_values`, with
+ * their units as comments. */
+void yaml_write_keys_of_group(struct writer *w, const char *group_path, const void *group_values)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_is_directly_below(k, group) || is_left_out(k, group, base)) continue;
+        if (!key_is_directly_below(k, group_path) || is_left_out(k, group_path, group_values)) continue;
         if (k->type == KEY_MAP) {
-            writer_begin_key(w, key_leaf(k));
+            writer_begin_key(w, key_last_part(k));
             fputc('\n', w->out);
             w->indent += 2;
-            yaml_write_keys_of_group(w, k->path, base);
+            yaml_write_keys_of_group(w, k->path, group_values);
             if (strcmp(k->path, "output") == 0) write_series(w);
             w->indent -= 2;
         }
-        if (!has_value(k, base, key_value_address(k, base))) continue;
-        writer_begin_key(w, key_leaf(k));
+        if (!has_value(k, group_values, key_value_address(k, group_values))) continue;
+        writer_begin_key(w, key_last_part(k));
         fputc(' ', w->out);
-        yaml_write_value(w, k, key_value_address(k, base));
+        yaml_write_value(w, k, key_value_address(k, group_values));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
 }
@@ -235,20 +235,20 @@ void yaml_write_keys_of_group(struct writer *w, const char *group, const void *b
 
 /* Begins an item of a YAML list: sets the indent, and makes writer_begin_key write a dash before the item's first
  * key. */
-void writer_begin_item(struct writer *w)
+void writer_begin_list_item(struct writer *w)
 {
     w->indent = 4;
     w->dash = true;
 }
 
-/* Writes the line `key:` and below it, indented, the keys that are directly below the path `group` and have a value in
- * the structure `base`. */
-void yaml_write_mapping(struct writer *w, const char *key, const char *group, const void *base)
+/* Writes the line `key:` and below it, indented, the keys that are directly below the path `group_path` and have a
+ * value in the structure `group_values`. */
+void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values)
 {
     writer_begin_key(w, key);
     fputc('\n', w->out);
     w->indent += 2;
-    yaml_write_keys_of_group(w, group, base);
+    yaml_write_keys_of_group(w, group_path, group_values);
     w->indent -= 2;
 }
 
@@ -274,7 +274,7 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (!law->given) return;
     snprintf(group, sizeof group, "material.hardening.%s", word ? word : "");
     if (!word)
-        yaml_write_mapping(w, "johnson_cook", "material.johnson_cook", law);
+        yaml_write_group_as_mapping(w, "johnson_cook", "material.johnson_cook", law);
     else if (law->flow != FLOW_LINEAR || law->hardening != m->yield_hardening) {
         writer_begin_key(w, "hardening");
         fputc('\n', w->out);
@@ -282,10 +282,10 @@ static void write_material_law(struct writer *w, const struct material *m)
         if (law->flow == FLOW_TABLE)
             write_pairs(w, law->table.strain, law->table.stress, law->table.points, "1, Pa");
         else
-            yaml_write_mapping(w, word, group, law);
+            yaml_write_group_as_mapping(w, word, group, law);
         w->indent -= 2;
     }
-    if (law->kinematic.modulus > 0) yaml_write_mapping(w, "kinematic", "material.kinematic", law);
+    if (law->kinematic.modulus > 0) yaml_write_group_as_mapping(w, "kinematic", "material.kinematic", law);
 }
 
 /* Writes how the tensile strength of a material grows with the strain rate, if it does. */
@@ -308,26 +308,26 @@ static void write_materials(struct writer *w)
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         if (one) w->indent = 2, w->dash = false;
         yaml_write_keys_of_group(w, "material", &m);
         write_material_law(w, &m);
         write_rate(w, &m.rate);
-        if (material_has_viscosity(&m)) yaml_write_mapping(w, "viscosity", "material.viscosity", &m);
-        if (m.scatter.given) yaml_write_mapping(w, "scatter", "material.scatter", &m.scatter);
+        if (material_has_viscosity(&m)) yaml_write_group_as_mapping(w, "viscosity", "material.viscosity", &m);
+        if (m.scatter.given) yaml_write_group_as_mapping(w, "scatter", "material.scatter", &m.scatter);
     }
 }
 
 /* Writes the line `key: "file"` with the absolute path of the file, so that scene.yaml can be run from any folder.
- * contents: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
+ * contents_hash: hash of the file, written as a comment, since a run resumes only with identical contents; 0: the file
  * has not been read, and its name is written as it is. */
-void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
+void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash)
 {
-    char *whole = contents ? realpath(file, NULL) : NULL;
+    char *whole = contents_hash ? realpath(file, NULL) : NULL;
     writer_begin_key(w, key);
     fputc(' ', w->out);
     yaml_write_quoted_text(w, whole ? whole : file);
-    if (contents) fprintf(w->out, "  # contents %016" PRIx64, contents);
+    if (contents_hash) fprintf(w->out, "  # contents %016" PRIx64, contents_hash);
     fputc('\n', w->out);
     free(whole);
 }
@@ -376,7 +376,7 @@ static void write_bodies(struct writer *w)
     const struct scene *s = w->scene;
     fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies + s->rigids; k++) {
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         yaml_write_keys_of_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_particle_list(w, &s->body[k]);
         write_body_parts(w, &s->body[k]);
@@ -389,7 +389,7 @@ static void write_interfaces(struct writer *w)
     if (s->interfaces) fputs("interfaces:\n", w->out);
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *face = &s->interface[k];
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         writer_begin_key(w, "bodies");
         fputs(" [", w->out);
         yaml_write_quoted_text(w, s->body[face->body[0]].name);
@@ -424,7 +424,7 @@ static void write_growths(struct writer *w)
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
         if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         yaml_write_keys_of_group(w, "growth", &g);
     }
 }
@@ -434,11 +434,11 @@ static void write_initials(struct writer *w)
     const struct scene *s = w->scene;
     if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         const struct scene_initial *one = &s->initial[k];
         yaml_write_keys_of_group(w, "initial", one);
         if (one->sets_velocity) yaml_write_vector_of_formulas(w, "velocity", one->velocity, one->formula);
-        if (one->sets_pulse) yaml_write_mapping(w, "pulse", "initial.pulse", one);
+        if (one->sets_pulse) yaml_write_group_as_mapping(w, "pulse", "initial.pulse", one);
     }
 }
 

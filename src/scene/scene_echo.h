@@ -19,7 +19,7 @@ struct writer {
 void writer_begin_key(struct writer *w, const char *key);
 
 /* Begins an item of a YAML list. Its dash is written with its first key. */
-void writer_begin_item(struct writer *w);
+void writer_begin_list_item(struct writer *w);
 
 /* Writes a number to the YAML text with so many digits that it reads back to identical bits. */
 void yaml_write_real(struct writer *w, real value);
@@ -28,25 +28,26 @@ void yaml_write_real(struct writer *w, real value);
 void yaml_write_quoted_text(struct writer *w, const char *text);
 
 /* Writes the numbers value[n] to the YAML text as a list in brackets. */
-void yaml_write_number_list(struct writer *w, const real *value, int n);
+void yaml_write_number_list(struct writer *w, const real *value, int count);
 
 /* Writes the value of key k to the YAML text, in the form that the type of the key requires. value_address: address of
  * the value. */
 void yaml_write_value(struct writer *w, const struct key *k, const void *value_address);
 
-/* Returns the address of the value of key k in the structure `base` of its group. */
-const void *key_value_address(const struct key *k, const void *base);
+/* Returns the address of the value of key k in the structure `group_values` of its group. */
+const void *key_value_address(const struct key *k, const void *group_values);
 
-/* Writes all keys of the group `group` (the path of a key with keys below it), one per line. base: structure with their
+/* Writes all keys of the group `group_path` (the path of a key with keys below it), one per line. group_values:
+ * structure with their values. */
+void yaml_write_keys_of_group(struct writer *w, const char *group_path, const void *group_values);
+
+/* Writes `key:` and below it, as a mapping, all keys of the group `group_path`. group_values: structure with their
  * values. */
-void yaml_write_keys_of_group(struct writer *w, const char *group, const void *base);
-
-/* Writes `key:` and below it, as a mapping, all keys of the group `group`. base: structure with their values. */
-void yaml_write_mapping(struct writer *w, const char *key, const char *group, const void *base);
+void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *group_path, const void *group_values);
 
 /* Writes the key `key` with the absolute path of the file `file`, so that the scene can be run from any folder.
- * contents: hash of the file, which is written as a comment. */
-void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
+ * contents_hash: hash of the file, which is written as a comment. */
+void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash);
 
 /* Writes all boundary conditions of the scene to the YAML text. */
 void yaml_write_boundaries(struct writer *w);
@@ -62,6 +63,6 @@ void yaml_write_region(struct writer *w, const struct region *region);
 void yaml_write_named_regions(struct writer *w);
 
 /* Writes the solid s, which was read from a file, to the YAML text, for example as `stl: {..}`. */
-void yaml_write_shape_file(struct writer *w, const struct solid *s);
+void yaml_write_solid_from_file(struct writer *w, const struct solid *solid);
 
 #endif

@@ -52,7 +52,7 @@ static void write_profile(struct writer *w, const struct profile *f)
     writer_begin_key(w, "profile");
     for (int i = 0; i < keys_count && f->kind == PROFILE_SINE; i++) {
         if (!key_is_directly_below(&keys[i], group)) continue;
-        fprintf(w->out, "%s%s: ", between, key_leaf(&keys[i]));
+        fprintf(w->out, "%s%s: ", between, key_last_part(&keys[i]));
         yaml_write_value(w, &keys[i], key_value_address(&keys[i], f));
         between = ", ";
     }
@@ -81,7 +81,7 @@ void yaml_write_vector_of_formulas(struct writer *w, const char *key, const real
 
 static void write_rotation(struct writer *w, const struct boundary *b)
 {
-    yaml_write_mapping(w, "rotation", "boundary.rotation", b);
+    yaml_write_group_as_mapping(w, "rotation", "boundary.rotation", b);
     if (w->scene->dim < 3) return;
     w->indent += 2;
     writer_begin_key(w, "axis");
@@ -110,7 +110,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 {
     yaml_write_keys_of_group(w, "boundary", b);
     if (b->kind == BOUNDARY_MIRROR) {
-        yaml_write_mapping(w, "mirror", "boundary.mirror", b);
+        yaml_write_group_as_mapping(w, "mirror", "boundary.mirror", b);
         return;
     }
     if (b->rotates) {
@@ -150,7 +150,7 @@ void yaml_write_boundaries(struct writer *w)
     const int n = s->boundaries - falls;
     if (n) fputs("boundary:\n", w->out);
     for (int k = 0; k < n; k++) {
-        writer_begin_item(w);
+        writer_begin_list_item(w);
         write_boundary(w, &s->boundary[k]);
     }
 }

@@ -51,16 +51,16 @@ static void write_image(struct writer *w, const struct shape_file *f, const stru
     fputc(']', w->out);
 }
 
-void yaml_write_shape_file(struct writer *w, const struct solid *s)
+void yaml_write_solid_from_file(struct writer *w, const struct solid *solid)
 {
     static const char *const words[] = {[SHAPE_STL] = "stl", [SHAPE_MESH] = "mesh", [SHAPE_IMAGE] = "image"};
     const char *set;
-    const struct shape_file *f = shape_of(w->scene, s, &set);
+    const struct shape_file *f = shape_of(w->scene, solid, &set);
     if (!f) return;
     fprintf(w->out, "%s: {", words[f->kind]);
     write_paths(w, f);
     if (f->kind == SHAPE_IMAGE)
-        write_image(w, f, s->voxels);
+        write_image(w, f, solid->voxels);
     else {
         fputs(", scale: ", w->out);
         yaml_write_real(w, f->scale);
@@ -69,9 +69,9 @@ void yaml_write_shape_file(struct writer *w, const struct solid *s)
         fputs(", set: ", w->out);
         yaml_write_quoted_text(w, set);
     }
-    if (s->kind == SOLID_HULL && s->hull->open) {
+    if (solid->kind == SOLID_HULL && solid->hull->open) {
         fputs(", within: ", w->out);
-        yaml_write_real(w, s->radius);
+        yaml_write_real(w, solid->radius);
     }
     fputc('}', w->out);
 }

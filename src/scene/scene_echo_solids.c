@@ -12,7 +12,7 @@ static void write_keys(struct writer *w, const char *group, const void *base, co
         const struct key *k = &keys[i];
         if (!key_is_directly_below(k, group) || !k->place) continue;
         if (k->has && !*((const bool *)base + (k->has - 1))) continue;
-        fprintf(w->out, "%s%s: ", between, key_leaf(k));
+        fprintf(w->out, "%s%s: ", between, key_last_part(k));
         yaml_write_value(w, k, (const char *)base + (k->place - 1));
         if (k->unit == UNIT_ANGLE) fputs(" rad", w->out);
         between = ", ";
@@ -55,7 +55,7 @@ static void write_shape(struct writer *w, const struct solid *s)
         return;
     }
     if (s->kind == SOLID_HULL || s->kind == SOLID_VOXELS) {
-        yaml_write_shape_file(w, s);
+        yaml_write_solid_from_file(w, s);
         return;
     }
     const char *word = s->kind == SOLID_ELLIPSOID ? w->dim == 2 ? "ellipse" : "ellipsoid" : words[s->kind];

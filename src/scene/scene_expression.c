@@ -56,7 +56,7 @@ static void skip(struct compile *c)
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT)
-        return compile_report_fault(c, "is longer than %d characters", EXPRESSION_TEXT);
+        return compile_write_fault_and_return_false(c, "is longer than %d characters", EXPRESSION_TEXT);
     memcpy(c->kept + c->used, text, length);
     c->used += length;
     c->kept[c->used] = '\0';
@@ -98,13 +98,15 @@ static size_t name_length(const char *c)
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
-        return compile_report_fault(c, "ends where %s is expected%s", expected,
-                                    c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
+        return compile_write_fault_and_return_false(c, "ends where %s is expected%s", expected,
+                                                    c->depth > 0 ? " (in a list a formula with a comma needs quotes)"
+                                                                 : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
-    return compile_report_fault(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30),
-                                c->at, compile_character_number(c, c->at), expected);
+    return compile_write_fault_and_return_false(c, "has %.*s at character %d, where %s is expected",
+                                                (int)(length < 30 ? length : 30), c->at,
+                                                compile_character_number(c, c->at), expected);
 }
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
@@ -114,7 +116,7 @@ static bool compile_sum(struct compile *c);
 static bool deeper(struct compile *c, int levels)
 {
     if (c->depth + levels <= DEPTH_MOST) return true;
-    return compile_report_fault(c, "is nested deeper than %d levels", DEPTH_MOST);
+    return compile_write_fault_and_return_false(c, "is nested deeper than %d levels", DEPTH_MOST);
 }
 
 static bool compile_brackets(struct compile *c)
@@ -132,18 +134,20 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
 {
     struct quantity unit = compile_operand_from_top(c, 0)->q;
     const bool two = f->rule == SAME || f->rule == ANGLE;
-    if (two && !compile_check_equal_units(c, f->name, at)) return false;
+    if (two && !compile_match_units_of_top_operands(c, f->name, at)) return false;
     if (two) unit = compile_operand_from_top(c, 1)->q;
     if (f->rule == PLAIN && !quantity_is_dimensionless(&unit))
-        return compile_report_fault(c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)",
-                                    f->name, quantity_unit_name(&unit).text, compile_character_number(c, at));
+        return compile_write_fault_and_return_false(
+            c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)", f->name,
+            quantity_unit_name(&unit).text, compile_character_number(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
-            return compile_report_fault(c, "takes the square root of %s (character %d), whose unit has no square root",
-                                        quantity_unit_name(&unit).text, compile_character_number(c, at));
+            return compile_write_fault_and_return_false(
+                c, "takes the square root of %s (character %d), whose unit has no square root",
+                quantity_unit_name(&unit).text, compile_character_number(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
-    return compile_add_operation(c, f->op, &unit);
+    return compile_append_operation(c, f->op, &unit);
 }
 
 /* Compiles a call of the function f with its operands in brackets; c->at must be at the opening bracket. min and max
@@ -181,17 +185,19 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_report_fault(c, "contains %c, which has no meaning in this key", name);
+        return compile_write_fault_and_return_false(c, "contains %c, which has no meaning in this key", name);
     if (name != 't' && name - 'x' >= c->r->dim)
-        return compile_report_fault(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
-    return compile_add_operand(c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
+        return compile_write_fault_and_return_false(c, "contains %c; space %s does not have it", name,
+                                                    space_names[c->r->scene->space]);
+    return compile_append_push_of_operand(
+        c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
 }
 
 static bool compile_variable(struct compile *c, const char *name, const char *at)
 {
     const struct quantity *q = variable_value(c->r, name, c->what, c->room);
     if (!q) return false;
-    return deeper(c, 2) && keep_value(c, at, q) && compile_add_operand(c, EXPRESSION_NUMBER, q);
+    return deeper(c, 2) && keep_value(c, at, q) && compile_append_push_of_operand(c, EXPRESSION_NUMBER, q);
 }
 
 static bool compile_name(struct compile *c)
@@ -200,21 +206,23 @@ static bool compile_name(struct compile *c)
     const char *at = c->at;
     const size_t length = name_length(at);
     char name[NAME_MOST + 1];
-    if (length > NAME_MOST) return compile_report_fault(c, "has a name of more than %d letters", NAME_MOST);
+    if (length > NAME_MOST)
+        return compile_write_fault_and_return_false(c, "has a name of more than %d letters", NAME_MOST);
     snprintf(name, sizeof name, "%.*s", (int)length, at);
     c->at += length;
     skip(c);
     const struct function *f = function_named(name);
     if (*c->at == '(' && f) return compile_call(c, f, at);
     if (*c->at == '(')
-        return compile_report_fault(c, "has an unknown function %s (character %d); `cleave help expression` lists them",
-                                    name, compile_character_number(c, at));
+        return compile_write_fault_and_return_false(
+            c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
+            compile_character_number(c, at));
     if (f) return missing(c, "( and what it is of");
     if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
-    if (strcmp(name, "pi") == 0) return compile_add_operand(c, EXPRESSION_NUMBER, &q);
+    if (strcmp(name, "pi") == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
-    return quantity_read_unit(&q, name) == length ? compile_add_operand(c, EXPRESSION_NUMBER, &q)
-                                                  : compile_variable(c, name, at);
+    return quantity_read_unit_symbol(&q, name) == length ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q)
+                                                         : compile_variable(c, name, at);
 }
 
 /* Compiles the number at c->at with its unit. power: true for an exponent, which has no unit. Returns false, with a
@@ -223,17 +231,19 @@ static bool compile_number(struct compile *c, bool power)
 {
     struct quantity q;
     const char *why = NULL;
-    const size_t length = quantity_read(&q, c->at, !power, &why);
+    const size_t length = quantity_read_at_start_of_text(&q, c->at, !power, &why);
     if (length == 0)
-        return compile_report_fault(c, "has no number at character %d: %s", compile_character_number(c, c->at), why);
+        return compile_write_fault_and_return_false(c, "has no number at character %d: %s",
+                                                    compile_character_number(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
     const int letters = (int)name_length(rest);
-    if (letters == 0) return compile_add_operand(c, EXPRESSION_NUMBER, &q);
-    return compile_report_fault(c,
-                                "has an unknown unit %.*s (character %d); between a number and a name an operation is "
-                                "expected",
-                                letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
+    if (letters == 0) return compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q);
+    return compile_write_fault_and_return_false(
+        c,
+        "has an unknown unit %.*s (character %d); between a number and a name an operation is "
+        "expected",
+        letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
 }
 
 /* Compiles what begins at c->at: a number, a variable, a function call or an expression in brackets. power: true in
@@ -245,9 +255,9 @@ static bool compile_primary(struct compile *c, bool power)
     if (*c->at == '(') return compile_brackets(c);
     if (name_length(c->at)) return compile_name(c);
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
-    const size_t unit = quantity_read_unit(&q, c->at); /* the sign micro is no ASCII letter */
+    const size_t unit = quantity_read_unit_symbol(&q, c->at); /* the sign micro is no ASCII letter */
     c->at += unit;
-    return unit ? compile_add_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
+    return unit ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
 /* Compiles an operand with its power, if any. Powers are right-associative: a^b^c is a^(b^c). An exponent may have a
@@ -264,7 +274,7 @@ static bool compile_power(struct compile *c, bool power)
     c->depth++;
     if (!deeper(c, 0) || !compile_power(c, true)) return false;
     c->depth--;
-    return (!minus || compile_add_negation(c)) && compile_add_power(c, at);
+    return (!minus || compile_append_negation(c)) && compile_append_power(c, at);
 }
 
 static bool compile_product(struct compile *c)
@@ -273,13 +283,14 @@ static bool compile_product(struct compile *c)
     const bool minus = *c->at == '-';
     if (minus || *c->at == '+') c->at++;
     if (!compile_power(c, false)) return false;
-    if (minus && !compile_add_negation(c)) return false;
+    if (minus && !compile_append_negation(c)) return false;
     for (skip(c); *c->at == '*' || *c->at == '/'; skip(c)) {
         const char *at = c->at++;
         skip(c);
         const bool negative = *c->at == '-';
         if (negative) c->at++;
-        if (!compile_power(c, false) || (negative && !compile_add_negation(c)) || !compile_add_product(c, *at, at))
+        if (!compile_power(c, false) || (negative && !compile_append_negation(c)) ||
+            !compile_append_product_or_quotient(c, *at, at))
             return false;
     }
     return true;
@@ -290,7 +301,7 @@ static bool compile_sum(struct compile *c)
     if (!compile_product(c)) return false;
     for (skip(c); *c->at == '+' || *c->at == '-'; skip(c)) {
         const char *at = c->at++;
-        if (!compile_product(c) || !compile_add_sum(c, *at, at)) return false;
+        if (!compile_product(c) || !compile_append_sum_or_difference(c, *at, at)) return false;
     }
     return true;
 }
@@ -301,7 +312,7 @@ static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
     if (strlen(c->text) > EXPRESSION_TEXT)
-        return compile_report_fault(c, "is longer than %d characters", EXPRESSION_TEXT);
+        return compile_write_fault_and_return_false(c, "is longer than %d characters", EXPRESSION_TEXT);
     if (!compile_sum(c)) return false;
     return *c->at == '\0' ? keep_to(c, c->at) : missing(c, "an operation");
 }
@@ -330,20 +341,20 @@ static bool number_constant(const struct yaml_node *n, const struct key *k, stru
 }
 
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
-                       struct expression *e)
+                       struct expression *expression)
 {
     char what[256];
     struct compile c = {.r = r, .of = allowed_variables, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
         return fault(r, n, "%s is no expression; %s is expected, as %s", node_text(r, n), unit->name, unit->example);
-    if (number_constant(n, k, e)) return OK;
+    if (number_constant(n, k, expression)) return OK;
     if (!compile_text(&c)) return fault(r, n, "%s %s", node_text(r, n), what);
     const struct operand *result = &c.operand[0];
     if (!quantity_has_unit(&result->q, k->unit, what, sizeof what) ||
         (result->constant && !value_is_in_unit_bounds(result->q.value, k->unit, what, sizeof what)))
         return fault(r, n, "%s %s", node_text(r, n), what);
-    expression_make(e, c.step, c.steps, c.kept);
+    expression_make(expression, c.step, c.steps, c.kept);
     return OK;
 }
 
@@ -354,14 +365,14 @@ bool looks_like_expression(const struct reader *r, const char *text)
     return name_length(c) > 0 && (r->variables > 0 || strpbrk(c, "/^-"));
 }
 
-const char *reserved_word_meaning(const char *name)
+const char *reserved_word_meaning(const char *word)
 {
     struct quantity q;
-    if (function_named(name)) return "the name of a function";
-    if (strlen(name) == 1 && strchr("xyzt", *name)) return *name == 't' ? "the time" : "a coordinate";
-    if (strcmp(name, "pi") == 0 || strcmp(name, "inf") == 0) return "a number";
-    const size_t length = strlen(name), digit = length > 1 && strchr("23", name[length - 1]) ? 1 : 0;
-    return quantity_read_unit(&q, name) == length - digit ? "a unit" : NULL;
+    if (function_named(word)) return "the name of a function";
+    if (strlen(word) == 1 && strchr("xyzt", *word)) return *word == 't' ? "the time" : "a coordinate";
+    if (strcmp(word, "pi") == 0 || strcmp(word, "inf") == 0) return "a number";
+    const size_t length = strlen(word), digit = length > 1 && strchr("23", word[length - 1]) ? 1 : 0;
+    return quantity_read_unit_symbol(&q, word) == length - digit ? "a unit" : NULL;
 }
 
 void scene_print_expressions(FILE *out)

@@ -34,9 +34,9 @@ status file_read_bytes(const char *path, char **bytes, size_t *length)
     return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
 }
 
-const char *origin_file_name(const struct reader *r, int origin)
+const char *origin_file_name(const struct reader *r, int origin_index)
 {
-    return origin <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin] : r->name;
+    return origin_index <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin_index] : r->name;
 }
 
 int path_folder_length(const char *path)
@@ -45,21 +45,22 @@ int path_folder_length(const char *path)
     return slash ? (int)(slash - path) + 1 : 0;
 }
 
-status read_input_file_path(struct reader *r, const struct yaml_node *n, const char *file_kind, char **path,
-                            uint64_t *contents)
+status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,
+                            uint64_t *contents_hash)
 {
-    const char *from = origin_file_name(r, n->origin);
-    const size_t folder = (size_t)path_folder_length(from), length = strlen(n->text);
-    if (n->kind != NODE_SCALAR || length == 0)
-        return fault(r, n, "%s is no file name; %s is expected", node_text(r, n), file_kind);
+    const char *from = origin_file_name(r, name_node->origin);
+    const size_t folder = (size_t)path_folder_length(from), length = strlen(name_node->text);
+    if (name_node->kind != NODE_SCALAR || length == 0)
+        return fault(r, name_node, "%s is no file name; %s is expected", node_text(r, name_node), file_kind);
     *path = NEW("file name", folder + length + 1, char);
-    if (r->files && folder > 0 && n->text[0] != '/') {
+    if (r->files && folder > 0 && name_node->text[0] != '/') {
         memcpy(*path, from, folder);
-        memcpy(*path + folder, n->text, length + 1);
-        if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
+        memcpy(*path + folder, name_node->text, length + 1);
+        if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents_hash);
     }
-    memcpy(*path, n->text, length + 1);
+    memcpy(*path, name_node->text, length + 1);
     if (!r->files) return OK;
-    if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
-    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_text(r, n), file_kind);
+    if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents_hash);
+    return fault(r, name_node, "%s cannot be read; %s is expected in the folder of the scene", node_text(r, name_node),
+                 file_kind);
 }

@@ -325,14 +325,14 @@ static const struct foreign *foreign_row(const char *word)
     return NULL;
 }
 
-bool foreign_word_advice(const char *word, const char *group, char *text, size_t capacity)
+bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity)
 {
-    if (isdigit((unsigned char)*word))
+    if (isdigit((unsigned char)*foreign_word))
         return snprintf(text, capacity, "a comma separates keys here; the decimal sign is a point, as in 1.5 mm"), true;
     for (size_t k = 0; k < COUNT_OF(foreign_within) && *group; k++)
-        if (strcmp(foreign_within[k].group, group) == 0 && words_have(foreign_within[k].words, word))
+        if (strcmp(foreign_within[k].group, group) == 0 && words_have(foreign_within[k].words, foreign_word))
             return snprintf(text, capacity, "%s", foreign_within[k].text), true;
-    const struct foreign *row = foreign_row(word);
+    const struct foreign *row = foreign_row(foreign_word);
     if (!row) return false;
     if (row->text && *row->text == '=') return snprintf(text, capacity, "%s", row->text + 1), true;
     const size_t length = strcspn(row->paths, " "), within = strlen(group);
@@ -345,18 +345,18 @@ bool foreign_word_advice(const char *word, const char *group, char *text, size_t
     return true;
 }
 
-const char *foreign_value_advice(const char *path, const char *value)
+const char *foreign_value_advice(const char *key_path, const char *foreign_value)
 {
     for (size_t k = 0; k < COUNT_OF(foreign_values); k++) {
         const char *words = foreign_values[k].words;
-        if (strcmp(foreign_values[k].path, path) != 0) continue;
-        if (!strcmp(words, "*") || words_have(words, value)) return foreign_values[k].text;
+        if (strcmp(foreign_values[k].path, key_path) != 0) continue;
+        if (!strcmp(words, "*") || words_have(words, foreign_value)) return foreign_values[k].text;
     }
     return NULL;
 }
 
-const char *foreign_word_keys(const char *word)
+const char *foreign_word_equivalent_keys(const char *foreign_word)
 {
-    const struct foreign *row = foreign_row(word);
+    const struct foreign *row = foreign_row(foreign_word);
     return row ? row->paths : NULL;
 }

@@ -99,7 +99,7 @@ void key_describe_type(const struct key *k, char *text, size_t capacity)
              *range ? "; " : "", range, *fallback ? "; " : "", *fallback && !required ? "default " : "", fallback);
 }
 
-void key_description(const struct key *k, char *text, size_t capacity)
+void key_describe_meaning_and_type(const struct key *k, char *text, size_t capacity)
 {
     char facts[640];
     key_describe_type(k, facts, sizeof facts);
@@ -128,7 +128,7 @@ static void path_of_table(const char *key, char *path, size_t capacity)
     text_replace_control_characters(path);
 }
 
-bool key_is_below(const struct key *k, const char *path)
+bool key_is_at_or_below_path(const struct key *k, const char *path)
 {
     size_t length = strlen(path);
     if (strncmp(k->path, path, length) != 0) return false;
@@ -138,7 +138,7 @@ bool key_is_below(const struct key *k, const char *path)
 /* Returns the smaller of the edit distances from `path` to the path of key k and to the last part of that path. */
 static int key_distance(const struct key *k, const char *path)
 {
-    const int whole = edit_distance(k->path, path), leaf = edit_distance(key_leaf(k), path);
+    const int whole = edit_distance(k->path, path), leaf = edit_distance(key_last_part(k), path);
     return whole < leaf ? whole : leaf;
 }
 
@@ -160,7 +160,7 @@ static status help_unknown(const char *path)
 /* Returns true if `leaf` is the last part of the path of key k. */
 static bool has_leaf(const struct key *k, const char *leaf)
 {
-    return k->type != KEY_GROUP && !strcmp(key_leaf(k), leaf);
+    return k->type != KEY_GROUP && !strcmp(key_last_part(k), leaf);
 }
 
 /* Returns true if `word`, with _ for blanks, is one of the words that key k has as values. Returns false for the key
@@ -179,13 +179,13 @@ static bool is_value_of(const struct key *k, const char *word)
     return false;
 }
 
-bool scene_help_knows_word(const char *key)
+bool scene_help_can_explain_word(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);
-    bool has = key_present_name(path) || foreign_word_keys(path);
+    bool has = key_current_name_of_former_key(path) || foreign_word_equivalent_keys(path);
     for (int k = 0; k < keys_count && !has; k++)
-        has = key_is_below(&keys[k], path) || has_leaf(&keys[k], path) || is_value_of(&keys[k], path);
+        has = key_is_at_or_below_path(&keys[k], path) || has_leaf(&keys[k], path) || is_value_of(&keys[k], path);
     return has;
 }
 
@@ -202,13 +202,13 @@ static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
     if (foreign_word_advice(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
-    for (const char *c = foreign_word_keys(word); *c; c += strspn(c, " ")) {
+    for (const char *c = foreign_word_equivalent_keys(word); *c; c += strspn(c, " ")) {
         const size_t length = strcspn(c, " ");
         snprintf(path, sizeof path, "%.*s", (int)length, c);
         int found = 0;
         fputc('\n', out);
         for (int k = 0; k < keys_count; k++)
-            if (key_is_below(&keys[k], path)) print_key(out, &keys[k]), found++;
+            if (key_is_at_or_below_path(&keys[k], path)) print_key(out, &keys[k]), found++;
         INVARIANT(found > 0);
         c += length;
     }
@@ -226,25 +226,25 @@ static int help_word_of_keys(FILE *out, const char *word)
         fprintf(out, "%s%s is a value of %s\n", printed ? "\n" : "", word, keys[k].path);
         print_key(out, &keys[k]), printed++;
     }
-    if (foreign_word_keys(word) && printed > 0) fputc('\n', out);
-    if (foreign_word_keys(word)) help_foreign(out, word), printed++;
+    if (foreign_word_equivalent_keys(word) && printed > 0) fputc('\n', out);
+    if (foreign_word_equivalent_keys(word)) help_foreign(out, word), printed++;
     return printed;
 }
 
-status scene_print_help(FILE *out, const char *key)
+status scene_print_help_on_keys(FILE *out, const char *key)
 {
     char path[128] = "";
     int found = 0;
     if (key) path_of_table(key, path, sizeof path);
-    const char *now = key_present_name(path);
+    const char *now = key_current_name_of_former_key(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
-    for (int k = 0; k < keys_count; k++) found += key_is_below(&keys[k], path);
+    for (int k = 0; k < keys_count; k++) found += key_is_at_or_below_path(&keys[k], path);
     if (found == 0) return help_word_of_keys(out, path) > 0 ? OK : help_unknown(path);
     if (!key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
                      "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");
     for (int k = 0; k < keys_count; k++) {
-        if (!key_is_below(&keys[k], path)) continue;
+        if (!key_is_at_or_below_path(&keys[k], path)) continue;
         bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
         if (top && has_keys && !key) fputc('\n', out);
         print_key(out, &keys[k]);
@@ -269,7 +269,7 @@ static void troff(FILE *out, const char *text)
     }
 }
 
-void scene_print_manual_keys(FILE *out)
+void scene_print_keys_for_manual_page(FILE *out)
 {
     char facts[640];
     for (int k = 0; k < keys_count; k++) {

@@ -29,13 +29,13 @@ static status grey_range_read(struct reader *r, const struct yaml_node *n, const
     return OK;
 }
 
-status read_grey_values(struct reader *r, const struct yaml_node *n, struct voxel_part *p)
+status read_grey_values(struct reader *r, const struct yaml_node *values_node, struct voxel_part *p)
 {
     p->ranges = 0;
-    if (n->kind == NODE_SCALAR) return grey_range_read(r, n, n->text, p);
-    if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "is no grey value; 255, 100-255 or a list of these is expected");
-    for (const struct yaml_node *item = n->first; item; item = item->next) {
+    if (values_node->kind == NODE_SCALAR) return grey_range_read(r, values_node, values_node->text, p);
+    if (values_node->kind != NODE_LIST || values_node->n == 0)
+        return fault(r, values_node, "is no grey value; 255, 100-255 or a list of these is expected");
+    for (const struct yaml_node *item = values_node->first; item; item = item->next) {
         if (item->kind != NODE_SCALAR) return fault(r, item, "is no grey value; 255 or 100-255 is expected");
         TRY(grey_range_read(r, item, item->text, p));
     }
@@ -64,16 +64,18 @@ static status check_covered(struct reader *r, const struct yaml_node *n, const s
                  100 * (real)missing / (real)all, value);
 }
 
-status read_grey_materials(struct reader *r, const struct yaml_node *n, const struct voxels *v, struct voxel_part *p)
+status read_grey_materials(struct reader *r, const struct yaml_node *materials_node, const struct voxels *voxels,
+                           struct voxel_part *p)
 {
     if (!r->bounded || r->cutting)
-        return fault(r, n,
+        return fault(r, materials_node,
                      "belongs to an image that is the shape of a body; here values, such as 100-255, is expected");
-    TRY(expect_node_kind(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
+    TRY(expect_node_kind(r, materials_node, NODE_MAP,
+                         "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;
-    for (const struct yaml_node *c = n->first; c && s == OK; c = c->next) {
+    for (const struct yaml_node *c = materials_node->first; c && s == OK; c = c->next) {
         const int before = p->ranges;
         s = grey_range_read(r, c, c->key, p);
         if (s != OK) break;
@@ -86,8 +88,8 @@ status read_grey_materials(struct reader *r, const struct yaml_node *n, const st
         }
         if (is_void(c)) p->ranges = before;
     }
-    if (s == OK && p->ranges == 0) s = fault(r, n, "all is void; a material is expected");
-    if (s == OK) s = check_covered(r, n, v, in);
+    if (s == OK && p->ranges == 0) s = fault(r, materials_node, "all is void; a material is expected");
+    if (s == OK) s = check_covered(r, materials_node, voxels, in);
     memory_free(in);
     r->grey_materials++;
     return s;
@@ -129,7 +131,7 @@ static status read_grey_part(struct reader *r, const struct yaml_node *solid, co
                                  .line = entry->line,
                                  .column = entry->column,
                                  .origin = entry->origin,
-                                 .key = arena_text(r, "values", 6),
+                                 .key = arena_copy_text(r, "values", 6),
                                  .text = entry->key};
     yaml_node_append(image, values);
     GROW("parts", b->part, b->parts + 1);
@@ -138,27 +140,27 @@ static status read_grey_part(struct reader *r, const struct yaml_node *solid, co
     return read_region(r, copy, &part->region);
 }
 
-status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape, struct scene_body *b)
+status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body)
 {
-    const struct yaml_node *solid = shape && shape->kind == NODE_LIST ? shape->first : shape;
+    const struct yaml_node *solid = shape_node && shape_node->kind == NODE_LIST ? shape_node->first : shape_node;
     const int wanted = r->grey_materials;
     int found = 0;
     r->grey_materials = 0;
-    for (; solid; solid = shape->kind == NODE_LIST ? solid->next : NULL) {
+    for (; solid; solid = shape_node->kind == NODE_LIST ? solid->next : NULL) {
         const struct yaml_node *image = solid->kind == NODE_MAP ? yaml_node_find(solid, "image") : NULL;
         const struct yaml_node *materials = image ? yaml_node_find(image, "materials") : NULL;
         found += materials != NULL;
         for (const struct yaml_node *c = materials ? materials->first : NULL; c; c = c->next) {
             if (is_void(c)) continue;
-            if (b->parts == 0) b->material = material_called(r->scene, c->text);
+            if (body->parts == 0) body->material = material_called(r->scene, c->text);
             const bool bounded = r->bounded;
             r->bounded = false;
-            const status s = read_grey_part(r, solid, c, b);
+            const status s = read_grey_part(r, solid, c, body);
             r->bounded = bounded;
             TRY(s);
         }
     }
     if (found == wanted) return OK;
-    return fault(r, shape,
+    return fault(r, shape_node,
                  "materials of an image within other solids; the image itself in the list of the shape is expected");
 }

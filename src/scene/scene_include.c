@@ -22,7 +22,7 @@ struct chain {
 
 /* Returns true if the value of the key at `path` is a mapping that is merged entry by entry with an included one;
  * path "": the whole scene. Any other value replaces the included value as a whole. */
-bool key_is_merged_mapping(const char *path)
+bool key_is_merged_with_included_scene(const char *path)
 {
     if (*path == '\0') return true;
     const struct key *k = key_find("", path);
@@ -47,8 +47,8 @@ static status check_twins(const struct reader *r, const struct yaml_node *map)
 }
 
 /* Merges the mapping `over` into the mapping `under`. Values of `over` take precedence. Mappings for which
- * key_is_merged_mapping is true are merged entry by entry. An empty value removes the entry. group: path of both
- * mappings in the scene. Returns REFUSED for a key that occurs twice in a mapping. */
+ * key_is_merged_with_included_scene is true are merged entry by entry. An empty value removes the entry. group: path of
+ * both mappings in the scene. Returns REFUSED for a key that occurs twice in a mapping. */
 static status merge(struct reader *r, struct yaml_node *under, struct yaml_node *over, const char *group)
 {
     char path[64];
@@ -59,7 +59,7 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
         struct yaml_node *old = yaml_node_find(under, n->key);
         next = n->next;
         snprintf(path, sizeof path, "%.30s%s%.30s", group, *group ? "." : "", n->key);
-        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && key_is_merged_mapping(path)) {
+        if (old && old->kind == NODE_MAP && n->kind == NODE_MAP && key_is_merged_with_included_scene(path)) {
             TRY(merge(r, old, n, path));
             continue;
         }

@@ -13,7 +13,7 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
 {
     const struct scene *s = r->scene;
     const struct yaml_node *names = yaml_node_find(n, "bodies");
-    if (!names) return fault_missing_key(r, n, key_find("interfaces", "bodies"));
+    if (!names) return fault_report_missing_key(r, n, key_find("interfaces", "bodies"));
     if (names->kind != NODE_LIST || names->n != 2)
         return fault(r, names, "names of two bodies are expected, as [plate, layer]");
     const struct yaml_node *name = names->first;
@@ -92,8 +92,8 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     const struct yaml_node *list = yaml_node_find(root, "interfaces");
     for (int b = 0; b < s->bodies; b++) s->body[b].joined = b;
     if (!list) return OK;
-    TRY(expect_list(r, key_find("", "interfaces"), list));
-    if (s->method == METHOD_ADAPTIVE) return refuse_interfaces(r, list);
+    TRY(expect_list_of_valid_length(r, key_find("", "interfaces"), list));
+    if (s->method == METHOD_ADAPTIVE) return refuse_interfaces_with_adaptive_method(r, list);
     s->interface = NEW("interfaces", list->n, struct scene_interface);
     s->interfaces = list->n;
     const struct yaml_node *n = list->first;
@@ -113,7 +113,7 @@ status read_interfaces(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-status check_joined_bodies(struct reader *r, const struct yaml_node *root)
+status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root)
 {
     const struct scene *s = r->scene;
     const struct yaml_node *n = yaml_node_find(root, "boundary");

@@ -60,23 +60,24 @@ struct reader {
     const struct yaml_node *regions;  /* mapping of the named regions; NULL: none */
     const struct yaml_node *sections; /* mapping of the named plane sections of extrusions; NULL: none */
     const struct naming *naming;      /* innermost named region that is being read; NULL: none */
-    real *spacing_most; /* of limit_spacing_if_searched; NULL: strengths that do not suit the spacing are refused */
+    real *
+        spacing_most; /* of limit_spacing_of_spacing_search; NULL: strengths that do not suit the spacing are refused */
 };
 
-/* Returns `size` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
-void *arena_new(struct reader *r, size_t size);
+/* Returns `byte_count` bytes of zeros in memory of the reader r, which arena_free releases as a whole. */
+void *arena_new(struct reader *r, size_t byte_count);
 
 /* Returns a copy of the first `length` bytes of `text` with a final 0, in memory of the reader r that arena_free
  * releases. */
-char *arena_text(struct reader *r, const char *text, size_t length);
+char *arena_copy_text(struct reader *r, const char *text, size_t length);
 
 /* Releases all memory of the arena. */
 void arena_free(struct reader *r);
 
 /* Parses the YAML text text[length] to a tree of nodes in memory of the reader and stores its root in *root; NULL if
- * the text contains no value. origin: index of the file or override from which the text is (see struct yaml_node).
- * Returns REFUSED, with a message, for invalid YAML. */
-status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root);
+ * the text contains no value. origin_index: index of the file or override from which the text is (see struct
+ * yaml_node). Returns REFUSED, with a message, for invalid YAML. */
+status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin_index, struct yaml_node **root);
 
 /* Appends the node `child` to the entries of the list or mapping `parent`. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
@@ -93,7 +94,7 @@ status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("" for the whole scene) is a mapping that is merged key by key with
  * that of an included scene. Other values, such as solids, replace the included value as a whole. */
-bool key_is_merged_mapping(const char *path);
+bool key_is_merged_with_included_scene(const char *path);
 
 /* Applies all overrides of the command line, r->override, to the tree of the scene. Returns REFUSED, with a message,
  * for an invalid one. */
@@ -105,15 +106,15 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
 /* Returns the present name of the key at `path`, which an override gives: `path` itself if it is current. If the name
  * is of an earlier version of Cleave, notes this in the scene for a warning. */
-const char *key_path_present_name(struct reader *r, const char *path);
+const char *key_path_current_name_of_override(struct reader *r, const char *path);
 
-/* Returns the present name of a key that had the name `path` in an earlier version of Cleave; NULL if there was no such
- * key. */
-const char *key_present_name(const char *path);
+/* Returns the present name of a key that had the name `former_path` in an earlier version of Cleave; NULL if there was
+ * no such key. */
+const char *key_current_name_of_former_key(const char *former_path);
 
-/* Returns the name of the file from which a node was read; for an override it is the scene file. origin: member of
- * struct yaml_node. */
-const char *origin_file_name(const struct reader *r, int origin);
+/* Returns the name of the file from which a node was read; for an override it is the scene file. origin_index: member
+ * of struct yaml_node. */
+const char *origin_file_name(const struct reader *r, int origin_index);
 
 /* Returns the number of characters of the folder at the beginning of `path`, with its final slash; 0 if there is no
  * folder. */
@@ -136,13 +137,13 @@ status scene_parse_tree(struct reader *r, const char *text, size_t length, struc
 
 /* Reads all keys of the tree `root` into r->scene and checks the scene. Returns REFUSED, with a message, if it is
  * invalid. */
-status scene_from_tree(struct reader *r, const struct yaml_node *root);
+status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root);
 
 struct pilot_wish;
-/* Reads what a scene with `method: auto` requires of its pilot runs into *w, which the caller has set to zero. root:
- * tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene. */
-status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                       struct pilot_wish *w);
+/* Reads what a scene with `method: auto` requires of its pilot runs into *requirements, which the caller has set to
+ * zero. root: tree of the scene; text[length]: its text. Returns REFUSED, with a message, for an invalid scene. */
+status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
+                               struct pilot_wish *requirements);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
@@ -160,26 +161,26 @@ struct quantity {
  * form. */
 bool quantity_parse(struct quantity *q, const char *text);
 
-/* Reads the number at the beginning of `text` into *q and, if with_unit is true, the unit that follows. Returns the
+/* Reads the number at the beginning of `text` into *q and, if read_unit is true, the unit that follows. Returns the
  * number of characters that were read. On failure returns 0 and stores a description of the fault in *fault_text. */
-size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text);
+size_t quantity_read_at_start_of_text(struct quantity *q, const char *text, bool read_unit, const char **fault_text);
 
 /* Sets *q to 1 in the unit whose symbol is at the beginning of `text`. Returns the length of the symbol; 0 if there is
  * none. */
-size_t quantity_read_unit(struct quantity *q, const char *text);
+size_t quantity_read_unit_symbol(struct quantity *q, const char *text);
 
 /* Removes kelvin from the text of a unit of temperature or specific heat, such as kJ/(kg K) or kJ/kg/K, which becomes
- * kJ/kg. Writes the shortened text to plain[capacity] and returns it. Returns `text` itself if there is no kelvin, or
- * if `unit` is another kind of unit. (Kelvin is no symbol of its own, since variables may be called K.) */
-const char *unit_without_kelvin(const char *text, enum unit unit, char *plain, size_t capacity);
+ * kJ/kg. Writes the shortened text to shortened[capacity] and returns it. Returns `text` itself if there is no kelvin,
+ * or if `kind_of_unit` is another kind of unit. (Kelvin is no symbol of its own, since variables may be called K.) */
+const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity);
 
-/* Returns true if q has a unit of the kind `unit` or no unit. Otherwise returns false and writes the fault to
+/* Returns true if q has a unit of the kind `kind_of_unit` or no unit. Otherwise returns false and writes the fault to
  * message[capacity], as the rest of a sentence that begins with the text of the value. */
-bool quantity_has_unit(const struct quantity *q, enum unit unit, char *message, size_t capacity);
+bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity);
 
 /* Returns true if `value` [SI] is finite and inside the bounds of its kind of unit. Otherwise returns false and writes
  * the fault to message[capacity], as the rest of a sentence that begins with the text of the value. */
-bool value_is_in_unit_bounds(real value, enum unit unit, char *message, size_t capacity);
+bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity);
 
 /* Describes a unit for messages, as `a length`, or as `in m^2 s^-1` if its kind has no name, in text[capacity]. twice:
  * 2 times the exponents of m, kg and s. */
@@ -194,11 +195,11 @@ void unit_write_text(const int twice[3], char *text, size_t capacity);
 /* Arguments that an expression may contain besides numbers and variables of the scene: x, y, z; t. */
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
-/* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *e; a number is one,
- * too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free. Returns
- * REFUSED, with a message of one line that states the position of the fault in the text. */
+/* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *expression; a number is
+ * one, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free.
+ * Returns REFUSED, with a message of one line that states the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
-                       struct expression *e);
+                       struct expression *expression);
 
 /* Evaluates the expression `text`, which must not contain x, y, z or t, and stores its value and unit in *quantity. On
  * failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with
@@ -221,9 +222,9 @@ status read_variables(struct reader *r, const struct yaml_node *root);
 const struct quantity *variable_value(struct reader *r, const char *name, char *message, size_t capacity);
 
 /* Reads a number of a scene from `text` into *value [SI]. It may be a number with a unit, or an expression of
- * variables. unit: expected kind of unit; allow_infinity: true if inf is allowed. On failure returns false and writes
- * the fault to message[capacity], as the rest of a sentence that begins with `text`. */
-bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
+ * variables. kind_of_unit: expected kind of unit; allow_infinity: true if inf is allowed. On failure returns false and
+ * writes the fault to message[capacity], as the rest of a sentence that begins with `text`. */
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit kind_of_unit, bool allow_infinity,
                           char *message, size_t capacity);
 
 /* Improves the message message[capacity] about the invalid value `text` of key k. If `text` is a length although the
@@ -231,13 +232,13 @@ bool number_evaluate_text(struct reader *r, real *value, const char *text, enum 
  * have been read. */
 void advise_length_in_spacings(struct reader *r, const struct key *k, const char *text, char *message, size_t capacity);
 
-/* Returns the unit that is meant by the name `text` of an unknown unit, as text for a message, such as `us?` for usec.
- * Returns NULL for other names. */
-const char *unit_meant_by_word(const char *text);
+/* Returns the unit that is meant by the name `unknown_name` of an unknown unit, as text for a message, such as `us?`
+ * for usec. Returns NULL for other names. */
+const char *unit_meant_by_word(const char *unknown_name);
 
-/* Returns the meaning of the word `name`, such as "a unit", for messages, if it is reserved in expressions and thus
+/* Returns the meaning of the word `word`, such as "a unit", for messages, if it is reserved in expressions and thus
  * cannot name a variable. Returns NULL for other words. */
-const char *reserved_word_meaning(const char *name);
+const char *reserved_word_meaning(const char *word);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
 
@@ -289,44 +290,45 @@ extern const struct key keys[];
 extern const int keys_count;
 
 /* Returns the last part of the path of key k, behind the last dot. */
-const char *key_leaf(const struct key *k);
+const char *key_last_part(const struct key *k);
 
 /* Writes the meaning, type, range and default of key k to text[capacity]. */
-void key_description(const struct key *k, char *text, size_t capacity);
+void key_describe_meaning_and_type(const struct key *k, char *text, size_t capacity);
 
 /* Returns true if k is the key `path`, or a key below it. Every key is below "". */
-bool key_is_below(const struct key *k, const char *path);
+bool key_is_at_or_below_path(const struct key *k, const char *path);
 
 /* Writes the type, SI unit, range or allowed words, and default of key k to text[capacity], in one line. */
 void key_describe_type(const struct key *k, char *text, size_t capacity);
 
-/* Returns true if key k is directly below the key `group` ("" for the top of a scene). */
-bool key_is_directly_below(const struct key *k, const char *group);
+/* Returns true if key k is directly below the key `group_path` ("" for the top of a scene). */
+bool key_is_directly_below(const struct key *k, const char *group_path);
 
-/* Returns the key whose last part is `leaf` directly below the key `group` ("" for the top of a scene), or NULL. */
-const struct key *key_find(const char *group, const char *leaf);
+/* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene), or
+ * NULL. */
+const struct key *key_find(const char *group_path, const char *last_part);
 
-/* Returns the key directly below the key `group` ("" for the top of a scene) whose last part has the smallest edit
- * distance to `leaf`. */
-const struct key *key_find_most_similar(const char *group, const char *leaf);
+/* Returns the key directly below the key `group_path` ("" for the top of a scene) whose last part has the smallest edit
+ * distance to `last_part`. */
+const struct key *key_find_most_similar(const char *group_path, const char *last_part);
 
-/* Returns a key whose last part is `leaf`, in any group; one at the top of a scene if there is one. Returns NULL if
- * there is none. Stores the number of keys with this last part in *keys_of_name. */
-const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name);
+/* Returns a key whose last part is `last_part`, in any group; one at the top of a scene if there is one. Returns NULL
+ * if there is none. Stores the number of keys with this last part in *matching_key_count. */
+const struct key *key_find_in_any_group(const char *last_part, int *matching_key_count);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
 /* Writes advice for a word of another program that is no key of `group` ("" for the top of a scene) to text[capacity]:
  * the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for unknown words. */
-bool foreign_word_advice(const char *word, const char *group, char *text, size_t capacity);
+bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity);
 
-/* Returns advice, a static text, about the invalid value `value` of the key at `path`, if it is a word of another
- * program; else NULL. */
-const char *foreign_value_advice(const char *path, const char *value);
+/* Returns advice, a static text, about the invalid value `foreign_value` of the key at `key_path`, if it is a word of
+ * another program; else NULL. */
+const char *foreign_value_advice(const char *key_path, const char *foreign_value);
 
 /* Returns the keys that are equivalent to a word of another program, separated by spaces ("" if there are none); NULL
  * for unknown words. */
-const char *foreign_word_keys(const char *word);
+const char *foreign_word_equivalent_keys(const char *foreign_word);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
@@ -340,24 +342,24 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
 status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Writes a location to text[capacity]: file, line and column, or the text of the override that gives it. origin: file
- * or override (see struct yaml_node). */
-void location_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity);
+/* Writes a location to text[capacity]: file, line and column, or the text of the override that gives it. origin_index:
+ * file or override (see struct yaml_node). */
+void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity);
 
 /* Stores in r->scene where each key of the scene was given, for keys up to two levels below `root`, so that later
  * messages (scene_prepend_location) can state the location. */
-void scene_key_locations_make(const struct reader *r, const struct yaml_node *root);
+void scene_store_key_locations(const struct reader *r, const struct yaml_node *root);
 
-/* Writes the text with which messages about node `at` begin, its location and key, to text[capacity]. It is for
+/* Writes the text with which messages about node `node` begin, its location and key, to text[capacity]. It is for
  * messages that are composed after the scene has been read. */
-void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity);
+void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity);
 
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
-status fault_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
+status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
 
 /* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
  * that was set last: by an override, else in the scene file. */
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
+status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,
  * which arena_free releases. */
@@ -369,23 +371,23 @@ const char *text_for_message(struct reader *r, const char *text);
 /* Returns the words a|b|c of a choice as `a, b or c`, in memory of the reader that arena_free releases. */
 const char *words_for_message(struct reader *r, const char *words);
 
-/* Returns REFUSED, with a message, if a key of the mapping `map` is unknown in the group `group` or occurs twice; else
- * OK. */
-status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group);
+/* Returns REFUSED, with a message, if a key of the mapping `mapping` is unknown in the group `group_path` or occurs
+ * twice; else OK. */
+status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path);
 
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
  * `expected`; else OK. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected);
 
-/* Reads all keys of the group `group` that need no function of their own into the structure `base`. map: mapping with
- * the keys, or NULL to store the defaults only; where: node at whose location missing keys are reported. Returns
- * REFUSED, with a message, for a missing key or an invalid value. */
-status read_keys_of_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map,
-                          const char *group, void *base);
+/* Reads all keys of the group `group_path` that need no function of their own into the structure `group_values`.
+ * mapping: mapping with the keys, or NULL to store the defaults only; location_node: node at whose location missing
+ * keys are reported. Returns REFUSED, with a message, for a missing key or an invalid value. */
+status read_keys_of_group(struct reader *r, const struct yaml_node *location_node, const struct yaml_node *mapping,
+                          const char *group_path, void *group_values);
 
-/* Reads the value of key k from node n into `base`, the structure of its group, as the table of keys describes it.
- * Returns REFUSED, with a message, for an invalid value. */
-status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base);
+/* Reads the value of key k from node n into `group_values`, the structure of its group, as the table of keys describes
+ * it. Returns REFUSED, with a message, for an invalid value. */
+status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values);
 
 /* Reads a number in the unit and range of key k from node n into *value [SI]. Returns REFUSED, with a message, for an
  * invalid value. */
@@ -397,18 +399,18 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 
 /* Returns the space in which points are read at present, in words for messages: that of the scene, or the plane of an
  * extrusion. */
-const char *space_for_message(const struct reader *r);
+const char *space_name_for_message(const struct reader *r);
 
 /* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key
  * k. */
-status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
+status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n);
 
-/* Reads a file name from node n: searches the folder of the scene, then the current folder. Stores the path in *path
- * and a hash of the contents of the file in *contents. The caller releases *path with memory_free. file_kind: kind of
- * file, for messages. If r->files is false, copies the name without opening the file. Returns REFUSED, with a message,
- * if the file cannot be read. */
-status read_input_file_path(struct reader *r, const struct yaml_node *n, const char *file_kind, char **path,
-                            uint64_t *contents);
+/* Reads a file name from node name_node: searches the folder of the scene, then the current folder. Stores the path in
+ * *path and a hash of the contents of the file in *contents_hash. The caller releases *path with memory_free.
+ * file_kind: kind of file, for messages. If r->files is false, copies the name without opening the file. Returns
+ * REFUSED, with a message, if the file cannot be read. */
+status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,
+                            uint64_t *contents_hash);
 
 /* Words of scenes for the values of enum space, in their order. */
 extern const char *const space_names[];

@@ -3,46 +3,47 @@
 
 #include "scene_internal.h"
 
-const char *key_leaf(const struct key *k)
+const char *key_last_part(const struct key *k)
 {
     const char *dot = strrchr(k->path, '.');
     return dot ? dot + 1 : k->path;
 }
 
-bool key_is_directly_below(const struct key *k, const char *group)
+bool key_is_directly_below(const struct key *k, const char *group_path)
 {
-    size_t length = strlen(group);
+    size_t length = strlen(group_path);
     if (k->type == KEY_GROUP) return false;
     if (length == 0) return !strchr(k->path, '.');
-    return strncmp(k->path, group, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
+    return strncmp(k->path, group_path, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
 }
 
-const struct key *key_find(const char *group, const char *leaf)
+const struct key *key_find(const char *group_path, const char *last_part)
 {
     for (int k = 0; k < keys_count; k++)
-        if (key_is_directly_below(&keys[k], group) && strcmp(key_leaf(&keys[k]), leaf) == 0) return &keys[k];
+        if (key_is_directly_below(&keys[k], group_path) && strcmp(key_last_part(&keys[k]), last_part) == 0)
+            return &keys[k];
     return NULL;
 }
 
-const struct key *key_find_most_similar(const char *group, const char *leaf)
+const struct key *key_find_most_similar(const char *group_path, const char *last_part)
 {
     const struct key *nearest = NULL;
     int least = 1000;
     for (int k = 0; k < keys_count; k++) {
-        if (!key_is_directly_below(&keys[k], group)) continue;
-        int distance = edit_distance(key_leaf(&keys[k]), leaf);
+        if (!key_is_directly_below(&keys[k], group_path)) continue;
+        int distance = edit_distance(key_last_part(&keys[k]), last_part);
         if (distance < least) nearest = &keys[k], least = distance;
     }
     return nearest;
 }
 
-const struct key *key_find_in_any_group(const char *leaf, int *keys_of_name)
+const struct key *key_find_in_any_group(const char *last_part, int *matching_key_count)
 {
     const struct key *first = NULL;
-    *keys_of_name = 0;
+    *matching_key_count = 0;
     for (int k = 0; k < keys_count; k++) {
-        if (keys[k].type == KEY_GROUP || strcmp(key_leaf(&keys[k]), leaf) != 0) continue;
-        if ((*keys_of_name)++ == 0 || !strchr(keys[k].path, '.')) first = &keys[k];
+        if (keys[k].type == KEY_GROUP || strcmp(key_last_part(&keys[k]), last_part) != 0) continue;
+        if ((*matching_key_count)++ == 0 || !strchr(keys[k].path, '.')) first = &keys[k];
     }
     return first;
 }
@@ -53,7 +54,7 @@ const char *scene_key_unit(const char *path)
     const size_t group = strcspn(path, ".[");
     bool unique = true;
     for (int k = 0; k < keys_count; k++) {
-        if (keys[k].type == KEY_GROUP || strcmp(key_leaf(&keys[k]), leaf) != 0) continue;
+        if (keys[k].type == KEY_GROUP || strcmp(key_last_part(&keys[k]), leaf) != 0) continue;
         const char *symbol = unit_rows[keys[k].unit].symbol;
         const size_t own = strcspn(keys[k].path, ".");
         /* `materials` of a path is the group `material` */

@@ -82,11 +82,11 @@ static status read_hardening_law(struct reader *r, const struct yaml_node *mater
     for (int flow = 0; flow < FLOW_LAWS; flow++) {
         const char *word = flow_properties[flow].word;
         const struct yaml_node *one = word ? yaml_node_find(n, word) : NULL;
-        if (one && given) return fault_exclusive_keys(r, given, one);
+        if (one && given) return fault_report_exclusive_keys(r, given, one);
         if (one) given = one, law->flow = flow;
     }
     if (!given) return fault_no_law(r, n);
-    if (modulus) return fault_exclusive_keys(r, modulus, n);
+    if (modulus) return fault_report_exclusive_keys(r, modulus, n);
     law->given = true;
     if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
     snprintf(group, sizeof group, "material.hardening.%s", flow_properties[law->flow].word);
@@ -100,7 +100,7 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
 {
     const struct yaml_node *hardening = yaml_node_find(material, "hardening"),
                            *modulus = yaml_node_find(material, "yield_hardening");
-    if (hardening || modulus) return fault_exclusive_keys(r, hardening ? hardening : modulus, n);
+    if (hardening || modulus) return fault_report_exclusive_keys(r, hardening ? hardening : modulus, n);
     TRY(read_keys_of_group(r, n, n, "material.johnson_cook", law));
     law->given = true, law->flow = FLOW_JOHNSON_COOK;
     if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
@@ -131,10 +131,10 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
                            *tangent = yaml_node_find(material, "yield_tangent");
     const bool own = flow_properties[m->law.flow].own_yield;
     const bool linear = m->law.flow == FLOW_LINEAR && !yaml_node_find(material, "hardening");
-    if (own && isfinite(m->yield_stress)) return fault_exclusive_keys(r, yield, law_node);
+    if (own && isfinite(m->yield_stress)) return fault_report_exclusive_keys(r, yield, law_node);
     if (!own && !isfinite(m->yield_stress))
         return fault(r, law_node, "needs the yield stress at no plastic strain; yield_stress is expected beside it");
-    if (!linear && m->yield_tangent > 0) return fault_exclusive_keys(r, tangent, law_node);
+    if (!linear && m->yield_tangent > 0) return fault_report_exclusive_keys(r, tangent, law_node);
     return OK;
 }
 
@@ -142,25 +142,26 @@ static status check_first_yield(struct reader *r, const struct yaml_node *materi
  * for messages. */
 static status check_law_place(struct reader *r, const struct yaml_node *law_node)
 {
-    return r->scene->method == METHOD_MPM ? OK : refuse_flow_law(r, law_node);
+    return r->scene->method == METHOD_MPM ? OK : refuse_flow_law_without_mpm(r, law_node);
 }
 
-status read_flow_law(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material)
 {
-    struct law *law = &m->law;
-    const struct yaml_node *hardening = yaml_node_find(n, "hardening"), *kinematic = yaml_node_find(n, "kinematic"),
-                           *johnson_cook = yaml_node_find(n, "johnson_cook"),
+    struct law *law = &material->law;
+    const struct yaml_node *hardening = yaml_node_find(material_node, "hardening"),
+                           *kinematic = yaml_node_find(material_node, "kinematic"),
+                           *johnson_cook = yaml_node_find(material_node, "johnson_cook"),
                            *first = hardening ? hardening : johnson_cook;
-    if (hardening) TRY(read_hardening_law(r, n, hardening, law));
-    if (johnson_cook) TRY(read_johnson_cook(r, n, johnson_cook, law));
+    if (hardening) TRY(read_hardening_law(r, material_node, hardening, law));
+    if (johnson_cook) TRY(read_johnson_cook(r, material_node, johnson_cook, law));
     if (!first) first = kinematic;
     if (kinematic) TRY(read_keys_of_group(r, kinematic, kinematic, "material.kinematic", law));
-    if (!law->given && (kinematic || (material_yields(m) && r->scene->method != METHOD_PD))) {
+    if (!law->given && (kinematic || (material_yields(material) && r->scene->method != METHOD_PD))) {
         law->given = true, law->flow = FLOW_LINEAR;
-        law->hardening = m->young * m->yield_tangent / (m->young - m->yield_tangent);
+        law->hardening = material->young * material->yield_tangent / (material->young - material->yield_tangent);
     }
-    TRY(read_heat(r, n, law));
+    TRY(read_heat(r, material_node, law));
     if (!first) return OK;
-    TRY(check_first_yield(r, n, first, m));
+    TRY(check_first_yield(r, material_node, first, material));
     return check_law_place(r, first);
 }

@@ -77,13 +77,14 @@ static status read_formula(struct reader *r, const struct key *k, const struct y
     return read_number(r, k, n, value);
 }
 
-status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *n,
+status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula)
 {
     int d = 0;
-    if (n->kind == NODE_SCALAR && r->dim == 1) return read_formula(r, k, n, further_variables, value, formula);
-    if (n->kind != NODE_LIST || n->n != r->dim) return read_point(r, k, n, value);
-    for (const struct yaml_node *c = n->first; c; c = c->next, d++)
+    if (vector_node->kind == NODE_SCALAR && r->dim == 1)
+        return read_formula(r, k, vector_node, further_variables, value, formula);
+    if (vector_node->kind != NODE_LIST || vector_node->n != r->dim) return read_point(r, k, vector_node, value);
+    for (const struct yaml_node *c = vector_node->first; c; c = c->next, d++)
         TRY(read_formula(r, k, c, further_variables, &value[d], &formula[d]));
     return OK;
 }
@@ -136,24 +137,25 @@ static status read_velocity(struct reader *r, const struct yaml_node *n, struct 
                                  b->displaces ? "displacement" : "velocity");
 }
 
-status read_rotation_axis(struct reader *r, const struct yaml_node *n, const char *group, real *axis)
+status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_node, const char *group_path,
+                          real *unit_vector)
 {
-    const struct key *k = key_find(group, "axis");
-    const struct yaml_node *list = yaml_node_find(n, "axis");
+    const struct key *k = key_find(group_path, "axis");
+    const struct yaml_node *list = yaml_node_find(rotation_node, "axis");
     int d = 0;
-    if (r->dim == 1) return fault(r, n, "space line does not turn; a plane space or solid is expected");
-    axis[2] = 1;
+    if (r->dim == 1) return fault(r, rotation_node, "space line does not turn; a plane space or solid is expected");
+    unit_vector[2] = 1;
     if (!list && r->dim == 2) return OK;
-    if (!list) return fault_missing_key(r, n, k);
+    if (!list) return fault_report_missing_key(r, rotation_node, k);
     if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
         return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_text(r, list));
     for (const struct yaml_node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
-        TRY(read_number(r, &plain, c, &axis[d++]));
+        TRY(read_number(r, &plain, c, &unit_vector[d++]));
     }
-    const real length2 = dot(axis, axis, DIM_MAX);
+    const real length2 = dot(unit_vector, unit_vector, DIM_MAX);
     return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; as [0, 0, 1]");
 }
 
@@ -201,7 +203,7 @@ static status read_face(struct reader *r, const struct yaml_node *map, struct bo
 {
     const struct yaml_node *n = yaml_node_find(map, "face");
     const struct key *k = key_find("boundary", "face");
-    if (!n) return fault_missing_key(r, map, k);
+    if (!n) return fault_report_missing_key(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index_in_list(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
         return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_text(r, n),
@@ -342,7 +344,7 @@ static status gravity_add(struct reader *r, const struct yaml_node *n)
             return fault(r, n, "a boundary has this name; another one is expected there");
     *b = (struct boundary){.name = "gravity", .kind = BOUNDARY_BODY_FORCE, .body = -1, .by_mass = true};
     memcpy(b->value, s->gravity, sizeof b->value);
-    fault_write_location(r, n, b->place, sizeof b->place);
+    fault_write_location_of_node(r, n, b->place, sizeof b->place);
     s->boundaries++;
     return OK;
 }
@@ -352,13 +354,13 @@ status read_boundaries(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "boundary"), *n = list ? list->first : NULL;
     const bool falls = dot(s->gravity, s->gravity, s->dim) > 0;
-    if (list) TRY(expect_list(r, key_find("", "boundary"), list));
+    if (list) TRY(expect_list_of_valid_length(r, key_find("", "boundary"), list));
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
     for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
         s->boundaries++; /* released with the scene if the rest is refused */
         b->body = -1, b->end = s->duration;
-        fault_write_location(r, n, b->place, sizeof b->place);
+        fault_write_location_of_node(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
         TRY(read_boundary(r, n, b));
         for (int j = 0; j < k; j++)

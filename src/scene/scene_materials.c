@@ -73,8 +73,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, true);
-    family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
-    return sqrt(m->energy_release_rate / family_separation_work_over_stretch_squared(&f, &modulus, !s->bulk));
+    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    return sqrt(m->energy_release_rate / family_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk));
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
@@ -88,7 +88,8 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
     s->given = true;
     const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
     const struct yaml_node *other = yaml_node_find(n, own[!s->form]);
-    if (!yaml_node_find(n, own[s->form])) return fault_missing_key(r, n, key_find("material.scatter", own[s->form]));
+    if (!yaml_node_find(n, own[s->form]))
+        return fault_report_missing_key(r, n, key_find("material.scatter", own[s->form]));
     if (other)
         return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
@@ -148,15 +149,15 @@ status read_materials(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
-    if (!one && !many) return fault_missing_key(r, root, key_find("", "material"));
-    if (one && many) return fault_exclusive_keys(r, one, many);
-    if (many) TRY(expect_list(r, key_find("", "materials"), many));
+    if (!one && !many) return fault_report_missing_key(r, root, key_find("", "material"));
+    if (one && many) return fault_report_exclusive_keys(r, one, many);
+    if (many) TRY(expect_list_of_valid_length(r, key_find("", "materials"), many));
     s->materials = many ? many->n : 1;
     s->material = NEW("materials", s->materials, struct material);
     const struct yaml_node *n = many ? many->first : one;
     for (int k = 0; k < s->materials; k++, n = n->next) {
         TRY(scene_parts_read_material(r, n, &s->material[k]));
-        if (many && !yaml_node_find(n, "name")) return fault_missing_key(r, n, key_find("material", "name"));
+        if (many && !yaml_node_find(n, "name")) return fault_report_missing_key(r, n, key_find("material", "name"));
         for (int j = 0; j < k; j++)
             if (strcmp(s->material[j].name, s->material[k].name) == 0)
                 return fault(r, yaml_node_find(n, "name"), "%s is the name of another material", s->material[k].name);

@@ -6,7 +6,7 @@
 
 static const char *const motion_words[] = {"move", "rotate", "mirror", "pattern"};
 
-bool node_is_solid_motion(const struct yaml_node *n)
+bool node_is_motion_key_of_solid(const struct yaml_node *n)
 {
     bool is = false;
     for (size_t k = 0; k < COUNT_OF(motion_words); k++) is |= strcmp(n->key, motion_words[k]) == 0;
@@ -93,13 +93,13 @@ static status read_motion(struct reader *r, const struct yaml_node *n, const str
     }
 }
 
-status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
 {
-    for (const struct yaml_node *c = n->first; c; c = c->next) {
+    for (const struct yaml_node *c = solid_node->first; c; c = c->next) {
         struct solid_motion m = {0};
-        if (!node_is_solid_motion(c)) continue;
-        TRY(read_motion(r, c, s, &m));
-        if (!solid_add_motion(s, &m, r->dim))
+        if (!node_is_motion_key_of_solid(c)) continue;
+        TRY(read_motion(r, c, solid, &m));
+        if (!solid_apply_motion_if_not_too_many_copies(solid, &m, r->dim))
             return fault(r, c, "makes more than %d copies; fewer are fine", IMAGES_MOST);
     }
     return OK;

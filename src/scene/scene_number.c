@@ -150,23 +150,23 @@ status read_variables(struct reader *r, const struct yaml_node *root)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Reads a number, or an expression of variables, from `text` into *value [SI]. unit: expected kind of unit;
+/* Reads a number, or an expression of variables, from `text` into *value [SI]. kind_of_unit: expected kind of unit;
  * allow_infinity: true if inf is allowed. Returns false if the text is invalid, with the fault in message[capacity] as
  * the rest of a sentence that begins with `text`. */
-bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit unit, bool allow_infinity,
+bool number_evaluate_text(struct reader *r, real *value, const char *text, enum unit kind_of_unit, bool allow_infinity,
                           char *message, size_t capacity)
 {
     char other[256];
     struct quantity q;
-    if (number_read(value, text, unit, allow_infinity, message, capacity)) return true;
+    if (number_read(value, text, kind_of_unit, allow_infinity, message, capacity)) return true;
     const bool known = quantity_evaluate_text(r, text, &q, other, sizeof other);
-    if (known && unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
-        snprintf(message, capacity, "has no unit; %s is expected, as %s", unit_rows[unit].name,
-                 unit_rows[unit].example);
+    if (known && kind_of_unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
+        snprintf(message, capacity, "has no unit; %s is expected, as %s", unit_rows[kind_of_unit].name,
+                 unit_rows[kind_of_unit].example);
         return false;
     }
-    if (known && quantity_has_unit(&q, unit, other, sizeof other) &&
-        value_is_in_unit_bounds(q.value, unit, other, sizeof other)) {
+    if (known && quantity_has_unit(&q, kind_of_unit, other, sizeof other) &&
+        value_is_in_unit_bounds(q.value, kind_of_unit, other, sizeof other)) {
         *value = q.value;
         return true;
     }
@@ -184,6 +184,6 @@ void advise_length_in_spacings(struct reader *r, const struct key *k, const char
         snprintf(message, capacity, "is a length; this key takes a number of spacings");
         return;
     }
-    snprintf(message, capacity, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_leaf(k),
-             length / r->scene->spacing, strcmp(key_leaf(k), "horizon") ? "" : " (3.015 is usual)");
+    snprintf(message, capacity, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_last_part(k),
+             length / r->scene->spacing, strcmp(key_last_part(k), "horizon") ? "" : " (3.015 is usual)");
 }

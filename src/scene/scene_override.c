@@ -38,7 +38,7 @@ static struct yaml_node *new_entry(struct reader *r, struct yaml_node *map, cons
 {
     struct yaml_node *n = arena_new(r, sizeof *n);
     *n = (struct yaml_node){.kind = NODE_MAP, .line = 1, .column = 1, .origin = origin, .text = ""};
-    n->key = arena_text(r, key, length);
+    n->key = arena_copy_text(r, key, length);
     yaml_node_append(map, n);
     return n;
 }
@@ -93,7 +93,7 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
                                  text_for_message(r, name));
     }
     if (used) snprintf(text + used, sizeof text - used, "%s)", used < 100 ? "" : ", ...");
-    return arena_text(r, text, strlen(text));
+    return arena_copy_text(r, text, strlen(text));
 }
 
 /* Finds *out, the item of a list that `key` (of `length` characters) addresses: by index, by name, or by the name of
@@ -102,7 +102,7 @@ static const char *names_text(struct reader *r, const struct yaml_node *list)
 static status item_called(struct reader *r, struct yaml_node *list, const char *key, size_t length, int origin,
                           struct yaml_node **out)
 {
-    const char *called = arena_text(r, key, length);
+    const char *called = arena_copy_text(r, key, length);
     const size_t stem = list->key && strncmp(called, list->key, strlen(list->key)) == 0 ? strlen(list->key) : 0;
     const size_t digits = strspn(called + stem, "0123456789");
     const bool number = digits > 0 && digits <= 6 && stem + digits == length;
@@ -155,7 +155,7 @@ static struct yaml_node *probe_keys(struct reader *r, struct yaml_node *item, co
 static status scene_override_entry_of(struct reader *r, struct yaml_node *map, const char *key, size_t length,
                                       int origin, struct yaml_node **out)
 {
-    struct yaml_node at = {.origin = origin, .key = arena_text(r, key, length)};
+    struct yaml_node at = {.origin = origin, .key = arena_copy_text(r, key, length)};
     if (map->kind == NODE_LIST) return item_called(r, map, key, length, origin, out);
     map = probe_keys(r, map, key, length, origin);
     bool empty = map->kind == NODE_SCALAR && *map->text == '\0';
@@ -203,7 +203,7 @@ static void replace(struct yaml_node *n, const struct yaml_node *value)
 static status override_one(struct reader *r, struct yaml_node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
-    const char *path = key_path_present_name(r, o->key), *key = NULL;
+    const char *path = key_path_current_name_of_override(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
     struct yaml_node *n = root, *value;
@@ -237,8 +237,8 @@ status tree_apply_override(struct reader *r, struct yaml_node *root, const char 
     const int n = r->overrides;
     struct scene_override *more = arena_new(r, (size_t)(n + 1) * sizeof *more);
     array_copy(more, r->override, n, sizeof *more);
-    more[n].key = arena_text(r, key, strlen(key));
-    more[n].value = arena_text(r, value, strlen(value));
+    more[n].key = arena_copy_text(r, key, strlen(key));
+    more[n].value = arena_copy_text(r, value, strlen(value));
     r->override = more;
     return override_one(r, root, r->overrides++);
 }

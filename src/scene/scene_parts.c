@@ -42,16 +42,16 @@ static status read_particle_list(struct reader *r, const struct yaml_node *n, st
     const bool mapping = n->kind == NODE_MAP;
     const struct yaml_node *file = mapping ? yaml_node_find(n, "file") : n;
     const struct yaml_node *columns = mapping ? yaml_node_find(n, "columns") : NULL;
-    fault_write_location(r, n, b->place, sizeof b->place);
+    fault_write_location_of_node(r, n, b->place, sizeof b->place);
     if (mapping) TRY(read_keys_of_group(r, n, n, "bodies.particles", b));
-    if (!file) return fault_missing_key(r, n, key_find("bodies.particles", "file"));
+    if (!file) return fault_report_missing_key(r, n, key_find("bodies.particles", "file"));
     if (file->kind != NODE_SCALAR || !path_has_particle_list_extension(file->text))
         return fault(r, file, "%s is no particle list; a file name that ends in .csv, .h5 or .exo is expected",
                      node_text(r, file));
-    if (mapping) TRY(read_file_unit(r, n, false, &b->form.scale));
+    if (mapping) TRY(read_length_unit_of_file(r, n, false, &b->form.scale));
     if (columns) TRY(read_list_columns(r, columns, b));
     TRY(read_input_file_path(r, file, "a particle list", &b->file, &b->contents));
-    return r->files ? particle_list_read_head(&b->list, b->file, &b->form, r->dim) : OK;
+    return r->files ? particle_list_read_column_names(&b->list, b->file, &b->form, r->dim) : OK;
 }
 
 /* Returns REFUSED if body b is not rigid and has keys of rigid bodies, or is rigid and has keys of others. n: its
@@ -72,7 +72,7 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
             return fault(r, yaml_node_find(n, others[k]),
                          "a rigid body has none; a shape is expected, and a mass if "
                          "it flies");
-    if (b->rigid && region_has_infinite_box(&b->shape, r->scene->dim))
+    if (b->rigid && region_contains_infinite_box_solid(&b->shape, r->scene->dim))
         return fault(r, yaml_node_find(n, "shape"), "a box without end; a half-space is expected");
     return OK;
 }
@@ -82,7 +82,7 @@ static status check_rigid_body(struct reader *r, const struct yaml_node *n, cons
 static status scene_parts_read_body(struct reader *r, const struct yaml_node *n, struct scene_body *b, int number)
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape"), *file = yaml_node_find(n, "particles");
-    fault_write_location(r, n, b->place, sizeof b->place);
+    fault_write_location_of_node(r, n, b->place, sizeof b->place);
     b->material = -1;
     r->bounded = !yaml_node_find(n, "rigid");
     TRY(read_keys_of_group(r, n, n, "bodies", b));
@@ -90,11 +90,11 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     TRY(check_rigid_body(r, n, b));
     TRY(read_body_parts_by_grey_value(r, shape, b));
     TRY(read_body_parts(r, yaml_node_find(n, "parts"), key_find("bodies", "parts"), b));
-    if (!shape && !file) return fault_missing_key(r, n, key_find("bodies", "shape"));
-    if (shape && file) return fault_exclusive_keys(r, shape, file);
+    if (!shape && !file) return fault_report_missing_key(r, n, key_find("bodies", "shape"));
+    if (shape && file) return fault_report_exclusive_keys(r, shape, file);
     if (file) TRY(read_particle_list(r, file, b));
     if (!b->rigid && b->material < 0 && r->scene->materials > 1 && !b->list.material)
-        return fault_missing_key(r, n, key_find("bodies", "material"));
+        return fault_report_missing_key(r, n, key_find("bodies", "material"));
     if (b->material < 0) b->material = 0;
     if (!yaml_node_find(n, "frame")) b->frame = r->scene->frame;
     for (int j = 0; j < number; j++)
@@ -121,17 +121,17 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *one = yaml_node_find(root, "body"), *many = yaml_node_find(root, "bodies");
-    if (!one && !many) return fault_missing_key(r, root, key_find("", "body"));
-    if (one && many) return fault_exclusive_keys(r, one, many);
+    if (!one && !many) return fault_report_missing_key(r, root, key_find("", "body"));
+    if (one && many) return fault_report_exclusive_keys(r, one, many);
     const struct yaml_node *parts = yaml_node_find(root, "parts");
     if (many && parts) return fault(r, parts, "of which body is it; bodies have parts of their own");
-    if (many) TRY(expect_list(r, key_find("", "bodies"), many));
+    if (many) TRY(expect_list_of_valid_length(r, key_find("", "bodies"), many));
     const int n_bodies = many ? many->n : 1;
     s->body = NEW("bodies", n_bodies, struct scene_body);
     if (one) {
         s->bodies = 1;
         strcpy(s->body->name, "body");
-        fault_write_location(r, one, s->body->place, sizeof s->body->place);
+        fault_write_location_of_node(r, one, s->body->place, sizeof s->body->place);
         s->body->frame = s->frame;
         r->bounded = true;
         TRY(read_region(r, one, &s->body->shape));
@@ -154,7 +154,7 @@ status read_bodies(struct reader *r, const struct yaml_node *root)
     sort_bodies(s, n_bodies);
     if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
     if (s->rigids == 0) return OK;
-    return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_rigid(r, many) : OK;
+    return s->method == METHOD_MPM || scene_is_single_equilibrium(s) ? refuse_unsupported_rigid_bodies(r, many) : OK;
 }
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
@@ -202,10 +202,10 @@ static status read_initial_rotation(struct reader *r, const struct yaml_node *ma
                            *centre = yaml_node_find(map, "centre");
     real w[DIM_MAX] = {0}, rate;
     if (!n) return OK;
-    if (gradient || centre) return fault_exclusive_keys(r, n, gradient ? gradient : centre);
+    if (gradient || centre) return fault_report_exclusive_keys(r, n, gradient ? gradient : centre);
     TRY(read_keys_of_group(r, n, n, "initial.rotation", initial));
     TRY(read_rotation_axis(r, n, "initial.rotation", w));
-    if (!yaml_node_find(n, "rate")) return fault_missing_key(r, n, key_find("initial.rotation", "rate"));
+    if (!yaml_node_find(n, "rate")) return fault_report_missing_key(r, n, key_find("initial.rotation", "rate"));
     TRY(read_number(r, key_find("initial.rotation", "rate"), yaml_node_find(n, "rate"), &rate));
     const real scale = rate / sqrt(dot(w, w, DIM_MAX));
     for (int a = 0; a < r->dim; a++)
@@ -229,7 +229,7 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
-    fault_write_location(r, n, initial->place, sizeof initial->place);
+    fault_write_location_of_node(r, n, initial->place, sizeof initial->place);
     TRY(read_keys_of_group(r, n, n, "initial", initial));
     TRY(read_initial_velocity(r, yaml_node_find(n, "velocity"), initial));
     TRY(read_pulse(r, yaml_node_find(n, "pulse"), initial));
@@ -245,7 +245,7 @@ status read_initial_states(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "initial");
     if (!list) return OK;
-    TRY(expect_list(r, key_find("", "initial"), list));
+    TRY(expect_list_of_valid_length(r, key_find("", "initial"), list));
     s->initials = list->n;
     s->initial = NEW("initial states", list->n, struct scene_initial);
     const struct yaml_node *n = list->first;
@@ -306,7 +306,7 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "growth");
     if (!list) return check_growth_probes(r, root);
-    TRY(expect_list(r, key_find("", "growth"), list));
+    TRY(expect_list_of_valid_length(r, key_find("", "growth"), list));
     if (s->dim != 2) return fault(r, list, "plane spaces only in this version");
     if (s->method == METHOD_MPM) return fault(r, list, "method mpm has no bonds to cut; pd or adaptive is expected");
     s->growths = list->n;
@@ -339,13 +339,13 @@ static status read_frame_region(struct reader *r, const struct yaml_node *n, int
     return OK;
 }
 
-status read_frame_regions(struct reader *r, const struct yaml_node *root)
+status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root)
 {
     struct scene *s = r->scene;
     const struct yaml_node *output = yaml_node_find(root, "output"),
                            *list = output ? yaml_node_find(output, "regions") : NULL;
     if (!list) return OK;
-    TRY(expect_list(r, key_find("output", "regions"), list));
+    TRY(expect_list_of_valid_length(r, key_find("output", "regions"), list));
     s->n_series = list->n;
     s->series = NEW("scene.series", list->n, struct scene_series);
     const struct yaml_node *n = list->first;

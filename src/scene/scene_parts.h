@@ -6,47 +6,48 @@
 
 /* Reads a region, a list of solids, from node n into *region. Solids may be names of other regions, which are inserted.
  * Returns REFUSED, with a message, if it is invalid. */
-status read_region(struct reader *r, const struct yaml_node *n, struct region *region);
+status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region);
 
 /* Reads the named regions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
  * invalid. */
 status read_regions(struct reader *r, const struct yaml_node *root);
 
-/* Reads a solid whose surface is in an STL file from node n into *s. Returns REFUSED, with a message, for an invalid
- * key or file. */
-status read_stl_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
+/* Reads a solid whose surface is in an STL file from node n into *solid. Returns REFUSED, with a message, for an
+ * invalid key or file. */
+status read_stl_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from node n into *s: a mesh from a file, or a set of its elements or nodes. Returns REFUSED, with a
+/* Reads a solid from node n into *solid: a mesh from a file, or a set of its elements or nodes. Returns REFUSED, with a
  * message, for an invalid key or file. */
-status read_mesh_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
+status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from node n into *s: the voxels of an image that have certain grey values. Returns REFUSED, with a
+/* Reads a solid from node n into *solid: the voxels of an image that have certain grey values. Returns REFUSED, with a
  * message, for an invalid key or file. */
-status read_image_solid(struct reader *r, const struct yaml_node *n, struct solid *s);
+status read_image_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Adds a part to body b for each material that the images in its shape assign to grey values. shape: node of the shape.
- * Returns REFUSED, with a message, for an unknown material or invalid grey values. */
-status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape, struct scene_body *b);
+/* Adds a part to body b for each material that the images in its shape assign to grey values. shape_node: node of the
+ * shape. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
+status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
 /* Returns true if node n is a key that moves, turns or repeats a solid. */
-bool node_is_solid_motion(const struct yaml_node *n);
+bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
-/* Reads the keys of node n that move, turn and repeat a solid, and stores these motions in *s. Returns REFUSED, with a
- * message, for invalid keys. */
-status read_motions(struct reader *r, const struct yaml_node *n, struct solid *s);
+/* Reads the keys of node n that move, turn and repeat a solid, and stores these motions in *solid. Returns REFUSED,
+ * with a message, for invalid keys. */
+status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
 status read_materials(struct reader *r, const struct yaml_node *root);
 
-/* Reads the flow law, kinematic hardening and heating of material m. n: node of the material. The keys of linear
- * hardening must have been read before. Returns REFUSED, with a message, for invalid constants, contradictions, and if
- * the method or solver does not support flow laws. */
-status read_flow_law(struct reader *r, const struct yaml_node *n, struct material *m);
+/* Reads the flow law, kinematic hardening and heating of material m. material_node: node of the material. The keys of
+ * linear hardening must have been read before. Returns REFUSED, with a message, for invalid constants, contradictions,
+ * and if the method or solver does not support flow laws. */
+status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
-/* Reads the parts of body b, the regions of it that have materials of their own, from `list`, the value of key k. list:
- * NULL if the key is not given. Returns REFUSED, with a message, for an invalid part. */
-status read_body_parts(struct reader *r, const struct yaml_node *list, const struct key *k, struct scene_body *b);
+/* Reads the parts of body b, the regions of it that have materials of their own, from `parts_node`, the value of key k.
+ * parts_node: NULL if the key is not given. Returns REFUSED, with a message, for an invalid part. */
+status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
+                       struct scene_body *body);
 
 status read_cracks(struct reader *r, const struct yaml_node *root);
 status read_crack_growths(struct reader *r, const struct yaml_node *root);
@@ -54,36 +55,37 @@ status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of boundary b from node n. If n is NULL or `constant`, the function is 1. Returns REFUSED,
  * with a message, for an invalid function. */
-status read_time_function(struct reader *r, const struct yaml_node *n, struct boundary *b);
+status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary);
 
-/* Reads the axis of a rotation from the mapping n into axis[DIM_MAX], a unit vector; in 2D it is z. group: path of the
- * keys of the rotation. Returns REFUSED, with a message, for an invalid axis. */
-status read_rotation_axis(struct reader *r, const struct yaml_node *n, const char *group, real *axis);
+/* Reads the axis of a rotation from the mapping n into unit_vector[DIM_MAX], a unit vector; in 2D it is z. group_path:
+ * path of the keys of the rotation. Returns REFUSED, with a message, for an invalid axis. */
+status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_node, const char *group_path,
+                          real *unit_vector);
 
 /* Reads the components of a vector from node n. A number is stored in value[d], a formula in formula[d], and then
  * value[d] is 1. k: key of the vector, for unit and range; further_variables: variables other than x, y and z that
  * formulas may contain (EXPRESS_*). Returns REFUSED, with a message, for an invalid component. */
-status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *n,
+status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
 status read_boundaries(struct reader *r, const struct yaml_node *root);
 status read_probes(struct reader *r, const struct yaml_node *root);
-status read_frame_regions(struct reader *r, const struct yaml_node *root);
+status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root);
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. root:
  * tree of the scene. Returns REFUSED, with a message, for keys that contradict each other. */
-status check_keys_of_scene(struct reader *r, const struct yaml_node *root);
+status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Materials
  * must have been read before. root: tree of the scene, to see whether the key is given. */
-void resolve_safety_factor(struct reader *r, const struct yaml_node *root);
+void resolve_default_time_step_safety_factor(struct reader *r, const struct yaml_node *root);
 
 /* Sets the default of contact.between, the bodies between which contact acts. root: tree of the scene. Returns REFUSED
  * for contact with a static solver, and for friction without contact. */
-status resolve_contact(struct reader *r, const struct yaml_node *root);
+status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED if the bodies of the scene would have more particles than 32-bit indices can count. Bodies must have
  * been read before. root: tree of the scene, for the location in the message. */
-status check_particle_count(struct reader *r, const struct yaml_node *root);
+status check_particle_count_fits_indices(struct reader *r, const struct yaml_node *root);
 
 /* Reads the interfaces between bodies into r->scene and joins these bodies. root: tree of the scene. Returns REFUSED,
  * with a message, for an invalid interface. */
@@ -91,38 +93,40 @@ status read_interfaces(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, if a boundary condition applies to only one of several joined bodies. root: tree of
  * the scene. */
-status check_joined_bodies(struct reader *r, const struct yaml_node *root);
+status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
  * horizon and space of the scene s. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
 /* Reports the largest spacing with which a material can have its strength [m] to a search for the spacing: reduces
- * *r->spacing_most to `largest` if it is larger. Returns false, and does nothing, if r->spacing_most is NULL, that is,
- * if there is no such search. Only in the latter case is a strength refused because of the present spacing. */
-static inline bool limit_spacing_if_searched(struct reader *r, real largest)
+ * *r->spacing_most to `largest_spacing` if it is larger. Returns false, and does nothing, if r->spacing_most is NULL,
+ * that is, if there is no such search. Only in the latter case is a strength refused because of the present spacing. */
+static inline bool limit_spacing_of_spacing_search(struct reader *r, real largest_spacing)
 {
-    if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest);
+    if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest_spacing);
     return r->spacing_most != NULL;
 }
 
 /* Sets m->onset_stretch, the stretch at which bonds of material m begin to soften, from its tensile strength;
- * m->critical_stretch must be set. n: node of the material. Returns REFUSED if bonds cannot soften with the method or
- * model of the scene, or if they would break before the tensile strength is reached. */
-status read_softening_onset(struct reader *r, const struct yaml_node *n, struct material *m);
+ * m->critical_stretch must be set. material_node: node of the material. Returns REFUSED if bonds cannot soften with the
+ * method or model of the scene, or if they would break before the tensile strength is reached. */
+status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 /* Sets the strength surface of material m, if the scene gives strengths other than the tensile one, and
- * m->onset_stretch; m->critical_stretch must be set. n: node of the material. Returns REFUSED if the strengths
- * contradict each other, or if bonds would begin to soften before the stress reaches the surface in tension. */
-status read_strength_surface(struct reader *r, const struct yaml_node *n, struct material *m);
+ * m->onset_stretch; m->critical_stretch must be set. material_node: node of the material. Returns REFUSED if the
+ * strengths contradict each other, or if bonds would begin to soften before the stress reaches the surface in tension.
+ */
+status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of material m. n: node of the strength, for
- * the message. */
-status check_strength_size(struct reader *r, const struct yaml_node *n, const struct material *m, real strength);
+/* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of material m. strength_node: node of the
+ * strength, for the message. */
+status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
+                                             const struct material *material, real strength);
 
 /* Returns REFUSED if the material with the index k, read from node n, has another softening law than an earlier
  * material. All bonds of a scene must have one law, since bonds between two materials have one curve. */
-status check_single_softening_law(struct reader *r, const struct yaml_node *n, int material_index);
+status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
 /* Returns REFUSED for friction where it is not supported: with the contact law between pairs of particles, or together
  * with planes of symmetry. root: tree of the scene. */
@@ -130,20 +134,20 @@ status check_friction_is_supported(struct reader *r, const struct yaml_node *roo
 
 /* Returns REFUSED, with a message, if a static problem has absorbing boundaries. root: tree of the scene, for the
  * location in the message. */
-status check_absorbing_needs_dynamics(struct reader *r, const struct yaml_node *root);
+status check_no_absorbing_boundary_if_static(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED for loads that static solvers, or particles at randomly shifted positions, do not support. root: tree
  * of the scene. */
-status check_supported_loads(struct reader *r, const struct yaml_node *root);
+status check_loads_are_supported(struct reader *r, const struct yaml_node *root);
 
 /* Decides where shape functions are evaluated for bodies whose frame is `auto`. The frame is `current` (at the present
  * positions of material points) if a body does not support `reference`, with the reason in body.frame_reason. Otherwise
  * it remains `auto`, and the choice is made when the particles exist. Bodies must have been read before. */
-void resolve_reference_frames(struct scene *s);
+void resolve_automatic_frames_of_bodies(struct scene *s);
 
 /* Finds out which particle lists form a lattice, and sets the default correction of bonds near faces again, which
  * depends on it. Bodies must have been read before. root: tree of the scene, to see which keys are given. */
-void resolve_particle_lists(struct reader *r, const struct yaml_node *root);
+void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, for keys that static solvers do not support. Materials and probes must have been
  * read before. root: tree of the scene. */
@@ -154,7 +158,7 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
 status check_keys_for_load_steps(struct reader *r, const struct yaml_node *root);
 
 /* Returns true if the scene is solved in load steps and has a material whose bonds soften. */
-bool scene_load_steps_soften_bonds(const struct scene *s);
+bool scene_has_load_steps_with_softening_bonds(const struct scene *s);
 
 /* Returns REFUSED if the scene gives settings of load steps but has another solver, unless all of them have their
  * default values. root: tree of the scene. */

@@ -29,12 +29,12 @@ static void places_add(const struct reader *r, const struct yaml_node *node, con
             snprintf(k->key, sizeof k->key, "%.50s%s%.50s", path, *path ? "." : "", c->key);
         else
             snprintf(k->key, sizeof k->key, "%.50s[%d]", path, at);
-        location_text(r, c->origin, c->line, c->column, k->place, sizeof k->place);
+        location_write_text(r, c->origin, c->line, c->column, k->place, sizeof k->place);
         places_add(r, c, k->key, depth - 1);
     }
 }
 
-void scene_key_locations_make(const struct reader *r, const struct yaml_node *root)
+void scene_store_key_locations(const struct reader *r, const struct yaml_node *root)
 {
     enum { DEPTH = 2 }; /* mpm.frame, interfaces[0] */
     r->scene->key_place = NEW("scene.places", nodes_count(root, DEPTH), struct key_place);

@@ -66,7 +66,7 @@ static status check_exact(struct reader *r, const struct yaml_node *n, const str
         if (given && p->form != EXACT_MANUFACTURED)
             return fault(r, given, "has no meaning without form: manufactured; leave it out");
         if (!given && p->form == EXACT_MANUFACTURED)
-            return fault_missing_key(r, map, key_find("probes.exact", numbers[k]));
+            return fault_report_missing_key(r, map, key_find("probes.exact", numbers[k]));
     }
     return OK;
 }
@@ -116,7 +116,7 @@ static status read_probe(struct reader *r, const struct yaml_node *n, struct pro
         short_form.kind = NODE_MAP, short_form.n = 1, short_form.first = short_form.last = &form;
         map = &short_form;
     }
-    fault_write_location(r, n, p->place, sizeof p->place);
+    fault_write_location_of_node(r, n, p->place, sizeof p->place);
     p->amplitude = p->period = p->wavelength = p->origin = NAN;
     p->inner = p->outer = p->core = p->experiment = NAN;
     snprintf(group, sizeof group, "probes.%s", probe_names[p->kind]);
@@ -135,7 +135,7 @@ status read_probes(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "probes");
     if (!list) return OK;
-    TRY(expect_list(r, key_find("", "probes"), list));
+    TRY(expect_list_of_valid_length(r, key_find("", "probes"), list));
     s->probes = list->n;
     s->probe = NEW("probes", list->n, struct probe_request);
     const struct yaml_node *n = list->first;

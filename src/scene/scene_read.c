@@ -39,13 +39,13 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     struct yaml_node *root;
     TRY(scene_parse_tree(r, text, length, &root));
     const struct yaml_node *method = auto_method(root);
-    if (method && wish) return pilot_wish_read(r, root, text, length, wish);
+    if (method && wish) return pilot_requirements_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
                      "auto is resolved by the pilot runs of `cleave run`; write a method and "
                      "particles.spacing, or take the scene.yaml that such a run leaves");
-    scene_key_locations_make(r, root);
-    TRY(scene_from_tree(r, root));
+    scene_store_key_locations(r, root);
+    TRY(scene_read_keys_of_tree(r, root));
     s->text = scene_to_yaml(s);
     return s->text
                ? OK
@@ -101,8 +101,8 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
     return scene_file_read(s, path, override, overrides, NULL);
 }
 
-status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
-                                const struct scene_override *override, int overrides)
+status scene_read_or_list_pilot_requirements(struct scene *s, struct pilot_wish *w, const char *path,
+                                             const struct scene_override *override, int overrides)
 {
     *w = (struct pilot_wish){0};
     return scene_file_read(s, path, override, overrides, w);

@@ -31,11 +31,11 @@ static void row(FILE *out, const struct key *k)
  * in the table. */
 static bool is_top(const struct key *k, bool *has_keys)
 {
-    *has_keys = k + 1 < keys + keys_count && key_is_below(&k[1], k->path);
+    *has_keys = k + 1 < keys + keys_count && key_is_at_or_below_path(&k[1], k->path);
     return !strchr(k->path, '.');
 }
 
-void scene_print_reference(FILE *out)
+void scene_print_key_reference_as_markdown(FILE *out)
 {
     bool has_keys;
     fputs("# All keys of a scene\n\n"

@@ -38,7 +38,7 @@ static const char *const had[] = {"rigid bodies",     "a Poisson's ratio that bo
                                   "tensile_strength", "viscosity",
                                   "interfaces"};
 
-bool scene_any_material_gives_key(const struct yaml_node *root, const char *key)
+bool scene_has_material_with_key(const struct yaml_node *root, const char *key)
 {
     const struct yaml_node *one = yaml_node_find(root, "material"), *many = yaml_node_find(root, "materials");
     bool has = one && yaml_node_find(one, key);
@@ -67,12 +67,12 @@ static unsigned scene_has(const struct reader *r)
     unsigned has = 0;
     if (has_rigid_bodies(root)) has |= HAS_RIGID;
     if (yaml_node_find(root, "interfaces")) has |= HAS_INTERFACES;
-    if (scene_any_material_gives_key(root, "yield_stress")) has |= HAS_YIELD;
-    if (scene_any_material_gives_key(root, "hardening") || scene_any_material_gives_key(root, "kinematic") ||
-        scene_any_material_gives_key(root, "johnson_cook"))
+    if (scene_has_material_with_key(root, "yield_stress")) has |= HAS_YIELD;
+    if (scene_has_material_with_key(root, "hardening") || scene_has_material_with_key(root, "kinematic") ||
+        scene_has_material_with_key(root, "johnson_cook"))
         has |= HAS_FLOW;
-    if (scene_any_material_gives_key(root, "tensile_strength")) has |= HAS_SOFTENING;
-    if (scene_any_material_gives_key(root, "viscosity")) has |= HAS_VISCOSITY;
+    if (scene_has_material_with_key(root, "tensile_strength")) has |= HAS_SOFTENING;
+    if (scene_has_material_with_key(root, "viscosity")) has |= HAS_VISCOSITY;
     for (int m = 0; m < s->materials && s->dim > 1; m++)
         if (s->material[m].young > 0 && fabs(s->material[m].poisson - bond_based_poisson_ratio(s->space)) > 1e-6)
             has |= HAS_RATIO;
@@ -129,7 +129,7 @@ static const char *changes_that_allow(struct reader *r, unsigned has)
         write_change(s, row, has, one, sizeof one);
         snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? " or " : "", one);
     }
-    return *text ? arena_text(r, text, strlen(text)) : NULL;
+    return *text ? arena_copy_text(r, text, strlen(text)) : NULL;
 }
 
 /* Returns the names of the features in `has` (bits HAS_...), joined by "and", in the reader's arena. */
@@ -140,7 +140,7 @@ static const char *names_of(struct reader *r, unsigned has)
         const size_t used = strlen(text);
         if (has >> bit & 1) snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? " and " : "", had[bit]);
     }
-    return arena_text(r, text, strlen(text));
+    return arena_copy_text(r, text, strlen(text));
 }
 
 /* ---- refusals ---------------------------------------------------------------------------------------------------- */
@@ -148,29 +148,31 @@ static const char *names_of(struct reader *r, unsigned has)
 /* Returns the Poisson's ratio of bonds in the space of the scene, as text. */
 static const char *ratio_of_bonds(const struct scene *s) { return s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4"; }
 
-status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *n)
+status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *poisson_node)
 {
     const unsigned has = scene_has(r) | HAS_RATIO;
     const char *change = changes_that_allow(r, has), *bonds = ratio_of_bonds(r->scene);
     if (change)
-        return fault(r, n, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s has any",
-                     node_text(r, n), bonds, space_names[r->scene->space], change);
-    return fault(r, n,
+        return fault(r, poisson_node,
+                     "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s has any",
+                     node_text(r, poisson_node), bonds, space_names[r->scene->space], change);
+    return fault(r, poisson_node,
                  "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; use that ratio, "
                  "since no method has any other one together with %s",
-                 node_text(r, n), bonds, space_names[r->scene->space], names_of(r, has & ~(unsigned)HAS_RATIO));
+                 node_text(r, poisson_node), bonds, space_names[r->scene->space],
+                 names_of(r, has & ~(unsigned)HAS_RATIO));
 }
 
-status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *n)
+status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *yield_node)
 {
     const unsigned has = scene_has(r);
     const char *model = r->scene->model == MODEL_OSPD ? "ospd" : "mospd", *change = changes_that_allow(r, has);
-    if (change) return fault(r, n, "model %s does not yield; %s does", model, change);
-    return fault(r, n, "model %s does not yield, and no method has all of %s; leave out one of them", model,
+    if (change) return fault(r, yield_node, "model %s does not yield; %s does", model, change);
+    return fault(r, yield_node, "model %s does not yield, and no method has all of %s; leave out one of them", model,
                  names_of(r, has));
 }
 
-status refuse_flow_law(struct reader *r, const struct yaml_node *n)
+status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law_node)
 {
     const struct scene *s = r->scene;
     const unsigned has = scene_has(r), linear = (has & ~(unsigned)HAS_FLOW) | HAS_YIELD;
@@ -178,9 +180,9 @@ status refuse_flow_law(struct reader *r, const struct yaml_node *n)
     const int bonds = row_of_method(s, s->method, linear & ~(unsigned)HAS_RATIO);
     const bool ratio = has & HAS_RATIO;
     if (bonds < 0)
-        return fault(r, n, "is for material points; %s is expected",
+        return fault(r, law_node, "is for material points; %s is expected",
                      points ? points : "`method: mpm` without rigid bodies and tensile_strength");
-    return fault(r, n,
+    return fault(r, law_node,
                  "is for material points; %s%syield_stress with linear hardening by yield_hardening, which bonds%s "
                  "have%s%s",
                  points ? points : "", points ? " is expected, or " : "",
@@ -188,52 +190,54 @@ status refuse_flow_law(struct reader *r, const struct yaml_node *n)
                  ratio ? ratio_of_bonds(s) : "");
 }
 
-status refuse_softening(struct reader *r, const struct yaml_node *n)
+status refuse_unsupported_softening(struct reader *r, const struct yaml_node *strength_node)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (r->scene->method == METHOD_PD)
-        return fault(r, n,
+        return fault(r, strength_node,
                      "is of bonds that soften: those of ospd and mospd do in explicit steps alone; `solver: explicit` "
                      "is expected; without this key, and softening, bonds are brittle");
-    if (change) return fault(r, n, "is of bonds that soften; %s is expected", change);
-    return fault(r, n, "is of bonds that soften and do not have %s; without this key, and softening, bonds are brittle",
+    if (change) return fault(r, strength_node, "is of bonds that soften; %s is expected", change);
+    return fault(r, strength_node,
+                 "is of bonds that soften and do not have %s; without this key, and softening, bonds are brittle",
                  names_of(r, has & ~(unsigned)HAS_SOFTENING));
 }
 
-status refuse_rigid(struct reader *r, const struct yaml_node *n)
+status refuse_unsupported_rigid_bodies(struct reader *r, const struct yaml_node *bodies_node)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
     if (r->scene->method != METHOD_MPM)
-        return fault(r, n,
+        return fault(r, bodies_node,
                      "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
                      "rest, a boundary `mirror` in their place");
     if (change)
-        return fault(r, n,
+        return fault(r, bodies_node,
                      "rigid bodies meet peridynamic particles only; %s is expected, or, for a smooth wall at rest, a "
                      "boundary `mirror` in their place",
                      change);
-    return fault(r, n,
+    return fault(r, bodies_node,
                  "rigid bodies meet peridynamic particles only, which do not have %s; a boundary `mirror` in place of "
                  "a smooth wall at rest, or a body of a stiff elastic material, is expected",
                  names_of(r, has & ~(unsigned)HAS_RIGID));
 }
 
-status refuse_interfaces(struct reader *r, const struct yaml_node *n)
+status refuse_interfaces_with_adaptive_method(struct reader *r, const struct yaml_node *interfaces_node)
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (change) return fault(r, n, "bodies are joined by bonds, or by their grid; %s is expected", change);
-    return fault(r, n,
+    if (change)
+        return fault(r, interfaces_node, "bodies are joined by bonds, or by their grid; %s is expected", change);
+    return fault(r, interfaces_node,
                  "bodies are joined by bonds, or by their grid, and no method has all of %s; leave out one of "
                  "them",
                  names_of(r, has));
 }
 
-const char *strength_unit_hint(const struct scene *s, real horizon)
+const char *strength_unit_hint(const struct scene *s, real required_horizon)
 {
-    return horizon < 1e-3 * s->horizon * s->spacing
+    return required_horizon < 1e-3 * s->horizon * s->spacing
                ? "; check the units of energy_release_rate (J/m^2), tensile_strength (Pa) and spacing (mm?)"
                : "";
 }

@@ -35,14 +35,14 @@ static void renamed_note(struct scene *s, int k)
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }
 
-const char *key_present_name(const char *path)
+const char *key_current_name_of_former_key(const char *former_path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++)
-        if (!strcmp(path, renamed[k].old)) return renamed[k].now;
+        if (!strcmp(former_path, renamed[k].old)) return renamed[k].now;
     return NULL;
 }
 
-const char *key_path_present_name(struct reader *r, const char *path)
+const char *key_path_current_name_of_override(struct reader *r, const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
         if (strcmp(path, renamed[k].old) != 0) continue;
@@ -58,9 +58,9 @@ status tree_rename_old_keys(struct reader *r, struct yaml_node *root)
         struct yaml_node *old = (struct yaml_node *)tree_find(root, renamed[k].old);
         const struct yaml_node *now = tree_find(root, renamed[k].now);
         if (!old) continue;
-        if (now) return fault_exclusive_keys(r, now, old);
+        if (now) return fault_report_exclusive_keys(r, now, old);
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
-        old->key = arena_text(r, leaf, strlen(leaf));
+        old->key = arena_copy_text(r, leaf, strlen(leaf));
         renamed_note(r->scene, k);
     }
     for (int k = 0; k < (int)COUNT_OF(removed); k++) {

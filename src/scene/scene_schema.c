@@ -65,7 +65,7 @@ static void write_required(FILE *out, const char *group, const char *begin)
     const char *between = begin;
     for (int k = 0; k < keys_count; k++) {
         if (!key_is_directly_below(&keys[k], group) || strcmp(keys[k].fallback, "required") != 0) continue;
-        fprintf(out, "%s\"%s\"", between, key_leaf(&keys[k]));
+        fprintf(out, "%s\"%s\"", between, key_last_part(&keys[k]));
         between = ", ";
     }
     if (between != begin) fputc(']', out);
@@ -195,15 +195,15 @@ static bool is_in_merged(const struct key *k)
     snprintf(group, sizeof group, "%s", k->path);
     char *dot = strrchr(group, '.');
     *(dot ? dot : group) = '\0';
-    return key_is_merged_mapping(group);
+    return key_is_merged_with_included_scene(group);
 }
 
 static void write_property(FILE *out, const struct key *k)
 {
     const bool probe = strncmp(k->path, "probes.", 7) == 0;
     char description[1600];
-    key_description(k, description, sizeof description);
-    write_string(out, key_leaf(k), strlen(key_leaf(k)));
+    key_describe_meaning_and_type(k, description, sizeof description);
+    write_string(out, key_last_part(k), strlen(key_last_part(k)));
     fputs(": {\"description\": ", out);
     write_string(out, description, strlen(description));
     fputs(", \"anyOf\": [", out);
@@ -225,7 +225,7 @@ static void write_members(FILE *out, const char *group)
         between = ",";
     }
     fputs("}", out);
-    if (!key_is_merged_mapping(group)) write_required(out, group, ", \"required\": [");
+    if (!key_is_merged_with_included_scene(group)) write_required(out, group, ", \"required\": [");
 }
 
 static void write_object(FILE *out, const char *group)
@@ -250,7 +250,7 @@ static const char definitions[] =
     "\"minItems\": 1, \"items\": {\"$ref\": \"#/definitions/solid\"}}]},\n"
     "\"solid\": ";
 
-status scene_print_schema(FILE *out)
+status scene_print_json_schema(FILE *out)
 {
     fputs("{\"$schema\": \"http://json-schema.org/draft-07/schema#\", \"title\": \"scene of cleave\",\n", out);
     fputs(definitions, out);

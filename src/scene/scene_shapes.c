@@ -160,13 +160,14 @@ static status check_contents(struct reader *r, const struct yaml_node *n, const 
                  words->contents, found);
 }
 
-status read_file_unit(struct reader *r, const struct yaml_node *n, bool required, real *scale_value)
+status read_length_unit_of_file(struct reader *r, const struct yaml_node *file_node, bool is_required,
+                                real *scale_value)
 {
-    const struct yaml_node *unit = yaml_node_find(n, "unit"), *scale = yaml_node_find(n, "scale");
+    const struct yaml_node *unit = yaml_node_find(file_node, "unit"), *scale = yaml_node_find(file_node, "scale");
     char text[48], what[256];
-    if (unit && scale) return fault_exclusive_keys(r, unit, scale);
-    if (!unit && !scale && required)
-        return fault(r, n, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
+    if (unit && scale) return fault_report_exclusive_keys(r, unit, scale);
+    if (!unit && !scale && is_required)
+        return fault(r, file_node, "unit is missing: its numbers have none; unit: mm, or scale: 25.4 mm, is expected");
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
     if (unit->kind == NODE_SCALAR && number_read(scale_value, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
@@ -182,7 +183,7 @@ static status read_mesh_set(struct reader *r, const struct yaml_node *n, const s
                             const struct geometry *g, struct solid *s)
 {
     const struct yaml_node *within = yaml_node_find(n, "within");
-    const struct geometry_set *set = words->set[0] ? geometry_find_set(g, words->set) : NULL;
+    const struct geometry_set *set = words->set[0] ? geometry_find_named_part(g, words->set) : NULL;
     char names[200] = "";
     for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
         strcat(names, k ? ", " : "");
@@ -211,8 +212,8 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     struct shape_words words = {.scale = NAN, .within = NAN};
     struct shape_file *f = NULL;
     TRY(read_keys_of_group(r, n, n, group, &words));
-    if (!file) return fault_missing_key(r, n, key_find(group, "file"));
-    TRY(read_file_unit(r, n, true, &words.scale));
+    if (!file) return fault_report_missing_key(r, n, key_find(group, "file"));
+    TRY(read_length_unit_of_file(r, n, true, &words.scale));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     f = NEW("shape files", 1, struct shape_file);
     *f = (struct shape_file){.kind = kind, .dim = r->dim, .scale = words.scale};
@@ -227,13 +228,13 @@ static status read_geometry(struct reader *r, const struct yaml_node *n, enum sh
     return read_mesh_set(r, n, &words, &f->geometry, s);
 }
 
-status read_stl_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_stl_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
 {
-    return read_geometry(r, n, SHAPE_STL, s);
+    return read_geometry(r, solid_node, SHAPE_STL, solid);
 }
-status read_mesh_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
 {
-    return read_geometry(r, n, SHAPE_MESH, s);
+    return read_geometry(r, solid_node, SHAPE_MESH, solid);
 }
 
 /* ---- images ------------------------------------------------------------------------------------------------------ */
@@ -245,7 +246,7 @@ static status read_voxels(struct reader *r, const struct yaml_node *n, struct sh
     const struct yaml_node *file = yaml_node_find(n, "file"), *slice = yaml_node_find(n, "slice");
     struct shape_words words = {.pixel = NAN, .slice = NAN};
     TRY(read_keys_of_group(r, n, n, "solid.image", &words));
-    if (!file) return fault_missing_key(r, n, key_find("solid.image", "file"));
+    if (!file) return fault_report_missing_key(r, n, key_find("solid.image", "file"));
     if (r->dim == 1) return fault(r, n, "not in space line; box is expected");
     if (slice && r->dim == 2) return fault(r, slice, "has no meaning in the plane, where there is one image");
     struct shape_file *f = NEW("shape files", 1, struct shape_file);
@@ -273,21 +274,23 @@ static const struct voxel_part *grey_part_of(struct shape_file *f, const struct 
     struct voxel_part *part = NEW("shape parts", 1, struct voxel_part);
     *part = *wanted;
     part->of = &f->voxels;
-    voxel_part_make(part);
+    voxel_part_make_from_grey_value_ranges(part);
     return f->part[f->parts++] = part;
 }
 
-status read_image_solid(struct reader *r, const struct yaml_node *n, struct solid *s)
+status read_image_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid)
 {
-    const struct yaml_node *values = yaml_node_find(n, "values"), *materials = yaml_node_find(n, "materials");
+    const struct yaml_node *values = yaml_node_find(solid_node, "values"),
+                           *materials = yaml_node_find(solid_node, "materials");
     struct voxel_part wanted = {.ranges = 1, .range = {{1, GREY_MAX}}};
     struct shape_file *f = NULL;
-    TRY(read_voxels(r, n, &f));
-    if (values && materials) return fault_exclusive_keys(r, values, materials);
+    TRY(read_voxels(r, solid_node, &f));
+    if (values && materials) return fault_report_exclusive_keys(r, values, materials);
     if (values) TRY(read_grey_values(r, values, &wanted));
     if (materials) TRY(read_grey_materials(r, materials, &f->voxels, &wanted));
-    s->kind = SOLID_VOXELS;
-    s->voxels = grey_part_of(f, &wanted);
-    if (s->voxels->voxels > 0) return OK;
-    return fault(r, values ? values : n, "no voxel of it has such a grey value; %s", "values that it has are expected");
+    solid->kind = SOLID_VOXELS;
+    solid->voxels = grey_part_of(f, &wanted);
+    if (solid->voxels->voxels > 0) return OK;
+    return fault(r, values ? values : solid_node, "no voxel of it has such a grey value; %s",
+                 "values that it has are expected");
 }

@@ -8,7 +8,7 @@
 
 enum { ITERATIONS = 30 }; /* of stretches; each leaves about a tenth of the error */
 
-struct softening_model scene_softening_model(const struct scene *s, const struct material *m)
+struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m)
 {
     const bool rotates = s->model == MODEL_MOSPD;
     const real unit = material_uniaxial_tension_modulus(m, s->space);
@@ -22,29 +22,32 @@ struct softening_model scene_softening_model(const struct scene *s, const struct
  * Both follow from a fixed-point iteration. */
 static void set_stretches(const struct scene *s, struct material *m)
 {
-    const struct softening_model model = scene_softening_model(s, m);
+    const struct softening_model model = scene_softening_model_of_bonds(s, m);
     m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
     if (s->model == MODEL_BOND || isnan(m->energy_release_rate)) return;
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, model.rotates);
     const struct softening_curve curve = softening_curve_of_law(m->softening);
-    family_make(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     for (int k = 0; k < ITERATIONS && m->onset_stretch < m->critical_stretch; k++) {
         const struct softening_range range = softening_range_from_onset(&curve, m->onset_stretch, m->critical_stretch);
-        const real work = family_softening_work_per_area(&f, &modulus, model.rotates, &curve, range);
+        const real work = family_fracture_energy_of_softening_bonds(&f, &modulus, model.rotates, &curve, range);
         m->critical_stretch *= sqrt(m->energy_release_rate / work);
         m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
         if (fabs(work / m->energy_release_rate - 1) < 1e-7) break;
     }
 }
 
-real scene_softening_horizon(const struct scene *s, const struct material *m, real kappa)
+real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
+                                               real squared_stretch_ratio)
 {
     const struct softening_curve curve = softening_curve_of_law(m->softening);
-    const struct softening_model model = scene_softening_model(s, m);
-    const real phi = kappa > 1 ? softening_model_normalised_strengths(&curve, s->space, kappa, &model).tension : 1;
+    const struct softening_model model = scene_softening_model_of_bonds(s, m);
+    const real phi = squared_stretch_ratio > 1
+                         ? softening_model_normalised_strengths(&curve, s->space, squared_stretch_ratio, &model).tension
+                         : 1;
     const real onset = m->tensile_strength / (material_uniaxial_tension_modulus(m, s->space) * phi);
-    return s->horizon * s->spacing * square(m->critical_stretch / onset) / kappa;
+    return s->horizon * s->spacing * square(m->critical_stretch / onset) / squared_stretch_ratio;
 }
 
 /* Returns REFUSED if bonds of material m would break before its tensile strength is reached, or if the strength is
@@ -52,9 +55,10 @@ real scene_softening_horizon(const struct scene *s, const struct material *m, re
 static status check_reachable(struct reader *r, const struct yaml_node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
-    const real most = scene_softening_horizon(s, m, 1);
+    const real most = scene_softening_horizon_for_stretch_ratio(s, m, 1);
     const bool spacing_counts = !isnan(m->energy_release_rate);
-    if (spacing_counts && limit_spacing_if_searched(r, scene_softening_horizon(s, m, FREE_OF_TRAPPING) / s->horizon))
+    if (spacing_counts && limit_spacing_of_spacing_search(
+                              r, scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING) / s->horizon))
         return OK;
     if (m->onset_stretch < m->critical_stretch) return OK;
     if (isnan(m->energy_release_rate))
@@ -105,7 +109,7 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
     const struct yaml_node *rate = yaml_node_find(n, "rate"), *table = rate ? yaml_node_find(rate, "table") : NULL;
     if (!rate) return OK;
     TRY(read_keys_of_group(r, rate, rate, "material.rate", m));
-    if (!table) return fault_missing_key(r, rate, key_find("material.rate", "table"));
+    if (!table) return fault_report_missing_key(r, rate, key_find("material.rate", "table"));
     if (s->solver != SOLVER_EXPLICIT)
         return fault(r, rate,
                      "load steps have no strain rate; tensile_strength alone, or solver: explicit, is expected");
@@ -113,11 +117,11 @@ static status read_rate(struct reader *r, const struct yaml_node *n, struct mate
         return fault(r, rate, "a strength surface does not depend on the rate; one of both is expected");
     TRY(read_rate_table(r, table, &m->rate));
     const real strongest = m->tensile_strength * m->rate.factor[m->rate.points - 1];
-    TRY(check_strength_size(r, table, m, strongest));
-    const struct softening_model model = scene_softening_model(s, m);
-    const real least = strength_rate_compute_onset_factors(m, s->space, &model);
+    TRY(check_strength_below_tenth_of_modulus(r, table, m, strongest));
+    const struct softening_model model = scene_softening_model_of_bonds(s, m);
+    const real least = strength_rate_compute_onsets_and_least_ratio(m, s->space, &model);
     const real most = s->horizon * s->spacing * least / RATE_LEAST_RATIO;
-    if (least >= RATE_LEAST_RATIO || limit_spacing_if_searched(r, most / s->horizon)) return OK;
+    if (least >= RATE_LEAST_RATIO || limit_spacing_of_spacing_search(r, most / s->horizon)) return OK;
     return fault(r, table,
                  "bonds of this horizon, %.4g m, break by the energy release rate before %.4g Pa, the strength at the "
                  "last rate; a horizon below %.4g m, particles.spacing below %.4g m, is expected",
@@ -147,45 +151,49 @@ static bool steps_can_soften(const struct scene *s, const struct yaml_node *n)
            !yaml_node_find(n, "hydrostatic_strength") && !yaml_node_find(n, "biaxial_strength");
 }
 
-status read_softening_onset(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material)
 {
     const struct scene *s = r->scene;
-    const struct yaml_node *strength = yaml_node_find(n, "tensile_strength"), *law = yaml_node_find(n, "softening"),
-                           *scatter = yaml_node_find(n, "scatter");
-    m->onset_stretch = m->critical_stretch;
+    const struct yaml_node *strength = yaml_node_find(material_node, "tensile_strength"),
+                           *law = yaml_node_find(material_node, "softening"),
+                           *scatter = yaml_node_find(material_node, "scatter");
+    material->onset_stretch = material->critical_stretch;
     if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
-    if (!strength) return check_no_surface(r, n);
+    if (!strength) return check_no_surface(r, material_node);
     const bool states = s->model != MODEL_BOND && (s->method != METHOD_PD || s->solver != SOLVER_EXPLICIT);
-    if (!material_yields(m) && (s->method == METHOD_MPM || states)) return refuse_softening(r, strength);
-    const char *why = material_yields(m) ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
-                                           "expected"
+    if (!material_yields(material) && (s->method == METHOD_MPM || states))
+        return refuse_unsupported_softening(r, strength);
+    const char *why = material_yields(material)
+                          ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
+                            "expected"
                       : scene_is_single_equilibrium(s)
-                          ? steps_can_soften(s, n)
+                          ? steps_can_soften(s, material_node)
                                 ? "is of bonds that break, and none does in a single equilibrium; solver: explicit or "
                                   "static is expected"
                                 : "is of bonds that break, and none does in a single equilibrium; solver: explicit is "
                                   "expected"
-                      : !isfinite(m->critical_stretch)
+                      : !isfinite(material->critical_stretch)
                           ? "tells the stress but not the energy at which bonds end; energy_release_rate, toughness or "
                             "critical_stretch is expected, too"
                           : NULL;
     if (why) return fault(r, strength, "%s", why);
-    if (scatter && m->scatter.of != SCATTER_STRENGTH && m->scatter.of != SCATTER_STRETCH)
+    if (scatter && material->scatter.of != SCATTER_STRENGTH && material->scatter.of != SCATTER_STRETCH)
         return fault(r, yaml_node_find(scatter, "of"),
                      "with tensile_strength, `of: strength` (at one energy) or critical_stretch (with it) is expected");
-    TRY(check_strength_size(r, strength, m, m->tensile_strength));
-    set_stretches(s, m);
-    TRY(read_strength_surface(r, n, m));
-    if (!material_has_strength_surface(m)) TRY(check_reachable(r, strength, m));
-    return read_rate(r, n, m);
+    TRY(check_strength_below_tenth_of_modulus(r, strength, material, material->tensile_strength));
+    set_stretches(s, material);
+    TRY(read_strength_surface(r, material_node, material));
+    if (!material_has_strength_surface(material)) TRY(check_reachable(r, strength, material));
+    return read_rate(r, material_node, material);
 }
 
-status check_single_softening_law(struct reader *r, const struct yaml_node *n, int material_index)
+status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index)
 {
     const struct material *m = r->scene->material;
     for (int j = 0; j < material_index; j++)
         if (material_has_softening_bonds(&m[j]) && material_has_softening_bonds(&m[material_index]) &&
             m[j].softening != m[material_index].softening)
-            return fault(r, n, "softens by another law than material %s; one law for all is expected", m[j].name);
+            return fault(r, material_node, "softens by another law than material %s; one law for all is expected",
+                         m[j].name);
     return OK;
 }

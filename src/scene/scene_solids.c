@@ -77,8 +77,8 @@ static status read_corners(struct reader *r, const struct yaml_node *n, struct s
     corner.range.given = false;
     s->polygon = NEW("solids.polygon", 1, struct polygon);
     TRY(read_keys_of_group(r, n, n, "solid.polygon", s->polygon));
-    if (!list) return fault_missing_key(r, n, k);
-    TRY(expect_list(r, k, list));
+    if (!list) return fault_report_missing_key(r, n, k);
+    TRY(expect_list_of_valid_length(r, k, list));
     s->polygon->n = list->n;
     s->polygon->corner = memory_new("solids.corner", list->n, sizeof *s->polygon->corner);
     for (const struct yaml_node *p = list->first; p; p = p->next)
@@ -110,7 +110,7 @@ static status read_extrusion(struct reader *r, const struct yaml_node *n, struct
 {
     const struct yaml_node *shape = yaml_node_find(n, "shape");
     TRY(read_keys_of_group(r, n, n, "solid.extrude", s));
-    if (!shape) return fault_missing_key(r, n, key_find("solid.extrude", "shape"));
+    if (!shape) return fault_report_missing_key(r, n, key_find("solid.extrude", "shape"));
     if (!(s->begin < s->end)) return fault(r, n, "from is not below to; from is the lower end");
     r->dim = 2;
     const status read = read_region(r, shape, &s->region);
@@ -126,7 +126,7 @@ static status read_shape(struct reader *r, const struct yaml_node *n, const stru
     snprintf(group, sizeof group, "solid.%s", word->name);
     s->kind = word->kind;
     if (word->dim && word->dim != r->dim)
-        return fault(r, n, "not in %s; %s is expected", space_for_message(r),
+        return fault(r, n, "not in %s; %s is expected", space_name_for_message(r),
                      r->dim == 1                   ? "box"
                      : r->dim == 2                 ? "disc, polygon, ellipse, ring or box"
                      : word->kind == SOLID_POLYGON ? "extrude, with a polygon as its shape,"
@@ -228,7 +228,7 @@ static status read_sections(struct reader *r)
 {
     const struct yaml_node *map = r->sections;
     int count = 0;
-    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_for_message(r));
+    if (r->dim != 3) return fault(r, map, "not in %s; regions are expected there", space_name_for_message(r));
     struct named_region *named = NEW("regions", map->n, struct named_region);
     r->dim = 2;
     const status read = read_names(r, map, named, &count);
@@ -284,7 +284,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     TRY(expect_node_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
     TRY(check_keys_known(r, n, "solid"));
     for (const struct yaml_node *c = n->first; c; c = c->next)
-        if (!node_is_solid_motion(c)) child = c, solids++;
+        if (!node_is_motion_key_of_solid(c)) child = c, solids++;
     if (solids != 1)
         return fault(r, n, "has %d solids; it is one of box, disc, ball, cylinder, polygon, .. (`cleave help solid`)",
                      solids);
@@ -300,7 +300,7 @@ static status read_solid(struct reader *r, const struct yaml_node *n, struct sol
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
-    if (solid_query_cost(s) <= EFFORT_MOST) return OK;
+    if (solid_query_cost_relative_to_ball(s) <= EFFORT_MOST) return OK;
     return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
 }
 
@@ -324,9 +324,10 @@ static status read_solids(struct reader *r, const struct yaml_node *n, struct re
     return OK;
 }
 
-status read_region(struct reader *r, const struct yaml_node *n, struct region *region)
+status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region)
 {
-    return n->kind == NODE_SCALAR && *n->text ? read_called(r, n, region) : read_solids(r, n, region, false);
+    return region_node->kind == NODE_SCALAR && *region_node->text ? read_called(r, region_node, region)
+                                                                  : read_solids(r, region_node, region, false);
 }
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
@@ -379,7 +380,7 @@ static status read_polygon(struct reader *r, const struct yaml_node *n, struct c
     struct key corner = *k;
     int at = 0;
     corner.range.given = false;
-    TRY(expect_list(r, k, n));
+    TRY(expect_list_of_valid_length(r, k, n));
     crack_make(c, n->n);
     for (const struct yaml_node *p = n->first; p; p = p->next) TRY(read_point(r, &corner, p, c->corner[at++]));
     return check_polygon(r, n, c);
@@ -397,8 +398,8 @@ static status read_crack_place(struct reader *r, const struct yaml_node *n, stru
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
             return fault(r, k, "not in space %s; a crack there has %s", space_names[r->scene->space], form[r->dim - 1]);
     const struct yaml_node *a = yaml_node_find(n, word), *b = yaml_node_find(n, "to");
-    if (!a) return fault_missing_key(r, n, key_find("cracks", word));
-    if (r->dim == 2 && !b) return fault_missing_key(r, n, key_find("cracks", "to"));
+    if (!a) return fault_report_missing_key(r, n, key_find("cracks", word));
+    if (r->dim == 2 && !b) return fault_report_missing_key(r, n, key_find("cracks", "to"));
     if (r->dim == 3) return read_polygon(r, a, c);
     crack_make(c, r->dim);
     TRY(read_point(r, key_find("cracks", word), a, c->corner[0]));
@@ -426,7 +427,7 @@ static void take_slits(struct scene *s, const struct region *shape)
         for (int m = 0; m < (a->images > 0 ? a->images : 1) && a->kind == SOLID_HULL && !a->subtract; m++) {
             const struct placement *to = a->images > 0 ? &a->image[m] : &there;
             int first = s->cracks;
-            for (geometry_find_slits(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
+            for (geometry_append_slits_as_precracks(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
                 for (int c = 0; c < s->crack[first].n; c++) {
                     real X[DIM_MAX];
                     array_copy(X, s->crack[first].corner[c], DIM_MAX, sizeof *X);
@@ -442,7 +443,7 @@ status read_cracks(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     const struct yaml_node *list = yaml_node_find(root, "cracks");
     if (list) {
-        TRY(expect_list(r, key_find("", "cracks"), list));
+        TRY(expect_list_of_valid_length(r, key_find("", "cracks"), list));
         s->crack = NEW("cracks", list->n, struct crack);
         s->cracks = s->cracks_given = list->n;
         const struct yaml_node *n = list->first;

@@ -50,7 +50,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-bool scene_load_steps_soften_bonds(const struct scene *s)
+bool scene_has_load_steps_with_softening_bonds(const struct scene *s)
 {
     bool softens = false;
     for (int m = 0; m < s->materials; m++) softens |= material_has_softening_bonds(&s->material[m]);
@@ -62,7 +62,7 @@ static status check_steps_softening(struct reader *r, const struct yaml_node *ro
 {
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
-    if (!scene_load_steps_soften_bonds(s)) return OK;
+    if (!scene_has_load_steps_with_softening_bonds(s)) return OK;
     if (s->method != METHOD_PD) return fault(r, solver, "bonds soften in load steps of method: pd, which is expected");
     if (s->rigids > 0)
         return fault(r, solver,

@@ -14,11 +14,12 @@
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
-status check_strength_size(struct reader *r, const struct yaml_node *n, const struct material *m, real strength)
+status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
+                                             const struct material *material, real strength)
 {
-    if (!(strength > 0.1 * m->young)) return OK;
-    return fault(r, n, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
-                 node_text(r, n), 0.1 * m->young);
+    if (!(strength > 0.1 * material->young)) return OK;
+    return fault(r, strength_node, "%s is above a tenth of Young's modulus, %.4g Pa; a smaller strength is expected",
+                 node_text(r, strength_node), 0.1 * material->young);
 }
 
 /* Returns REFUSED unless low sigma_t < value <= high sigma_t, with the tensile strength sigma_t of material m. n:
@@ -41,12 +42,12 @@ static status surface_from(struct reader *r, const struct yaml_node *n, const ch
     const real tension = m->tensile_strength;
     const enum space space = r->scene->space;
     if (key[0] == 'c') {
-        TRY(check_strength_size(r, n, m, m->compressive_strength));
+        TRY(check_strength_below_tenth_of_modulus(r, n, m, m->compressive_strength));
         if (m->compressive_strength < tension)
             return fault(r, n, "is below tensile_strength; at least %.4g Pa is expected", tension);
         material_set_strength_surface(m, space, strength_surface_from_compression(tension, m->compressive_strength));
     } else if (key[0] == 'h') {
-        TRY(check_strength_size(r, n, m, m->hydrostatic_strength));
+        TRY(check_strength_below_tenth_of_modulus(r, n, m, m->hydrostatic_strength));
         TRY(check_fraction(r, n, m, m->hydrostatic_strength, 1.0 / 3, INFINITY));
         material_set_strength_surface(m, space, strength_surface_from_hydrostatic(tension, m->hydrostatic_strength));
     } else {
@@ -69,9 +70,9 @@ static real characteristic_length(const struct scene *s, const struct material *
     return m->young * release_rate / square(m->tensile_strength);
 }
 
-real scene_strength_surface_horizon(const struct scene *s, const struct material *m)
+real scene_strength_surface_largest_horizon(const struct scene *s, const struct material *m)
 {
-    const struct surface_strengths surface = material_surface_strengths(m, s->space);
+    const struct surface_strengths surface = material_strength_surface_strengths(m, s->space);
     const real strain = real_max(surface.tension / material_uniaxial_tension_modulus(m, s->space),
                                  surface.shear * (1 + m->poisson) / m->young);
     return s->horizon * s->spacing * square(m->onset_stretch / strain);
@@ -85,9 +86,10 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     const real own = material_uniaxial_tension_modulus(m, s->space) * m->onset_stretch *
                      softening_curve_normalised_strengths(&curve, s->space, OWN_RATIO).tension;
-    const real most = s->horizon * s->spacing * square(own / material_surface_strengths(m, s->space).tension);
+    const real most = s->horizon * s->spacing * square(own / material_strength_surface_strengths(m, s->space).tension);
     const bool spacing_counts = !isnan(m->energy_release_rate);
-    if (spacing_counts && limit_spacing_if_searched(r, scene_strength_surface_horizon(s, m) / s->horizon)) return OK;
+    if (spacing_counts && limit_spacing_of_spacing_search(r, scene_strength_surface_largest_horizon(s, m) / s->horizon))
+        return OK;
     if (most >= s->horizon * s->spacing) return OK;
     return fault(r, n,
                  "bonds of this horizon, %.4g m, soften by themselves at %.4g Pa, before the strength surface is "
@@ -95,15 +97,15 @@ static status check_first(struct reader *r, const struct yaml_node *n, const str
                  s->horizon * s->spacing, own, most, most / s->horizon, strength_unit_hint(s, most));
 }
 
-status read_strength_surface(struct reader *r, const struct yaml_node *n, struct material *m)
+status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material)
 {
     static const char *const names[] = {"compressive_strength", "hydrostatic_strength", "biaxial_strength"};
     const struct scene *s = r->scene;
-    const struct yaml_node *given = NULL, *radius = yaml_node_find(n, "strength_radius");
+    const struct yaml_node *given = NULL, *radius = yaml_node_find(material_node, "strength_radius");
     const char *key = NULL;
     for (size_t k = 0; k < COUNT_OF(names); k++) {
-        const struct yaml_node *next = yaml_node_find(n, names[k]);
-        if (next && given) return fault_exclusive_keys(r, given, next);
+        const struct yaml_node *next = yaml_node_find(material_node, names[k]);
+        if (next && given) return fault_report_exclusive_keys(r, given, next);
         if (next) given = next, key = names[k];
     }
     if (!given && radius)
@@ -120,10 +122,10 @@ status read_strength_surface(struct reader *r, const struct yaml_node *n, struct
         return fault(r, given,
                      "a strength surface starts bonds in explicit steps alone; tensile_strength without it, or solver: "
                      "explicit, is expected");
-    TRY(surface_from(r, given, key, m));
+    TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
-    const real reach = radius ? m->strength_radius : share * characteristic_length(s, m);
-    m->surface_means = (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - 0.3)));
-    m->onset_stretch = m->critical_stretch / sqrt(OWN_RATIO);
-    return check_first(r, yaml_node_find(n, "tensile_strength"), m);
+    const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);
+    material->surface_means = (int)real_min(1e4, real_max(0, ceil(square(reach / (s->horizon * s->spacing)) - 0.3)));
+    material->onset_stretch = material->critical_stretch / sqrt(OWN_RATIO);
+    return check_first(r, yaml_node_find(material_node, "tensile_strength"), material);
 }

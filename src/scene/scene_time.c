@@ -17,7 +17,7 @@ static status read_table(struct reader *r, const struct yaml_node *n, struct tim
     struct key time = *k, factor = *k;
     time.range.given = factor.range.given = false;
     factor.unit = UNIT_NONE;
-    TRY(expect_list(r, k, n));
+    TRY(expect_list_of_valid_length(r, k, n));
     f->kind = TIME_TABLE;
     f->t = NEW("time table", n->n, real);
     f->value = NEW("time table", n->n, real);
@@ -70,7 +70,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
 {
     char what[160];
     real one;
-    char *unit = csv_cut_unit(name), number[UNIT_LONGEST_NAME + 2];
+    char *unit = csv_cut_unit_off_column_name(name), number[UNIT_LONGEST_NAME + 2];
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
     if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_report_fault(&c->in, name, "its unit is too long");
@@ -193,24 +193,27 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Reads the factor of time of boundary b. n: node of `time`; NULL or `constant`: the factor is 1. Returns REFUSED for
- * an unknown form or invalid values. */
-status read_time_function(struct reader *r, const struct yaml_node *n, struct boundary *b)
+/* Reads the factor of time of boundary b. function_node: node of `time`; NULL or `constant`: the factor is 1. Returns
+ * REFUSED for an unknown form or invalid values. */
+status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};
     const char *forms = "constant, step, pulse, ramp, table or file";
-    struct time_function *f = &b->time;
-    if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
-    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", node_text(r, n), forms);
-    TRY(check_keys_known(r, n, "boundary.time"));
-    if (yaml_node_find(n, "file") || yaml_node_find(n, "column")) {
-        for (const struct yaml_node *other = n->first; other; other = other->next)
+    struct time_function *f = &boundary->time;
+    if (!function_node || (function_node->kind == NODE_SCALAR && strcmp(function_node->text, "constant") == 0))
+        return OK;
+    if (function_node->kind != NODE_MAP)
+        return fault(r, function_node, "%s is no function of time; %s is expected", node_text(r, function_node), forms);
+    TRY(check_keys_known(r, function_node, "boundary.time"));
+    if (yaml_node_find(function_node, "file") || yaml_node_find(function_node, "column")) {
+        for (const struct yaml_node *other = function_node->first; other; other = other->next)
             if (word_index_in_list("file|column", other->key) < 0)
                 return fault(r, other, "is given together with file; only one of %s is expected", forms);
-        return read_time_file(r, n, b);
+        return read_time_file(r, function_node, boundary);
     }
-    if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);
-    const struct yaml_node *form = n->first;
+    if (function_node->n != 1)
+        return fault(r, function_node, "has %d keys; one of %s is expected", function_node->n, forms);
+    const struct yaml_node *form = function_node->first;
     int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);
     f->kind = kind == 0 ? TIME_STEP : kind == 1 ? TIME_PULSE : TIME_RAMP;

@@ -43,27 +43,27 @@ static const struct {
     {"km/h", "1 km/h is 0.2778 m/s"},
 };
 
-const char *unit_meant_by_word(const char *text)
+const char *unit_meant_by_word(const char *unknown_name)
 {
     for (size_t k = 0; k < COUNT_OF(unit_words); k++) {
         const size_t length = strlen(unit_words[k].word);
-        if (strncmp(text, unit_words[k].word, length) != 0) continue;
-        if (!text[length] || !strcmp(text + length, "s")) return unit_words[k].meant;
+        if (strncmp(unknown_name, unit_words[k].word, length) != 0) continue;
+        if (!unknown_name[length] || !strcmp(unknown_name + length, "s")) return unit_words[k].meant;
     }
     return NULL;
 }
 
-const char *unit_without_kelvin(const char *text, enum unit unit, char *plain, size_t capacity)
+const char *unit_without_kelvin(const char *text, enum unit kind_of_unit, char *shortened, size_t capacity)
 {
     const size_t length = strlen(text);
     const char *bracket = strstr(text, "/(");
-    if (unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0 ? "" : text;
-    if (unit != UNIT_SPECIFIC_HEAT || length >= capacity) return text;
+    if (kind_of_unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0 ? "" : text;
+    if (kind_of_unit != UNIT_SPECIFIC_HEAT || length >= capacity) return text;
     if (length > 2 && strcmp(text + length - 2, "/K") == 0)
-        return snprintf(plain, capacity, "%.*s", (int)length - 2, text), plain;
+        return snprintf(shortened, capacity, "%.*s", (int)length - 2, text), shortened;
     if (!bracket || length < 6 || (strcmp(text + length - 3, " K)") != 0 && strcmp(text + length - 3, "*K)") != 0))
         return text;
-    snprintf(plain, capacity, "%.*s%.*s", (int)(bracket - text) + 1, text, (int)length - 3 - (int)(bracket + 2 - text),
-             bracket + 2);
-    return plain;
+    snprintf(shortened, capacity, "%.*s%.*s", (int)(bracket - text) + 1, text,
+             (int)length - 3 - (int)(bracket + 2 - text), bracket + 2);
+    return shortened;
 }

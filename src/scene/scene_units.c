@@ -429,7 +429,7 @@ static size_t factor_length(const char *text, real *factor, bool *is_time)
     return 0;
 }
 
-size_t quantity_read_unit(struct quantity *q, const char *text)
+size_t quantity_read_unit_symbol(struct quantity *q, const char *text)
 {
     struct measure m;
     const size_t length = isdigit((unsigned char)*text) ? 0 : symbol_length(text);
@@ -457,7 +457,7 @@ bool quantity_parse(struct quantity *q, const char *text)
     return true;
 }
 
-size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **fault_text)
+size_t quantity_read_at_start_of_text(struct quantity *q, const char *text, bool read_unit, const char **fault_text)
 {
     const size_t length = number_length(text);
     struct measure m = {{0, 0, 0}, 0};
@@ -467,31 +467,31 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
     if (length > 0 && text[length] == ',') *fault_text = NULL; /* the comma can separate operands of a function */
     if (*fault_text) return 0;
     const char *unit = text + length + strspn(text + length, " ");
-    size_t letters = with_unit ? factor_length(unit, &factor, &is_time) : 0;
+    size_t letters = read_unit ? factor_length(unit, &factor, &is_time) : 0;
     *q = (struct quantity){.bare = true};
     if (is_time) m.twice[2] = 2;
-    if (with_unit && !letters) letters = unit_length(&m, unit);
+    if (read_unit && !letters) letters = unit_length(&m, unit);
     q->value = factor * number_value(text, length, m.ten);
     q->bare = letters == 0;
     memcpy(q->twice, m.twice, sizeof q->twice);
     return letters ? (size_t)(unit - text) + letters : length;
 }
 
-bool quantity_has_unit(const struct quantity *q, enum unit unit, char *message, size_t capacity)
+bool quantity_has_unit(const struct quantity *q, enum unit kind_of_unit, char *message, size_t capacity)
 {
     const struct complaint c = {message, capacity};
-    const signed char *twice = unit_rows[unit].twice;
+    const signed char *twice = unit_rows[kind_of_unit].twice;
     const bool same = q->twice[0] == twice[0] && q->twice[1] == twice[1] && q->twice[2] == twice[2];
     char name[64], wrong[80];
     if (same || q->bare) return true;
     unit_describe(q->twice, name, sizeof name);
     snprintf(wrong, sizeof wrong, "is %s", name);
-    return complain(c, wrong, unit);
+    return complain(c, wrong, kind_of_unit);
 }
 
-bool value_is_in_unit_bounds(real value, enum unit unit, char *message, size_t capacity)
+bool value_is_in_unit_bounds(real value, enum unit kind_of_unit, char *message, size_t capacity)
 {
-    return in_bounds((struct complaint){message, capacity}, value, unit);
+    return in_bounds((struct complaint){message, capacity}, value, kind_of_unit);
 }
 
 const char *number_write_shortest(char text[32], real value)

@@ -51,31 +51,31 @@ static void node_name(const struct yaml_node *n, char *name, size_t capacity)
     }
 }
 
-void location_text(const struct reader *r, int origin, int line, int column, char *text, size_t capacity)
+void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity)
 {
-    if (origin < 0) {
-        snprintf(text, capacity, "%.300s:%d:%d", origin_file_name(r, origin), line, column);
+    if (origin_index < 0) {
+        snprintf(text, capacity, "%.300s:%d:%d", origin_file_name(r, origin_index), line, column);
         return;
     }
-    snprintf(text, capacity, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
+    snprintf(text, capacity, "-s %.100s=%.100s", r->override[origin_index].key, r->override[origin_index].value);
 }
 
-status fault_at_location(const struct reader *r, int origin, int line, int column, const char *format, ...)
+status fault_at_location(const struct reader *r, int origin_index, int line, int column, const char *format, ...)
 {
     char what[512], place[400];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    location_text(r, origin, line, column, place, sizeof place);
+    location_write_text(r, origin_index, line, column, place, sizeof place);
     return status_set(REFUSED, "%s: %s", place, what);
 }
 
-void fault_write_location(const struct reader *r, const struct yaml_node *at, char *text, size_t capacity)
+void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity)
 {
     char name[100];
-    node_name(at, name, sizeof name);
-    location_text(r, at->origin, at->line, at->column, text, capacity);
+    node_name(node, name, sizeof name);
+    location_write_text(r, node->origin, node->line, node->column, text, capacity);
     snprintf(text + strlen(text), capacity - strlen(text), ": %s%s", name, *name ? ": " : "");
 }
 
@@ -86,11 +86,11 @@ status fault(const struct reader *r, const struct yaml_node *at, const char *for
     va_start(arguments, format);
     vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    fault_write_location(r, at, place, sizeof place);
+    fault_write_location_of_node(r, at, place, sizeof place);
     return status_set(REFUSED, "%s%s", place, what);
 }
 
-status fault_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
+status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
 {
     const struct yaml_node *late = one->origin > other->origin ? one : other;
     return fault(r, late, "given beside %s; keep one of the two", late == one ? other->key : one->key);
@@ -115,15 +115,13 @@ static const char *form_text(struct reader *r, const struct key *k)
     }
 }
 
-status fault_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k)
+status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k)
 {
-    char group[64];
-    snprintf(group, sizeof group, "%s", k->path);
-    char *dot = strrchr(group, '.');
-    if (dot) *dot = '\0';
-    const char *example = k->type == KEY_REAL ? unit_rows[k->unit].example : "";
-    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%s; %s is expected%s%s", key_leaf(k),
-                             dot ? " in " : "", dot ? group : "", form_text(r, k), *example ? ", as " : "", example);
+    const char *leaf = key_last_part(k), *example = k->type == KEY_REAL ? unit_rows[k->unit].example : "";
+    const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0; /* length of the path before the last dot */
+    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; %s is expected%s%s", leaf,
+                             group > 0 ? " in " : "", group, k->path, form_text(r, k), *example ? ", as " : "",
+                             example);
 }
 
 const char *words_for_message(struct reader *r, const char *words)
@@ -149,7 +147,7 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
     char instead[400];
     if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
     const struct key *nearest = key_find_most_similar(group, n->key);
-    const char *leaf = nearest ? key_leaf(nearest) : "";
+    const char *leaf = nearest ? key_last_part(nearest) : "";
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
     if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
     int others;
@@ -162,13 +160,13 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 
-/* Returns REFUSED if a key of the mapping `map` is unknown in the group with this path, or is given twice. */
-status check_keys_known(struct reader *r, const struct yaml_node *map, const char *group)
+/* Returns REFUSED if a key of the mapping `mapping` is unknown in the group with this path, or is given twice. */
+status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path)
 {
-    for (const struct yaml_node *n = map->first; n; n = n->next) {
-        const struct key *k = key_find(group, n->key);
-        if (!k) return fault_unknown(r, n, group);
-        for (const struct yaml_node *twin = map->first; twin != n; twin = twin->next)
+    for (const struct yaml_node *n = mapping->first; n; n = n->next) {
+        const struct key *k = key_find(group_path, n->key);
+        if (!k) return fault_unknown(r, n, group_path);
+        for (const struct yaml_node *twin = mapping->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", twin->line);
     }
@@ -183,7 +181,7 @@ status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_k
     return fault(r, n, "%s is not %s%s%s", node_text(r, n), expected, advice ? "; " : "", advice ? advice : "");
 }
 
-status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n)
+status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n)
 {
     int least = (int)k->range.least, most = (int)k->range.most;
     TRY(expect_node_kind(r, n, NODE_LIST, "a list"));
@@ -308,7 +306,7 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     const char *nearest = NULL;
     int least = (int)strlen(text) / 3 + 2;
     for (const char *c = words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL) {
-        const char *word = arena_text(r, c, strcspn(c, "|"));
+        const char *word = arena_copy_text(r, c, strcspn(c, "|"));
         const int distance = edit_distance(word, text);
         if (distance < least) nearest = word, least = distance;
     }
@@ -363,7 +361,7 @@ static status read_name(struct reader *r, const struct yaml_node *n, char *name)
 
 const char *const space_names[] = {"line", "plane stress", "plane strain", "solid"};
 
-const char *space_for_message(const struct reader *r)
+const char *space_name_for_message(const struct reader *r)
 {
     static const char *const shown_as[] = {"space line", "space plane stress", "space plane strain", "space solid"};
     return r->dim == r->scene->dim ? shown_as[r->scene->space] : "the plane of extrude";
@@ -373,7 +371,7 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 {
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
-    const char *space = space_for_message(r);
+    const char *space = space_name_for_message(r);
     if (n->kind != NODE_LIST)
         return fault(r, n, "%s is not a list; %d components are expected in %s", node_text(r, n), r->dim, space);
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
@@ -457,10 +455,10 @@ static status scene_value_read_body(struct reader *r, const struct yaml_node *n,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *base)
+status read_value_of_key(struct reader *r, const struct key *k, const struct yaml_node *n, void *group_values)
 {
     char none[16];
-    void *place = k->place ? (char *)base + (k->place - 1) : (void *)none;
+    void *place = k->place ? (char *)group_values + (k->place - 1) : (void *)none;
     switch (k->type) {
     case KEY_REAL:
         return read_number(r, k, n, place);
@@ -498,28 +496,28 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
 {
     struct yaml_node n = {.kind = NODE_SCALAR, .origin = -1, .line = where->line, .column = where->column};
     if (k->type >= KEY_MAP || *k->fallback == '-' || *k->fallback == '(') return OK;
-    if (strcmp(k->fallback, "required") == 0) return fault_missing_key(r, where, k);
-    n.key = (char *)key_leaf(k);
+    if (strcmp(k->fallback, "required") == 0) return fault_report_missing_key(r, where, k);
+    n.key = (char *)key_last_part(k);
     n.text = (char *)k->fallback;
     return read_value_of_key(r, k, &n, base);
 }
 
-status read_keys_of_group(struct reader *r, const struct yaml_node *where, const struct yaml_node *map,
-                          const char *group, void *base)
+status read_keys_of_group(struct reader *r, const struct yaml_node *location_node, const struct yaml_node *mapping,
+                          const char *group_path, void *group_values)
 {
-    if (map) TRY(expect_node_kind(r, map, NODE_MAP, "a mapping of keys to values"));
-    if (map) TRY(check_keys_known(r, map, group));
+    if (mapping) TRY(expect_node_kind(r, mapping, NODE_MAP, "a mapping of keys to values"));
+    if (mapping) TRY(check_keys_known(r, mapping, group_path));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_is_directly_below(k, group)) continue;
-        const struct yaml_node *n = yaml_node_find(map, key_leaf(k));
+        if (!key_is_directly_below(k, group_path)) continue;
+        const struct yaml_node *n = yaml_node_find(mapping, key_last_part(k));
         if (k->type == KEY_MAP)
-            TRY(read_keys_of_group(r, n ? n : where, n, k->path, base));
+            TRY(read_keys_of_group(r, n ? n : location_node, n, k->path, group_values));
         else if (n)
-            TRY(read_value_of_key(r, k, n, base));
+            TRY(read_value_of_key(r, k, n, group_values));
         else
-            TRY(read_fallback(r, where, k, base));
-        if (n && k->has) *((char *)base + (k->has - 1)) = true;
+            TRY(read_fallback(r, location_node, k, group_values));
+        if (n && k->has) *((char *)group_values + (k->has - 1)) = true;
     }
     return OK;
 }

@@ -66,16 +66,16 @@ static status provisional_read(struct reader *r, const char *text, size_t length
         if (tree_find(root, dropped[k])) read = tree_apply_override(&own, root, dropped[k], "");
     const struct yaml_node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
-               soft = read == OK && scene_any_material_gives_key(root, "tensile_strength"),
+               soft = read == OK && scene_has_material_with_key(root, "tensile_strength"),
                bonds =
-                   read == OK && ((soft && !with->soft_states) || scene_any_material_gives_key(root, "yield_stress") ||
-                                  scene_any_material_gives_key(root, "viscosity"));
+                   read == OK && ((soft && !with->soft_states) || scene_has_material_with_key(root, "yield_stress") ||
+                                  scene_has_material_with_key(root, "viscosity"));
     if (read == OK && !tree_find(root, "particles.spacing"))
         read = tree_apply_override(&own, root, "particles.spacing", number_write_shortest(number, spacing));
     if (read == OK) read = tree_apply_override(&own, root, "method", with->method);
     if (read == OK) read = tree_apply_override(&own, root, "solver", "explicit");
     if (read == OK && !line && !bonds) read = tree_apply_override(&own, root, "model", "mospd");
-    if (read == OK) read = scene_from_tree(&own, root);
+    if (read == OK) read = scene_read_keys_of_tree(&own, root);
     r->arena = own.arena;
     if (read != OK) scene_free(s);
     return read;
@@ -107,7 +107,7 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
     r->spacing_most = NULL;
     TRY(first);
     real spacing = given ? 0 : spacing_that_resolves_all_lengths(s);
-    if (spacing > *most) spacing = spacing_that_fits_lattice(s, *most, true);
+    if (spacing > *most) spacing = spacing_that_fits_box_edges(s, *most, true);
     if (spacing > 0) {
         scene_free(s);
         TRY(provisional_read_any(r, text, length, s, spacing));
@@ -120,21 +120,21 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Reads into *w what a scene with `method: auto` requires of its pilot runs. root: tree of the scene; text[length]: its
- * text. Returns REFUSED for an invalid scene, and for one with load steps. */
-status pilot_wish_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
-                       struct pilot_wish *w)
+/* Reads into *requirements what a scene with `method: auto` requires of its pilot runs. root: tree of the scene;
+ * text[length]: its text. Returns REFUSED for an invalid scene, and for one with load steps. */
+status pilot_requirements_read(struct reader *r, const struct yaml_node *root, const char *text, size_t length,
+                               struct pilot_wish *requirements)
 {
     const struct yaml_node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
     const bool given = tree_find(root, "particles.spacing");
     if (tree_find(root, "steps"))
         return fault(r, tree_find(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
-    TRY(accuracy_read(r, root, w));
-    TRY(provisional_scene(r, text, length, &w->provisional, given, &w->spacing_most));
-    if (given) w->spacing = w->provisional.spacing;
-    if (model) snprintf(w->model, sizeof w->model, "%s", model->text);
-    w->at_rest = solver && strcmp(solver->text, "explicit") != 0;
-    w->has_accuracy = tree_find(root, "accuracy") != NULL;
-    w->wanted = true;
+    TRY(accuracy_read(r, root, requirements));
+    TRY(provisional_scene(r, text, length, &requirements->provisional, given, &requirements->spacing_most));
+    if (given) requirements->spacing = requirements->provisional.spacing;
+    if (model) snprintf(requirements->model, sizeof requirements->model, "%s", model->text);
+    requirements->at_rest = solver && strcmp(solver->text, "explicit") != 0;
+    requirements->has_accuracy = tree_find(root, "accuracy") != NULL;
+    requirements->wanted = true;
     return OK;
 }

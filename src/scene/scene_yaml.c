@@ -17,22 +17,22 @@ struct arena_block {
     _Alignas(16) char bytes[];
 };
 
-void *arena_new(struct reader *r, size_t size)
+void *arena_new(struct reader *r, size_t byte_count)
 {
-    size = (size + 15) & ~(size_t)15;
+    byte_count = (byte_count + 15) & ~(size_t)15;
     struct arena_block *block = r->arena;
-    if (!block || block->room - block->used < size) {
-        size_t room = size > ARENA_BLOCK ? size : ARENA_BLOCK;
+    if (!block || block->room - block->used < byte_count) {
+        size_t room = byte_count > ARENA_BLOCK ? byte_count : ARENA_BLOCK;
         block = memory_new("scene", (int64_t)(sizeof *block + room), 1);
         *block = (struct arena_block){.next = r->arena, .room = room};
         r->arena = block;
     }
     void *place = block->bytes + block->used;
-    block->used += size;
+    block->used += byte_count;
     return place;
 }
 
-char *arena_text(struct reader *r, const char *text, size_t length)
+char *arena_copy_text(struct reader *r, const char *text, size_t length)
 {
     char *copy = arena_new(r, length + 1);
     memcpy(copy, text, length);
@@ -235,7 +235,7 @@ static status read_value(struct parse *p, yaml_event_t *event, int depth, struct
                                    : type == YAML_SEQUENCE_START_EVENT ? NODE_LIST
                                                                        : NODE_MAP);
     if (type == YAML_SCALAR_EVENT)
-        n->text = arena_text(p->r, (char *)event->data.scalar.value, event->data.scalar.length);
+        n->text = arena_copy_text(p->r, (char *)event->data.scalar.value, event->data.scalar.length);
     yaml_event_delete(event);
     *out = n;
     if (type == YAML_SEQUENCE_START_EVENT) return read_items(p, n, depth);
@@ -273,9 +273,9 @@ static status read_document(struct parse *p, struct yaml_node **root)
     return OK;
 }
 
-status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin, struct yaml_node **root)
+status tree_parse_yaml(struct reader *r, const char *text, size_t length, int origin_index, struct yaml_node **root)
 {
-    struct parse p = {.r = r, .text = text, .length = length, .origin = origin};
+    struct parse p = {.r = r, .text = text, .length = length, .origin = origin_index};
     const char *nul = memchr(text, 0, length);
     if (nul) return fault_at(&p, mark_of_offset(&p, (size_t)(nul - text)), "holds a NUL byte; a scene is UTF-8 text");
     if (!yaml_parser_initialize(&p.yaml)) return status_set(FAILED, "%s: no memory to read it", r->name);

@@ -87,18 +87,18 @@ static bool spacing_fits(const struct lengths *l, const struct scene *s, real h,
     return true;
 }
 
-real spacing_that_fits_lattice(const struct scene *s, real h, bool even_edges)
+real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_counts)
 {
     struct lengths l;
     real least = INFINITY;
     lengths_collect(&l, s);
     for (int k = 0; k < l.n; k++) least = real_min(least, l.of[k]);
     if (!isfinite(least)) return h;
-    for (int strict = even_edges; strict >= 0; strict--)
+    for (int strict = even_edge_counts; strict >= 0; strict--)
         for (real n = spacings_in(least, h); least / n > 0.75 * h; n++)
             if (spacing_fits(&l, s, least / n, strict)) return least / n;
     const real edge = box_extent(s, 0, 0), cells = spacings_in(edge, h);
-    return edge > 0 ? edge / (even_edges ? 2 * ceil(cells / 2) : cells) : h;
+    return edge > 0 ? edge / (even_edge_counts ? 2 * ceil(cells / 2) : cells) : h;
 }
 
 /* ---- a coarse spacing ----------------------------------------------------------------------------------------------
@@ -121,7 +121,7 @@ static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
     double least = INFINITY;
-    if (!region_bounding_box(shape, s->dim, from, to)) return least;
+    if (!region_compute_bounding_box_if_finite(shape, s->dim, from, to)) return least;
     for (int d = 0; d < s->dim; d++) least = fmin(least, (to[d] - from[d]) / ACROSS_BODY);
     for (int k = 0; k < shape->n; k++) {
         const struct solid *a = &shape->solid[k];
@@ -136,7 +136,7 @@ static double distance_to_face(const struct scene *s, const real *X)
 {
     real from[DIM_MAX], to[DIM_MAX];
     double least = INFINITY;
-    if (!region_bounding_box(&s->body[0].shape, s->dim, from, to)) return least;
+    if (!region_compute_bounding_box_if_finite(&s->body[0].shape, s->dim, from, to)) return least;
     for (int d = 0; d < s->dim; d++) {
         if (X[d] > from[d]) least = fmin(least, X[d] - from[d]);
         if (X[d] < to[d]) least = fmin(least, to[d] - X[d]);
@@ -194,7 +194,7 @@ static double spacing_for(const struct scene *s, double particles)
     double volume = 0;
     for (int b = 0; b < s->bodies; b++) {
         double box = 1;
-        if (!region_bounding_box(&s->body[b].shape, s->dim, from, to)) continue;
+        if (!region_compute_bounding_box_if_finite(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) box *= to[d] - from[d];
         volume += box;
     }
@@ -208,5 +208,5 @@ real spacing_that_resolves_all_lengths(const struct scene *s)
     for (int k = 0; k < s->cracks; k++) h = fmin(h, crack_spacing(s, &s->crack[k]));
     for (int k = 0; k < s->probes; k++) h = fmin(h, probe_spacing(&s->probe[k]));
     h = fmin(h, spacing_for(s, particles_usual[s->dim]));
-    return h > 0 && isfinite(h) ? spacing_that_fits_lattice(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
+    return h > 0 && isfinite(h) ? spacing_that_fits_box_edges(s, fmax(h, spacing_for(s, PARTICLES_MOST)), true) : 0;
 }

@@ -53,15 +53,15 @@ static void all_fields(struct newton_solver *q, struct field **list)
 }
 enum { FIELDS = 10 };
 
-void newton_solver_make(struct newton_solver *q, int dim, int64_t n)
+void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count)
 {
     struct field *list[FIELDS];
-    q->dim = dim, q->n = n;
+    q->dim = dim, q->n = node_count;
     q->strain_ratio = 0;
-    q->held = NEW("equilibrium.held", n, uint8_t);
+    q->held = NEW("equilibrium.held", node_count, uint8_t);
     all_fields(q, list);
     for (int k = 0; k < FIELDS; k++)
-        for (int d = 0; d < dim; d++) list[k]->of[d] = NEW("equilibrium.field", n, real);
+        for (int d = 0; d < dim; d++) list[k]->of[d] = NEW("equilibrium.field", node_count, real);
 }
 
 void newton_solver_free(struct newton_solver *q)

@@ -69,7 +69,7 @@ static status finest_make(struct multigrid_level *l, const struct block_matrix *
     }
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] <= STIFFNESS_LEAST * most || (held[i] & all) == all) l->scale[i] = 0;
-    multigrid_invert_blocks(l);
+    multigrid_invert_diagonal_blocks(l);
     return OK;
 }
 
@@ -117,7 +117,7 @@ static void coarse_diagonal(struct multigrid_level *l)
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
             if (l->column[q] == i) array_copy(l->diagonal + i * size, l->block + q * size, size, sizeof(real));
-    multigrid_invert_blocks(l);
+    multigrid_invert_diagonal_blocks(l);
 }
 
 /* Builds the next coarser level of m. Returns false, and builds none, if it would not have clearly fewer nodes than the
@@ -128,23 +128,23 @@ static bool coarsen(struct multigrid *m)
     multigrid_aggregate_nodes(l);
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
     *next = (struct multigrid_level){0};
-    multigrid_make_coarse_modes(l, next);
-    multigrid_make_prolongation(l);
+    multigrid_make_coarse_rigid_motions(l, next);
+    multigrid_make_prolongation_and_restriction(l);
     multigrid_make_coarse_matrix(l, next);
-    multigrid_find_unconstrained(l, next);
+    multigrid_find_unconstrained_coarse_nodes(l, next);
     coarse_diagonal(next);
     level_vectors(next);
-    multigrid_estimate_eigenvalue(next);
+    multigrid_estimate_largest_eigenvalue(next);
     m->levels++;
     return true;
 }
 
 status multigrid_make(struct multigrid **out, const struct block_matrix *matrix, real *const *position,
-                      const uint8_t *held)
+                      const uint8_t *constrained)
 {
     struct multigrid *m = *out = NEW("multigrid", 1, struct multigrid);
     m->levels = 1;
-    const status made = finest_make(&m->level[0], matrix, held);
+    const status made = finest_make(&m->level[0], matrix, constrained);
     if (made != OK) {
         multigrid_free(m);
         *out = NULL;
@@ -152,7 +152,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *matrix,
     }
     finest_modes(&m->level[0], position);
     level_vectors(&m->level[0]);
-    multigrid_estimate_eigenvalue(&m->level[0]);
+    multigrid_estimate_largest_eigenvalue(&m->level[0]);
     while (m->levels < LEVELS_MOST) {
         const struct multigrid_level *l = &m->level[m->levels - 1];
         if (m->levels > 1 && l->n * l->width <= DENSE) break;
@@ -222,7 +222,7 @@ static void cycle(struct multigrid *m, int k)
     level_smooth(l, degree, false);
 }
 
-void multigrid_apply(struct multigrid *m, real *const *residual, real *const *result)
+void multigrid_apply_v_cycle(struct multigrid *m, real *const *residual, real *const *result)
 {
     struct multigrid_level *l = &m->level[0];
     const int w = l->width;

@@ -169,21 +169,21 @@ static void members_list(const struct multigrid_level *l, int64_t *first, int32_
     memory_free(at);
 }
 
-void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_level *next)
+void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
     const int w = l->width, m = l->modes;
     int64_t *first = NEW("multigrid.members", l->coarse + 1, int64_t);
     int32_t *member = NEW("multigrid.members", l->n, int32_t);
     members_list(l, first, member);
-    next->n = l->coarse, next->width = next->modes = m;
-    next->mode = NEW("multigrid.mode", next->n * m * m, real);
-    next->scale = NEW("multigrid.scale", next->n, real);
+    coarser_level->n = l->coarse, coarser_level->width = coarser_level->modes = m;
+    coarser_level->mode = NEW("multigrid.mode", coarser_level->n * m * m, real);
+    coarser_level->scale = NEW("multigrid.scale", coarser_level->n, real);
     l->tentative = l->mode, l->mode = NULL;
 #pragma omp parallel for schedule(static)
-    for (int64_t a = 0; a < next->n; a++) {
+    for (int64_t a = 0; a < coarser_level->n; a++) {
         const int64_t n = first[a + 1] - first[a];
-        columns_orthonormal(l->tentative, member + first[a], n, w, m, next->mode + a * m * m);
-        for (int64_t k = first[a]; k < first[a + 1]; k++) next->scale[a] += l->scale[member[k]] / (real)n;
+        columns_orthonormal(l->tentative, member + first[a], n, w, m, coarser_level->mode + a * m * m);
+        for (int64_t k = first[a]; k < first[a + 1]; k++) coarser_level->scale[a] += l->scale[member[k]] / (real)n;
     }
     memory_free(first);
     memory_free(member);

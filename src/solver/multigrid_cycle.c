@@ -170,18 +170,19 @@ static ALWAYS_INLINE void row_prolong(struct multigrid_level *l, const struct mu
 
 void multigrid_compute_residual(struct multigrid_level *l) { BY_WIDTH(l->n, row_residual, l, i); }
 
-void multigrid_smooth(struct multigrid_level *l, real old_factor, real residual_factor, bool start_from_zero)
+void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
+                      bool start_from_zero)
 {
-    BY_WIDTH(l->n, row_relax, l, i, old_factor, residual_factor, start_from_zero);
+    BY_WIDTH(l->n, row_relax, l, i, previous_correction_factor, residual_factor, start_from_zero);
     real *x = l->x;
     l->x = l->y, l->y = x;
 }
 
-void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next)
+void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
-    BY_WIDTHS(next->n, row_restrict, l, next, i);
+    BY_WIDTHS(coarser_level->n, row_restrict, l, coarser_level, i);
 }
-void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *next)
+void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *coarser_level)
 {
-    BY_WIDTHS(l->n, row_prolong, l, next, i);
+    BY_WIDTHS(l->n, row_prolong, l, coarser_level, i);
 }

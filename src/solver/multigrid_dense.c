@@ -27,32 +27,32 @@ void dense_factorise(struct dense *d, const struct multigrid_level *l)
                     l->column[q] == i ? l->diagonal[i * w * w + k] : l->block[q * w * w + k];
     for (int64_t j = 0; j < n; j++) {
         const real pivot = d->upper[j * n + j], scale = l->scale[j / w];
-        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > multigrid_smallest_pivot(l, j / w) * scale ? pivot : scale);
+        d->inverse[j] = scale <= 0 ? 0 : 1 / (pivot > multigrid_smallest_pivot_ratio(l, j / w) * scale ? pivot : scale);
         dense_eliminate(d->upper, n, j, d->inverse[j]);
     }
     for (int64_t j = 0; j < n; j++)
         for (int64_t k = j + 1; k < n; k++) d->upper[j * n + k] *= d->inverse[j];
 }
 
-void dense_solve(const struct dense *d, const real *load, real *x)
+void dense_solve(const struct dense *d, const real *load, real *solution)
 {
     const int64_t n = d->n;
-    array_copy(x, load, n, sizeof *x);
+    array_copy(solution, load, n, sizeof *solution);
     for (int64_t j = 0; j < n; j++) {
         const real *restrict row = d->upper + j * n;
-        const real y = x[j];
+        const real y = solution[j];
         if (y != 0)
-            for (int64_t k = j + 1; k < n; k++) x[k] -= row[k] * y;
-        x[j] = y * d->inverse[j];
+            for (int64_t k = j + 1; k < n; k++) solution[k] -= row[k] * y;
+        solution[j] = y * d->inverse[j];
     }
     for (int64_t j = n - 1; j >= 0; j--) {
         const real *row = d->upper + j * n;
         real sum[4] = {0};
         int64_t k = j + 1;
         for (; k + 4 <= n; k += 4)
-            for (int s = 0; s < 4; s++) sum[s] += row[k + s] * x[k + s];
-        for (; k < n; k++) sum[0] += row[k] * x[k];
-        x[j] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+            for (int s = 0; s < 4; s++) sum[s] += row[k + s] * solution[k + s];
+        for (; k < n; k++) sum[0] += row[k] * solution[k];
+        solution[j] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
 }
 

@@ -194,15 +194,15 @@ static int64_t slab_largest(const struct product *p)
     return most;
 }
 
-void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *next)
+void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
-    struct product p = {.l = l, .next = next};
+    struct product p = {.l = l, .next = coarser_level};
     struct pattern coarse;
     p.tables = (struct tables){l->coarse, BARE("multigrid.tables", l->coarse * omp_get_max_threads(), int32_t)};
     pattern_make(&p.product, l->n, l->first, l->column, l->down.first, l->down.column, &p.tables);
     pattern_make(&coarse, l->coarse, l->up.first, l->up.column, p.product.first, p.product.column, &p.tables);
-    next->first = coarse.first, next->column = coarse.column;
-    next->block = NEW("multigrid.block", coarse.first[l->coarse] * l->modes * l->modes, real);
+    coarser_level->first = coarse.first, coarser_level->column = coarse.column;
+    coarser_level->block = NEW("multigrid.block", coarse.first[l->coarse] * l->modes * l->modes, real);
     p.block = BARE("multigrid.slab", slab_largest(&p) * l->width * l->modes, real);
     p.cursor = BARE("multigrid.cursor", l->coarse, int64_t);
     array_copy(p.cursor, l->up.first, l->coarse, sizeof *p.cursor);

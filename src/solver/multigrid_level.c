@@ -36,7 +36,7 @@ static void block_invert(const real *a, real *inverse, int w, unsigned held, rea
         for (int k = j + 1; k < w; k++) inverse[j * w + k] = inverse[k * w + j];
 }
 
-void multigrid_invert_blocks(struct multigrid_level *l)
+void multigrid_invert_diagonal_blocks(struct multigrid_level *l)
 {
     const int size = l->width * l->width;
     l->inverse = NEW("multigrid.inverse", l->n * size, real);
@@ -44,7 +44,7 @@ void multigrid_invert_blocks(struct multigrid_level *l)
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] > 0)
             block_invert(l->diagonal + i * size, l->inverse + i * size, l->width, l->held ? l->held[i] : 0,
-                         multigrid_smallest_pivot(l, i), l->scale[i]);
+                         multigrid_smallest_pivot_ratio(l, i), l->scale[i]);
 }
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
@@ -73,21 +73,21 @@ static int64_t piece_list(const struct multigrid_level *l, int64_t i, uint8_t *s
     return n;
 }
 
-void multigrid_find_unconstrained(const struct multigrid_level *l, struct multigrid_level *next)
+void multigrid_find_unconstrained_coarse_nodes(const struct multigrid_level *l, struct multigrid_level *coarser_level)
 {
-    next->unconstrained = NEW("multigrid.unconstrained", next->n, uint8_t);
-    array_fill_bytes(next->unconstrained, 1, next->n, 1);
+    coarser_level->unconstrained = NEW("multigrid.unconstrained", coarser_level->n, uint8_t);
+    array_fill_bytes(coarser_level->unconstrained, 1, coarser_level->n, 1);
     for (int64_t i = 0; i < l->n; i++)
-        if (l->aggregate[i] >= 0 && !l->unconstrained[i]) next->unconstrained[l->aggregate[i]] = 0;
+        if (l->aggregate[i] >= 0 && !l->unconstrained[i]) coarser_level->unconstrained[l->aggregate[i]] = 0;
     if (!l->single) return;
-    uint8_t *seen = NEW("multigrid.pieces", next->n, uint8_t);
-    int32_t *list = NEW("multigrid.pieces", next->n, int32_t);
-    for (int64_t i = 0; i < next->n; i++) {
+    uint8_t *seen = NEW("multigrid.pieces", coarser_level->n, uint8_t);
+    int32_t *list = NEW("multigrid.pieces", coarser_level->n, int32_t);
+    for (int64_t i = 0; i < coarser_level->n; i++) {
         if (seen[i]) continue;
-        const int64_t n = piece_list(next, i, seen, list);
+        const int64_t n = piece_list(coarser_level, i, seen, list);
         uint8_t unconstrained = 1;
-        for (int64_t k = 0; k < n; k++) unconstrained &= next->unconstrained[list[k]];
-        for (int64_t k = 0; k < n; k++) next->unconstrained[list[k]] = unconstrained;
+        for (int64_t k = 0; k < n; k++) unconstrained &= coarser_level->unconstrained[list[k]];
+        for (int64_t k = 0; k < n; k++) coarser_level->unconstrained[list[k]] = unconstrained;
     }
     memory_free(seen);
     memory_free(list);
@@ -146,7 +146,7 @@ static void lanczos_turn(struct multigrid_level *l, real a, real b, real length)
 /* Estimates the largest eigenvalue of D^-1 K, with the diagonal blocks D, by the Lanczos method and stores it in
  * l->largest. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x
  * = x . t with t = K x. */
-void multigrid_estimate_eigenvalue(struct multigrid_level *l)
+void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];
     int n = 0;

@@ -52,22 +52,22 @@ struct multigrid {
 
 typedef real pair __attribute__((vector_size(16)));
 
-/* Returns two consecutive values from memory as a vector; `from` need not be aligned. */
-static ALWAYS_INLINE pair lane_pair_load(const real *from)
+/* Returns two consecutive values from memory as a vector; `values` need not be aligned. */
+static ALWAYS_INLINE pair lane_pair_load(const real *values)
 {
     pair a;
-    memcpy(&a, from, sizeof a);
+    memcpy(&a, values, sizeof a);
     return a;
 }
 
-/* Copies the matrix block in row i, at entry q of l->column, to `entry`: w x w values row by row [N/m]. width:
+/* Copies the matrix block in row i, at entry q of l->column, to `block`: w x w values row by row [N/m]. width:
  * components of a node of level l. The diagonal block is read from l->diagonal, others from l->single or l->block. */
-static ALWAYS_INLINE void multigrid_copy_matrix_block(const struct multigrid_level *l, int64_t i, int64_t column_entry,
-                                                      const int width, real *entry)
+static ALWAYS_INLINE void multigrid_copy_matrix_block(const struct multigrid_level *l, int64_t row,
+                                                      int64_t column_entry, const int width, real *block)
 {
-    const bool own = l->column[column_entry] == i;
+    const bool own = l->column[column_entry] == row;
     for (int k = 0; k < width * width; k++)
-        entry[k] = own         ? l->diagonal[i * width * width + k]
+        block[k] = own         ? l->diagonal[row * width * width + k]
                    : l->single ? (real)l->single[column_entry * width * width + k]
                                : l->block[column_entry * width * width + k];
 }
@@ -103,22 +103,22 @@ enum { ROWS_MANY = 200 };
 /* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as a
  * motion without stiffness [1]. It is larger for the finest level, whose stiffnesses are rounded to floats, and for
  * unconstrained fragments: such stiffnesses resist rotations by 6e-8 of their value. */
-static inline real multigrid_smallest_pivot(const struct multigrid_level *l, int64_t i)
+static inline real multigrid_smallest_pivot_ratio(const struct multigrid_level *l, int64_t node)
 {
-    return l->unconstrained[i] || l->single ? 1e-6 : 1e-13;
+    return l->unconstrained[node] || l->single ? 1e-6 : 1e-13;
 }
 
 /* Computes l->inverse, the inverse of the diagonal block of each node of a level. Pivots without stiffness
- * (multigrid_smallest_pivot) are replaced by the mean stiffness l->scale. */
-void multigrid_invert_blocks(struct multigrid_level *l);
+ * (multigrid_smallest_pivot_ratio) are replaced by the mean stiffness l->scale. */
+void multigrid_invert_diagonal_blocks(struct multigrid_level *l);
 
 /* Finds the nodes of the next coarser level that belong to fragments without constrained nodes, from those of level l,
  * and stores them in next->unconstrained. */
-void multigrid_find_unconstrained(const struct multigrid_level *l, struct multigrid_level *next);
+void multigrid_find_unconstrained_coarse_nodes(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Estimates l->largest, the largest eigenvalue of D^-1 K, from below by Lanczos iterations. K: matrix of level l; D:
  * its diagonal blocks. */
-void multigrid_estimate_eigenvalue(struct multigrid_level *l);
+void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l);
 
 /* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the
  * next coarser level: sets l->aggregate and l->coarse, the number of aggregates. */
@@ -126,23 +126,23 @@ void multigrid_aggregate_nodes(struct multigrid_level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
  * width, scale and rigid motions of the nodes of the next coarser level. */
-void multigrid_make_coarse_modes(struct multigrid_level *l, struct multigrid_level *next);
+void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
  * The prolongation is P - step D^-1 K P: the orthonormal rigid motions P of the aggregates of nodes, smoothed by one
  * step with the matrix K of the level and its diagonal blocks D. */
-void multigrid_make_prolongation(struct multigrid_level *l);
+void multigrid_make_prolongation_and_restriction(struct multigrid_level *l);
 
 /* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
  * l->down. */
-void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *next);
+void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Factorises the matrix K of level l as K = U^T D U, with the upper triangular matrix U and the diagonal matrix D, into
  * *d. Pivots without stiffness are replaced by the mean stiffness l->scale. Release with dense_free. */
 void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
-/* Solves K x = b with the factorisation d of dense_factorise. load: d->n loads; x: receives d->n values. */
-void dense_solve(const struct dense *d, const real *load, real *x);
+/* Solves K x = b with the factorisation d of dense_factorise. load: d->n loads; solution: receives d->n values. */
+void dense_solve(const struct dense *d, const real *load, real *solution);
 
 /* Frees the arrays of a factorisation. */
 void dense_free(struct dense *d);
@@ -153,12 +153,13 @@ void multigrid_compute_residual(struct multigrid_level *l);
 /* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
  * of the level and its diagonal blocks D. keep, residual_factor: coefficients of the step [1]; start_from_zero: true if
  * x and d are 0 on entry, which saves the product. */
-void multigrid_smooth(struct multigrid_level *l, real old_factor, real residual_factor, bool start_from_zero);
+void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
+                      bool start_from_zero);
 
 /* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
-void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *next);
+void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Adds the solution of the next coarser level to that of level l: l->x += l->down next->x. */
-void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *next);
+void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *coarser_level);
 
 #endif

@@ -10,13 +10,13 @@ void static_body_compute_bond_forces(const struct static_body *body)
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 
-real field_largest_component(const struct field *v, int dim, int64_t n)
+real field_largest_component(const struct field *vectors, int dim, int64_t vector_count)
 {
     real most = 0;
     for (int d = 0; d < dim; d++) {
-        const real *a = v->of[d];
+        const real *a = vectors->of[d];
 #pragma omp parallel for schedule(static) reduction(max : most)
-        for (int64_t i = 0; i < n; i++) most = real_max(most, fabs(a[i]));
+        for (int64_t i = 0; i < vector_count; i++) most = real_max(most, fabs(a[i]));
     }
     return most;
 }
@@ -26,8 +26,8 @@ real field_largest_component(const struct field *v, int dim, int64_t n)
  * differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
-void static_body_tangent_product(const struct static_body *body, const struct field *displacement, struct field *force,
-                                 real strain_ratio)
+void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
+                                         struct field *force, real strain_ratio)
 {
     struct particles *p = body->part;
     const real most = field_largest_component(displacement, p->dim, p->n);
@@ -66,13 +66,13 @@ void static_solver_compute_force_norms(const struct static_solver *s, const stru
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
 }
 
-void static_solver_set_residual(struct static_solver *s, real reaction, real unbalanced)
+void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm)
 {
-    s->scale = real_max(s->applied, reaction);
+    s->scale = real_max(s->applied, reaction_norm);
     /* without loads the scale is the initial residual */
-    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, unbalanced);
-    const bool rests = unbalanced == 0 || (s->scale == s->first && unbalanced <= s->noise);
-    s->residual = rests ? 0 : unbalanced / s->scale;
+    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, unbalanced_norm);
+    const bool rests = unbalanced_norm == 0 || (s->scale == s->first && unbalanced_norm <= s->noise);
+    s->residual = rests ? 0 : unbalanced_norm / s->scale;
 }
 
 void static_solver_compute_residual(struct static_solver *s, const struct particles *p)

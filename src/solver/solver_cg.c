@@ -68,7 +68,7 @@ static void true_residual(struct static_solver *s, const struct static_body *bod
 {
     struct particles *p = body->part;
     real energy;
-    static_body_tangent_product(body, &s->u, &s->q, s->u_ratio);
+    static_body_compute_tangent_product(body, &s->u, &s->q, s->u_ratio);
     reproducible_sums(s->n, 1, energy_block, s, &energy);
     if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / field_largest_component(&s->u, s->dim, s->n);
     for (int d = 0; d < p->dim; d++)
@@ -167,7 +167,7 @@ status cg_step(struct static_solver *s, const struct static_body *body, int64_t 
         solver_cg_start(s, body);
         if (s->rz == 0) return check(s, body, step, 0, done);
     }
-    static_body_tangent_product(body, &s->d, &s->q, s->strain_ratio);
+    static_body_compute_tangent_product(body, &s->d, &s->q, s->strain_ratio);
     reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,

@@ -41,7 +41,7 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
     const int64_t n = p->n;
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) s->before.of[d][i] = x[d * n + i] / sqrt(s->diagonal[i]);
-    static_body_tangent_product(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
+    static_body_compute_tangent_product(scaled->body, &s->before, &out, 1 / scaled->body->spacing);
     for (int d = 0; d < s->dim; d++)
         for (int64_t i = 0; i < n; i++) y[d * n + i] = out.of[d][i] / sqrt(s->diagonal[i]);
 }
@@ -59,7 +59,7 @@ static void make_diagonal(struct static_solver *s, const struct static_body *bod
     real most = 0;
     struct field kept = {{0}};
     for (int64_t r = 0; r < b->rows; r++) {
-        s->diagonal[b->particle[r]] = 0.25 * bonds_row_largest_eigenvalue_bound(b, p, r);
+        s->diagonal[b->particle[r]] = 0.25 * bonds_row_stiffness_eigenvalue_bound(b, p, r);
         most = real_max(most, s->diagonal[b->particle[r]]);
     }
     for (int64_t i = 0; i < p->n; i++)
@@ -190,7 +190,8 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
     return OK;
 }
 
-void static_solver_iteration_make(struct static_solver *s, const struct static_body *body, bool conjugate_gradients)
+void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
+                                          bool conjugate_gradients)
 {
     s->weight = NEW("solver.weight", s->n, real);
     s->diagonal = NEW("solver.diagonal", s->n, real);

@@ -12,8 +12,8 @@ void static_body_compute_bond_forces(const struct static_body *body);
  * displacements `displacement` [N]. It is the decrease of the bond forces along `displacement`, by central differences.
  * displacement: a vector for each particle [m]; strain_ratio: largest strain that `displacement` causes over its
  * largest component [1/m]. Overwrites positions and forces of the particles. */
-void static_body_tangent_product(const struct static_body *body, const struct field *displacement, struct field *force,
-                                 real strain_ratio);
+void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
+                                         struct field *force, real strain_ratio);
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
  * components, those with prescribed displacement. */

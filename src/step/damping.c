@@ -69,7 +69,7 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
  * [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
-real damping_increment_factor(real decay) { return exp(-0.5 * capped(decay)); }
+real damping_velocity_increment_factor(real rate_times_dt) { return exp(-0.5 * capped(rate_times_dt)); }
 
 /* Stores what bulk damping acts on in all[2]: in all[0] the particles, in all[1] the nodes of the mesh. factor: factor
  * on their velocities [1]. Returns the number of entries: 2, or 1 if the mesh has no points. */
@@ -100,9 +100,10 @@ static real slow_all(struct particles *p, const struct mesh *mesh, struct loads 
     return kinetic;
 }
 
-real damping_apply_first_half_step(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+real damping_apply_first_half_return_energy_loss(struct particles *p, const struct mesh *mesh, struct loads *l,
+                                                 real rate_times_dt)
 {
-    const real share = damping_increment_factor(decay);
+    const real share = damping_velocity_increment_factor(rate_times_dt);
     return (1 - share) * slow_all(p, mesh, l, share);
 }
 
@@ -117,25 +118,27 @@ void damping_store_velocities(struct damping_state *s, const struct particles *p
         }
 }
 
-real damping_energy_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay)
+real damping_energy_loss_since_previous_step(const struct damping_state *s, const struct particles *p,
+                                             const struct mesh *mesh, real rate_times_dt)
 {
     struct damped all[2];
     real loss = 0, sum;
-    const int kinds = damped_find(p, mesh, exp(-capped(decay)), all);
+    const int kinds = damped_find(p, mesh, exp(-capped(rate_times_dt)), all);
     for (int k = 0; k < kinds; k++) {
         all[k].before = s->before[k];
         reproducible_sums(all[k].n, 1, loss_block, &all[k], &sum), loss += sum;
     }
-    return loss / damping_increment_factor(decay);
+    return loss / damping_velocity_increment_factor(rate_times_dt);
 }
 
-real damping_final_energy_loss(real decay, real kinetic_before, real kinetic)
+real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy)
 {
-    const real grown = exp(capped(decay));
-    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_increment_factor(decay);
+    const real grown = exp(capped(rate_times_dt));
+    return (grown - 1) * (grown * kinetic_energy_before + leapfrog_kinetic_energy) /
+           damping_velocity_increment_factor(rate_times_dt);
 }
 
-void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *l, real rate_times_dt)
 {
-    slow_all(p, mesh, l, exp(-capped(decay)));
+    slow_all(p, mesh, l, exp(-capped(rate_times_dt)));
 }

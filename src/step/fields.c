@@ -105,7 +105,7 @@ static void gradients_make(const struct run *e, real **H)
             if (p->kind[i] == KIND_PD)
                 gradient_of_bonds(&e->bonds, p, i, H);
             else if (!in_mesh(e->frame, i)) {
-                particles_find_near(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
+                particles_list_neighbours_within_radius(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
                 gradient_of_points(p, &e->source, &near, i, H);
             }
         memory_free(near.at);
@@ -207,22 +207,22 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores pointers
- * to them in *extra, from which the frame is written. requested: set of these fields, as bits ASK_...
+ * to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits ASK_...
  * (output/output.h). */
-void frame_fields_compute(struct run *e, unsigned requested, struct frame_extra *extra)
+void frame_fields_compute_requested(struct run *e, unsigned requested_field_bits, struct frame_extra *extra)
 {
-    extra->asked = requested, extra->material = e->scene->material, extra->space = e->scene->space;
-    if (requested & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
-    if (requested & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
+    extra->asked = requested_field_bits, extra->material = e->scene->material, extra->space = e->scene->space;
+    if (requested_field_bits & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
+    if (requested_field_bits & ASK_PLASTIC_WORK) extra->state.plastic_work = plastic_work_make(&e->part, &e->bonds);
     extra->state.plastic_strain = plastic_strain_make(&e->part, &e->bonds);
     extra->state.damage = damage_make(&e->part, &e->bonds);
-    if (requested & ASK_SHARE) extra->state.share = shares_make(&e->part, &e->bonds, &e->source);
-    if (requested & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
+    if (requested_field_bits & ASK_SHARE) extra->state.share = shares_make(&e->part, &e->bonds, &e->source);
+    if (requested_field_bits & ASK_LEVEL) extra->state.level = cell_levels_make(e->frame, &e->part);
     if (!extra->more) return;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) extra->more_state.gradient[k] = e->frame->shown.gradient[k];
-    if (requested & ASK_SHARE && e->bonds.soft.near)
+    if (requested_field_bits & ASK_SHARE && e->bonds.soft.near)
         extra->more_state.share = point_shares_make(&e->frame->shown.part, e->scene);
-    if (requested & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
+    if (requested_field_bits & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
 }
 
 void frame_fields_free(struct frame_extra *extra)

@@ -5,7 +5,7 @@
 #include "probes/probes_part.h"
 #include "probes/diagnostics.h"
 
-struct observed_run observed_run_of(const struct run *e)
+struct observed_run observed_run_view_of(const struct run *e)
 {
     const struct scene *s = e->scene;
     return (struct observed_run){.part = &e->part,
@@ -31,7 +31,7 @@ struct observed_run observed_run_of(const struct run *e)
                                  .horizon = e->source.family.horizon,
                                  .crack = s->crack,
                                  .cracks = s->cracks,
-                                 .energy_change = diagnostics_energy_change(e->diagnostics),
+                                 .energy_change = diagnostics_relative_energy_change(e->diagnostics),
                                  .growth = e->fracture->growth,
                                  .growths = s->growths,
                                  .baseline = e->probing->has_baseline ? &e->probing->baseline : NULL};

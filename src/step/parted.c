@@ -19,7 +19,7 @@
 static const struct weak_shape weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
                                                 {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
 
-const struct weak_shape *shape_find_weak_in_tension(enum shape shape)
+const struct weak_shape *shape_properties_if_weak_in_tension(enum shape shape)
 {
     for (size_t k = 0; k < COUNT_OF(weak_shapes); k++)
         if (weak_shapes[k].shape == shape) return &weak_shapes[k];
@@ -41,7 +41,7 @@ static void pairs_make(struct point_pairs *pairs, const struct cells *cells, con
     pairs->made = true;
     for (int64_t i = 0; i < p->n; i++) {
         if (!flows_on_grid(p, s, i)) continue;
-        particles_find_near(&near, cells, p, i, NEIGHBOUR * s->spacing, false);
+        particles_list_neighbours_within_radius(&near, cells, p, i, NEIGHBOUR * s->spacing, false);
         for (int k = 0; k < near.n; k++) {
             const int32_t j = near.at[k];
             if (j <= i || j >= p->n || p->body[j] != p->body[i] || !flows_on_grid(p, s, j)) continue;
@@ -168,7 +168,7 @@ static struct pair_counts pairs_count(const struct point_pairs *pairs, const str
  * c->pulled of them are stretched too far for the shape function of scene s. t: current time [s]. */
 static void warn_of_parted(const struct scene *s, const struct pair_counts *c, int64_t n, real t, struct warnings *to)
 {
-    const struct weak_shape *w = c->parted > 0 ? NULL : shape_find_weak_in_tension(s->shape);
+    const struct weak_shape *w = c->parted > 0 ? NULL : shape_properties_if_weak_in_tension(s->shape);
     char text[640], what[250], state[100] = "has come apart without fracture";
     if (w) snprintf(state, sizeof state, "pulled with mpm.shape: %s is too weak", w->word);
     if (w)
@@ -190,19 +190,19 @@ static void warn_of_parted(const struct scene *s, const struct pair_counts *c, i
     warnings_add_and_print(to, text);
 }
 
-bool parted_points_warn(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
-                        const struct scene *s, real t, struct warnings *to)
+bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
+                                     const struct scene *s, real t, struct warnings *warning_list)
 {
     real most = 0;
     if (p->n_free == 0 || !p->plastic_strain || scene_silences_warning(s, ACCEPT_STRAIN)) return false;
     for (int64_t i = 0; i < p->n; i++) most = real_max(most, p->plastic_strain[i]);
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
-    const struct weak_shape *w = shape_find_weak_in_tension(s->shape);
+    const struct weak_shape *w = shape_properties_if_weak_in_tension(s->shape);
     const struct pair_counts c = pairs_count(pairs, p, s, w ? w->pulled : INFINITY);
     const bool weak = !pairs->pulled && w && (real)c.pulled > w->share * (real)pairs->n;
     if (c.parted == 0 && !weak) return false;
-    warn_of_parted(s, &c, pairs->n, t, to);
+    warn_of_parted(s, &c, pairs->n, t, warning_list);
     if (c.parted == 0) pairs->pulled = true;
     return c.parted > 0;
 }

@@ -42,7 +42,7 @@ static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
     return common_step(clock, k * (clock->steps / n) + (k * (clock->steps % n) + n / 2) / n);
 }
 
-int64_t report_count_frames(const struct scene *s, const struct run_clock *clock)
+int64_t report_frame_count_of_run(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride;
     return s->frames < most ? s->frames : most;
@@ -51,17 +51,17 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
 /* Returns the step after which frame k of the whole body is written. It is the step nearest to the time that scene s
  * gives for the frame, or one of evenly spread steps if the scene gives no times. If frames are closer together than
  * the steps, some are written at later or earlier steps, so that each frame has a step of its own. */
-int64_t report_step_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
+int64_t report_step_number_of_frame(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
-    const int64_t n = report_count_frames(s, clock);
+    const int64_t n = report_frame_count_of_run(s, clock);
     if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
     const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
     int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps, last = clock->steps - (n - k);
     return common_step(clock, step < k ? k : step > last ? last : step);
 }
 
-bool report_sample_due(const struct scene *s, const struct run_clock *clock)
+bool report_sample_is_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
     if (!scene_is_dynamic(s)) return clock->step == 0; /* the start; the equilibrium is a sample of its own */
@@ -92,7 +92,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
 struct run_seconds report_wall_clock_times(const struct run_report *r, const struct timers *timers)
 {
     struct run_seconds s = r->before;
-    s.wall += wall_clock() - r->began;
+    s.wall += wall_clock_seconds() - r->began;
     s.setup += r->setup_seconds;
     for (int k = 0; k < TIMERS; k++)
         if (k != TIMER_OUTPUT) s.loop += timers->spent[k];
@@ -102,7 +102,7 @@ struct run_seconds report_wall_clock_times(const struct run_report *r, const str
 /* Returns true if frame number `frames` of the body, counted from 0, is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
-    return frames <= report_count_frames(s, clock) && step >= report_step_of_frame(s, clock, frames);
+    return frames <= report_frame_count_of_run(s, clock) && step >= report_step_number_of_frame(s, clock, frames);
 }
 
 /* Returns true if frame number `frames` of a region, counted from 0, is due after `step` steps. Frames are written
@@ -115,8 +115,8 @@ static bool region_frame_due(const struct run_clock *clock, real every, real dur
     return step >= (due < clock->steps ? common_step(clock, due) : clock->steps);
 }
 
-unsigned report_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
-                                 int64_t step)
+unsigned report_bits_of_frame_series_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
+                                         int64_t step)
 {
     const bool at_rest = scene_is_single_equilibrium(s);
     unsigned due = 0;
@@ -146,17 +146,18 @@ static status write_frames(struct run *e, unsigned due)
     unsigned asked = 0;
     status s = OK;
     if (e->frame->shown.part.n > 0) TRY(output_wait_for_frame(out)); /* the writer may still read the points */
-    run_update_particles(e);
+    run_update_particle_motion_and_stress(e);
     TRY(frame_sound(&e->clock, &e->part));
-    if (parts) fragments_find(&fragments, &e->bonds, &e->part);
+    if (parts) fragments_find_by_intact_bonds(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e->scene, k);
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
-    if (coarse_cell_points_make(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
+    if (coarse_cell_points_make_for_output(e->frame, &e->part, e->scene->material,
+                                           asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
         extra.spacing = e->scene->spacing;
     }
-    frame_fields_compute(e, asked, &extra);
+    frame_fields_compute_requested(e, asked, &extra);
     for (int k = 0; k <= out->n_series && s == OK; k++) {
         if (!(due >> k & 1)) continue;
         extra.asked = asked_of(e->scene, k);
@@ -164,9 +165,9 @@ static status write_frames(struct run *e, unsigned due)
     }
     frame_fields_free(&extra);
     fragments_free(&fragments);
-    const struct observed_run seen = observed_run_of(e);
-    if (s == OK && due & 1) s = rigids_write_frame(e->rigid, out, &e->part);
-    return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
+    const struct observed_run seen = observed_run_view_of(e);
+    if (s == OK && due & 1) s = rigids_write_surfaces_of_frame(e->rigid, out, &e->part);
+    return s == OK && due & 1 ? profiles_write_csv_files(&e->probing->probes, out, &seen) : s;
 }
 
 /* Writes a checkpoint of the run and stores how long this took in e->report, without the time of waiting for a frame.
@@ -174,12 +175,12 @@ static status write_frames(struct run *e, unsigned due)
 static status write_checkpoint(struct run *e)
 {
     struct run_report *r = e->report;
-    reference_frame_update_points(e->frame, &e->part, &e->loads);
-    r->last_checkpoint = wall_clock();
+    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    r->last_checkpoint = wall_clock_seconds();
     TRY(output_wait_for_frame(r->out));
-    const double begun = wall_clock();
+    const double begun = wall_clock_seconds();
     TRY(checkpoint_write(r->out, e->scene->text, e->save, e));
-    const double now = wall_clock();
+    const double now = wall_clock_seconds();
     r->checkpoint_seconds = real_max(r->checkpoint_seconds, now - r->last_checkpoint);
     r->checkpoints_spent += now - begun;
     return OK;
@@ -191,7 +192,7 @@ static status write_checkpoint(struct run *e)
 static bool checkpoint_due(const struct run_report *r, const struct scene *s)
 {
     const bool in_steps = scene_has_load_steps(s);
-    const double now = wall_clock(), since = now - r->last_checkpoint;
+    const double now = wall_clock_seconds(), since = now - r->last_checkpoint;
     if (!isnan(s->checkpoint_interval)) return in_steps || since > s->checkpoint_interval;
     const bool cheap = r->checkpoints_spent + r->checkpoint_seconds <= CHECKPOINT_SHARE * (now - r->started);
     return cheap && (in_steps || since > CHECKPOINT_SECONDS);
@@ -201,7 +202,7 @@ static bool checkpoint_due(const struct run_report *r, const struct scene *s)
  * less than twice that of the longest checkpoint so far, which must still be written. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
-    return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
+    return wall_clock_seconds() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
 /* Adds and prints warnings for frames and profiles that a resumed run should have, but whose files are missing. probes:
@@ -210,27 +211,27 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
 {
     char text[2 * PATH_NAME_ROOM + 300];
     int lost;
-    TRY(output_index_drop_lost_frames(out, &lost, text, sizeof text));
+    TRY(output_remove_lost_frames_from_index(out, &lost, text, sizeof text));
     if (lost > 0) warnings_add_and_print(to, text);
     profiles_warn_of_missing_files(probes, out, to);
     return OK;
 }
 
-status report_start(struct run *e)
+status report_start_before_first_step(struct run *e)
 {
     struct run_report *r = e->report;
-    r->started = r->last_progress = r->last_checkpoint = wall_clock();
+    r->started = r->last_progress = r->last_checkpoint = wall_clock_seconds();
     r->step_started = e->clock.step;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
     status s = sample_open_history(e, resumed);
     if (s == OK && r->out) contact_allocate_force_record(e->contact, &e->part);
-    r->setup_seconds += wall_clock() - r->started;
+    r->setup_seconds += wall_clock_seconds() - r->started;
     if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
     if (s == OK && r->out && !resumed) {
-        profiles_remove(&e->probing->probes, r->out);
+        profiles_remove_files_of_earlier_run(&e->probing->probes, r->out);
         /* frame 0 of the body is always written */
-        s = write_frames(e, report_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
+        s = write_frames(e, report_bits_of_frame_series_due(r->out, e->scene, &e->clock, 0) | 1);
         if (s == OK) s = write_checkpoint(e);
         r->checkpoints_spent = 0;
     }
@@ -255,7 +256,7 @@ static void duration_text(char *text, size_t size, double seconds)
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
-    double now = wall_clock();
+    double now = wall_clock_seconds();
     if (e->report->quiet ||
         (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
         return;
@@ -264,7 +265,7 @@ static void progress(struct run *e, bool last)
     double rate = (double)(e->clock.step - e->report->step_started) / real_max(now - e->report->started, 1e-9);
     char left[32];
     duration_text(left, sizeof left, rate > 0 ? (double)(e->clock.steps - e->clock.step) / rate : 0);
-    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
     const char *const from = terminal ? "\r" : "";
     if (scene_has_load_steps(e->scene))
         fprintf(stderr, "%sload step %lld/%lld  %s  at most %s left", from, (long long)e->clock.step,
@@ -288,7 +289,7 @@ real particles_at_rest_fraction(const struct bonds *b, const struct mesh *mesh, 
     return at_rest / (real)p->n;
 }
 
-status report_step(struct run *e)
+status report_finished_step(struct run *e)
 {
     struct run_report *r = e->report;
     const bool last = e->clock.step == e->clock.steps, in_steps = scene_has_load_steps(e->scene);
@@ -296,16 +297,16 @@ status report_step(struct run *e)
     r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     r->bond_visits += e->bonds.n;
     r->inactive += particles_at_rest_fraction(&e->bonds, &e->frame->mesh, &e->part);
-    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
+    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
     /* before the checkpoint, so that a finished run is complete */
-    if (last && !in_steps) sample_take_final(e);
+    if (last && !in_steps) sample_take_after_last_step(e);
     TRY(r->history_status);
-    TRY(energy_check(e));
+    TRY(energy_check_last_sample(e));
     if (last) warn_of_unconserved_quantities(e);
-    if (last) warn_of_fast_tips(&e->fracture->tips, e->scene, &e->warnings);
+    if (last) warn_of_tips_above_rayleigh_speed(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
     if (r->out) {
-        const unsigned due = report_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
+        const unsigned due = report_bits_of_frame_series_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
         if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
@@ -315,11 +316,11 @@ status report_step(struct run *e)
                               (long long)e->clock.steps);
     }
     progress(e, false);
-    timer_add_elapsed(&e->timers, TIMER_OUTPUT);
+    timer_add_elapsed_to_section(&e->timers, TIMER_OUTPUT);
     return OK;
 }
 
-status report_end(struct run *e)
+status report_finish_after_last_step(struct run *e)
 {
     struct run_report *r = e->report;
     progress(e, true);

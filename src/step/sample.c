@@ -78,7 +78,7 @@ static int spin_columns(const struct scene *s, const struct reference_frame *fra
 static void fill_record(struct run *e)
 {
     const struct energy_balance *l = &e->diagnostics->now;
-    const struct crack_tip *tip = tips_longest(&e->fracture->tips);
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e->fracture->tips);
     real *r = e->report->record;
     const real *place = tip ? tip->place : (const real[DIM_MAX]){NAN, NAN, NAN};
     const int dim = e->part.dim;
@@ -156,9 +156,9 @@ static bool wants_stress(const struct scene *s)
     return false;
 }
 
-void run_update_particles(struct run *e)
+void run_update_particle_motion_and_stress(struct run *e)
 {
-    reference_frame_update_points(e->frame, &e->part, &e->loads);
+    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
@@ -219,12 +219,12 @@ static void sample_state(struct run *e)
     if (is_free(e->scene, e->frame))
         diagnostics_update_angular_momentum(e->diagnostics, &e->part,
                                             e->frame->mesh.points > 0 ? &e->frame->mesh : NULL, e->scene->bodies);
-    tips_update(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
-    struct observed_run o = observed_run_of(e);
-    probes_sample_begin(&e->probing->probes, &o);
+    tips_update_from_damage(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
+    struct observed_run o = observed_run_view_of(e);
+    probes_begin_sample_before_step(&e->probing->probes, &o);
 }
 
-real sample_strain_energy(struct run *e)
+real sample_current_elastic_energy(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
@@ -238,11 +238,11 @@ static void sample_energies(struct run *e)
     const struct material *m = e->scene->material;
     e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
     e->report->sampling.energy = (struct energy){
-        .strain = sample_strain_energy(e),
+        .strain = sample_current_elastic_energy(e),
         .plastic = bond_plastic_work(&e->bonds) + points_plastic_work(&e->part, m, &e->coupling->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
-        .contact = contact_energy(e->contact, &e->part),
-        .damped = e->damped + contact_friction_work(e->contact),
+        .contact = contact_elastic_energy(e->contact, &e->part),
+        .damped = e->damped + contact_friction_dissipated_energy(e->contact),
         .absorbed = e->loads.absorbing.energy,
         .viscous = e->viscosity->taken,
     };
@@ -253,16 +253,16 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) reference_frame_update_points(e->frame, &e->part, &e->loads);
-    struct observed_run o = observed_run_of(e);
-    probes_sample_end(&e->probing->probes, &o, now);
+    if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    struct observed_run o = observed_run_view_of(e);
+    probes_complete_sample_after_step(&e->probing->probes, &o, now);
     if (scene_is_dynamic(e->scene)) {
         momentum_now(&e->part, e->frame, e->diagnostics->now.momentum);
         momentum_at(sampling, now, e->clock.t, e->part.dim, e->diagnostics->now.momentum);
     }
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability->lost) return; /* no line is written; energy_check reports the failure */
+    if (e->stability->lost) return; /* no line is written; energy_check_last_sample reports the failure */
     diagnostics_update_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
@@ -290,21 +290,21 @@ static real kick_now(const struct run *e)
            mesh_kick(&e->frame->mesh, dt) + levels_leapfrog_energy_gap(&e->frame->levels, dt) - e->loads.absorbing.kick;
 }
 
-void sample_begin(struct run *e)
+void sample_begin_before_step(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
-    sampling->due = report_sample_due(e->scene, &e->clock);
+    sampling->due = report_sample_is_due(e->scene, &e->clock);
     sampling->work = e->loads.work;
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) reference_frame_update_points(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     if (sampling->due)
         sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
         bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    struct observed_run o = observed_run_of(e);
-    probes_store_motion(&e->probing->probes, &o);
+    struct observed_run o = observed_run_view_of(e);
+    probes_store_motion_before_step(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
     sampling->t_velocity = o.t_velocity;
     if (sampling->due) /* sample_state has computed it */
@@ -340,11 +340,11 @@ static bool start_separable(const struct scene *s, const struct particles *p, co
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
 }
 
-void sample_end(struct run *e)
+void sample_complete_after_step(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
-    const real share = damping_increment_factor(e->scene->damping * e->clock.dt);
+    const real share = damping_velocity_increment_factor(e->scene->damping * e->clock.dt);
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
     if (first) { /* the stored velocities are of t = 0, and nothing is damped yet */
@@ -358,7 +358,7 @@ void sample_end(struct run *e)
     sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
-    rigids_average_velocities(e->rigid);
+    rigids_average_velocities_for_sample(e->rigid);
     sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
@@ -382,7 +382,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     }
     for (int64_t I = 0; I < g->n && reference->mesh.points > 0; I++)
         for (int d = 0; d < p->dim; d++) power += g->velocity[d][I] * g->force[d][I];
-    return power + levels_power_of_forces(&reference->levels);
+    return power + levels_power_of_coarse_nodal_forces(&reference->levels);
 }
 
 /* Returns the power v . f of the forces on nodes whose motion loads prescribe (walls) [W]. power_now includes it; it is
@@ -417,7 +417,7 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
     for (int k = 0; grid && k < grid->fields; k++) loads_add_grid_reactions(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
-    for (int level = 1; level <= levels_highest_due_in_step(&frame->levels, clock->step); level++)
+    for (int level = 1; level <= levels_highest_level_due_in_step(&frame->levels, clock->step); level++)
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
@@ -429,11 +429,11 @@ static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
-    const real dt_velocity = e->clock.dt * damping_increment_factor(e->scene->damping * e->clock.dt);
+    const real dt_velocity = e->clock.dt * damping_velocity_increment_factor(e->scene->damping * e->clock.dt);
     memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
     INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
-    loads_clear_forces(&e->loads, &e->part);
+    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_compute_forces(e->contact, &e->part, 0);
     loads_apply_to_particle_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
@@ -443,7 +443,7 @@ static real power_last(struct run *e, real *held)
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
     reactions_at_end(&e->loads, on_grid ? e->grid : NULL, e->frame, &e->clock);
-    memory_archive_rewind(&accounts);
+    memory_archive_rewind_for_loading(&accounts);
     INVARIANT(loads_save_or_load(&e->loads, &accounts.archive) == OK);
     memory_archive_free(&accounts);
     e->loads.absorbing.kick = kick;
@@ -454,31 +454,31 @@ static real power_last(struct run *e, real *held)
 /* Takes the sample after the last step and writes its line of history.csv. As in all samples, the kinetic energy is m
  * v- . v+/2, with the velocities v- and v+ before and after a velocity update. Here v+ follows from the forces at the
  * end and does not move the particles. */
-void sample_take_final(struct run *e)
+void sample_take_after_last_step(struct run *e)
 {
     real held = 0;
     family_states_precompute(&e->bonds, &e->part, &e->source);
-    reference_frame_update_points(e->frame, &e->part,
-                                  &e->loads); /* positions, velocities and stresses of points of the mesh */
+    reference_frame_update_motion_and_stress(e->frame, &e->part,
+                                             &e->loads); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
-    const real decay = e->scene->damping * e->clock.dt, share = damping_increment_factor(decay),
+    const real decay = e->scene->damping * e->clock.dt, share = damping_velocity_increment_factor(decay),
                kick = e->clock.dt * share;
     if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_final_energy_loss(decay, before, kinetic);
+    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last_update_energy_loss(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = rigids_compute_energy(e->rigid, e->clock.dt);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
-    rigids_extrapolate_velocities(e->rigid, e->clock.t, e->clock.dt);
+    rigids_extrapolate_velocities_for_sample(e->rigid, e->clock.t, e->clock.dt);
     sample_write(e, &now, kinetic / share + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 
-void sample_update_probes(struct run *e)
+void sample_update_probes_of_every_step(struct run *e)
 {
-    struct observed_run o = observed_run_of(e);
+    struct observed_run o = observed_run_view_of(e);
     probes_update_every_step(&e->probing->probes, &o);
 }
 
@@ -505,21 +505,21 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
     warnings_add_and_print(to, text);
 }
 
-void sample_record_breaks(struct run *e, int64_t broken_bonds)
+void sample_record_broken_bonds(struct run *e, int64_t broken_bond_count)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
     const bool in_steps = scene_has_load_steps(e->scene);
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
-    struct observed_run o = observed_run_of(e);
+    struct observed_run o = observed_run_view_of(e);
     char when[48];
     if (in_steps)
         snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
     else
         snprintf(when, sizeof when, "at %.4g s", t);
-    if (diagnostics_record_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken_bonds, t))
+    if (diagnostics_record_broken_bonds(e->diagnostics, &e->part, e->source.family.horizon, broken_bond_count, t))
         say_torn(&e->warnings, &e->loads, &e->part, when);
-    if (scene_is_dynamic(e->scene)) sample_update_probes(e);
+    if (scene_is_dynamic(e->scene)) sample_update_probes_of_every_step(e);
     o.t = t;
-    if (in_steps && broken_bonds > 0) probes_update_broken_bonds(&e->probing->probes, &o);
+    if (in_steps && broken_bond_count > 0) probes_update_broken_bonds(&e->probing->probes, &o);
 }

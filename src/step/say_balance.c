@@ -24,7 +24,7 @@
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
-    const real released = diagnostics_excess_released_energy(w);
+    const real released = diagnostics_energy_released_beyond_stored(w);
     if (scene_is_single_equilibrium(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(text, sizeof text,
              "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles "
@@ -87,7 +87,7 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
     return true;
 }
 
-void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct warnings *to)
+void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct scene *s, struct warnings *warning_list)
 {
     const struct crack_tip *fastest = NULL;
     char text[500];
@@ -107,7 +107,7 @@ void warn_of_fast_tips(const struct crack_tips *t, const struct scene *s, struct
              "the frames; if this is meant: accept: [rayleigh]",
              fastest->origin[0], fastest->origin[1], fastest->place[0], fastest->place[1], fastest->speed_max,
              t->window, limit);
-    warnings_add_and_print(to, text);
+    warnings_add_and_print(warning_list, text);
 }
 
 /* Warns of the error of the energy balance, and advises how to reduce it, in a run with yielding material points on the
@@ -170,7 +170,7 @@ void warn_of_unconserved_quantities(struct run *e)
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "
         "trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
-        error < 0 && apic ? scene_why_reference_frame_no_remedy(e->scene)
+        error < 0 && apic ? scene_why_reference_frame_is_no_remedy(e->scene)
                                 ? ": APIC damps motion that its grid does not resolve; mpm.transfer: flip keeps it"
                                 : ": APIC damps motion that its grid does not resolve; mpm.transfer: flip and "
                                   "mpm.frame: reference keep it"
@@ -178,14 +178,15 @@ void warn_of_unconserved_quantities(struct run *e)
     warnings_add_and_print(&e->warnings, text);
 }
 
-void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to)
+void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
+                           struct warnings *warning_list)
 {
     bool yields = false;
     if (r->yield_said || !b->plastic_path) return;
     for (int64_t row = 0; row < b->rows && !yields; row++) yields = bond_row_plastic_path(b, row) > 0;
     if (!yields) return;
-    const int known = to->n;
+    const int known = warning_list->n;
     r->yield_said = true;
-    warn_of_bond_plasticity(s, to);
-    warnings_print_to_stderr(to, known);
+    warn_of_bond_plasticity(s, warning_list);
+    warnings_print_to_stderr(warning_list, known);
 }

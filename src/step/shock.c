@@ -18,7 +18,7 @@ static real least_impedance(const struct scene *s, int b)
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials && b < s->bodies; m++)
-        if (scene_body_has_material(&s->body[b], m))
+        if (scene_body_can_have_material(&s->body[b], m))
             least = real_min(least, s->material[m].density * s->material[m].wave_speed);
     return least;
 }
@@ -33,7 +33,7 @@ static real speed_limit(const struct scene *s, int a, int b)
     real least = INFINITY;
     for (int m = 0; m < s->materials && a < s->bodies; m++) {
         const struct material *own = &s->material[m];
-        if (!scene_body_has_material(&s->body[a], m)) continue;
+        if (!scene_body_can_have_material(&s->body[a], m)) continue;
         const real share = 1 / (1 + own->density * own->wave_speed / other);
         least = real_min(least, strain_limit(s, own) * own->wave_speed / share);
     }
@@ -66,7 +66,7 @@ static real closing_speed(const struct scene *s, int a, int b)
     for (int k = 0; k < 2; k++) {
         const struct scene_body *own = &s->body[body[k]];
         real centre[DIM_MAX] = {0};
-        if (own->file || !region_bounding_box(&own->shape, s->dim, from[k], to[k])) return 0;
+        if (own->file || !region_compute_bounding_box_if_finite(&own->shape, s->dim, from[k], to[k])) return 0;
         for (int d = 0; d < s->dim; d++) centre[d] = 0.5 * (from[k][d] + to[k][d]);
         start_speed(s, body[k], centre, v[k]);
     }

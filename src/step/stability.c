@@ -180,7 +180,7 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
     if (s->method != METHOD_PD && reference->mesh.points > 0)
         other[n++] = "mpm.frame: current";
-    else if (!scene_why_reference_frame_no_remedy(s))
+    else if (!scene_why_reference_frame_is_no_remedy(s))
         other[n++] = "mpm.frame: reference";
     if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
@@ -226,12 +226,12 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     return true;
 }
 
-void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real value, char *text,
-                               size_t capacity)
+void stability_describe_remedy(const struct run *e, const struct growth_samples *earlier, real growing_value,
+                               char *text, size_t capacity)
 {
     real steps;
     char others[256];
-    const enum growth_rate rate = growth_samples_classify(earlier, e->clock.step, value, &steps);
+    const enum growth_rate rate = growth_samples_classify(earlier, e->clock.step, growing_value, &steps);
     if (scene_has_load_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, capacity,
                  "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "
@@ -270,13 +270,13 @@ void stability_describe_remedy(const struct run *e, const struct growth_samples 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
 /* Returns FAILED, with a message and a remedy, if a particle is faster than the fastest wave, or has a position or
- * velocity that is not finite. peridynamic: check the peridynamic particles too; meshed: check the material points of a
- * mesh too. */
-status divergence_check(const struct run *e, bool peridynamic, bool meshed)
+ * velocity that is not finite. check_peridynamic: check the peridynamic particles too; check_mesh_points: check the
+ * material points of a mesh too. */
+status divergence_check_particles(const struct run *e, bool check_peridynamic, bool check_mesh_points)
 {
     char remedy[REMEDY_LENGTH];
-    const status s =
-        diagnostics_check_divergence(&e->part, peridynamic, meshed, e->tables.wave_speed, e->clock.step, e->clock.t);
+    const status s = diagnostics_check_divergence(&e->part, check_peridynamic, check_mesh_points, e->tables.wave_speed,
+                                                  e->clock.step, e->clock.t);
     if (s == OK) return OK;
     const real speed = fastest_now(&e->part, e->frame), limit = e->tables.wave_speed;
     stability_describe_remedy(e, &e->stability->speed, square(isfinite(speed) && speed > limit ? speed : limit), remedy,
@@ -292,8 +292,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
     if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps)) return OK;
     char what[48] = "a coarse cell";
     real X[DIM_MAX] = {0};
-    const int64_t i = mesh_find_inverted_point(&reference->mesh, p);
-    if (i == p->n && !levels_find_inverted_cell(&reference->levels, X)) return OK;
+    const int64_t i = mesh_first_particle_in_inverted_cell(&reference->mesh, p);
+    if (i == p->n && !levels_contain_inverted_cell(&reference->levels, X)) return OK;
     if (i < p->n) {
         particle_reference_position(p, i, X);
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
@@ -312,16 +312,16 @@ static status formula_check(const struct loads *l, const struct particles *p, co
     const real *impulse = l->impulse;
     if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
         for (int half = -3; half <= 2; half++)
-            TRY(loads_check_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
-    return clock->step == clock->steps ? loads_check_finite(l, p, clock->t) : OK;
+            TRY(loads_check_formulas_are_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_check_formulas_are_finite(l, p, clock->t) : OK;
 }
 
-status stability_check(struct run *e)
+status stability_check_after_step(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(&e->loads, &e->part, &e->clock));
     if (diverged) reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-    TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
+    TRY(divergence_check_particles(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_check_largest_overlap(e));
     TRY(rigids_check_speed(e->rigid, e->scene, &e->clock));
@@ -353,7 +353,10 @@ bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, rea
 /* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. max(0, -fracture energy). It
  * can be positive in state-based models: a broken bond changes the dilatation of its particles, and their other bonds
  * may store more. */
-real diagnostics_excess_released_energy(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
+real diagnostics_energy_released_beyond_stored(const struct diagnostics *w)
+{
+    return real_max(0, -w->now.energy.fracture);
+}
 
 /* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance exceeds
  * ENERGY_FROM_NOWHERE, or breaking bonds released too much energy beyond what they had stored. The error is not tested
@@ -363,7 +366,7 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
     return (counts && w->now.balance_error > ENERGY_FROM_NOWHERE) ||
-           diagnostics_excess_released_energy(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
+           diagnostics_energy_released_beyond_stored(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
 /* Returns true if the time step is above the critical one and velocities change sign in every step: kinetic energy <
@@ -393,7 +396,7 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
 static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
 {
     char text[560], remedy[200] = "use mpm.frame: reference";
-    const char *why = scene_why_reference_frame_no_remedy(s);
+    const char *why = scene_why_reference_frame_is_no_remedy(s);
     if (why)
         snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
     snprintf(text, sizeof text,
@@ -474,7 +477,7 @@ static bool say_turned(const struct particles *p, const struct scene *s, real t,
 /* Returns FAILED, with a message and a remedy, if the energy shows that the run is unstable although no particle is
  * faster than waves: a body that gains energy, e.g. by breaking all its bonds, or whose velocities change sign in every
  * step. Tested at samples and at the end. Bodies whose energy is round-off are not tested. */
-status energy_check(struct run *e)
+status energy_check_last_sample(struct run *e)
 {
     if (e->stability->lost)
         return status_set(FAILED,
@@ -482,7 +485,7 @@ status energy_check(struct run *e)
                           "supports and initial state (`cleave check`)",
                           (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;
-    const real excess = w->now.balance_error * w->energy_scale + diagnostics_excess_released_energy(w);
+    const real excess = w->now.balance_error * w->energy_scale + diagnostics_energy_released_beyond_stored(w);
     const bool last = e->clock.step == e->clock.steps && !scene_is_single_equilibrium(e->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
@@ -492,8 +495,8 @@ status energy_check(struct run *e)
                                   (scene_is_dynamic(e->scene) && say_flowed(&e->part, e->clock.t, &e->warnings)) ||
                                   say_turned(&e->part, e->scene, e->clock.t, &e->warnings);
     if (!e->stability->parted)
-        e->stability->parted =
-            parted_points_warn(&e->stability->pairs, &e->part, &e->cells, e->scene, e->clock.t, &e->warnings);
+        e->stability->parted = parted_points_warn_if_separated(&e->stability->pairs, &e->part, &e->cells, e->scene,
+                                                               e->clock.t, &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

@@ -31,7 +31,7 @@ struct step {
  * *transfer. damping: rate c of bulk damping [1/s]. */
 static struct step step_begin(const struct run_clock *clock, real damping, struct transfer_data *transfer)
 {
-    const real dt = clock->dt, decay = damping * dt, share = damping_increment_factor(decay);
+    const real dt = clock->dt, decay = damping * dt, share = damping_velocity_increment_factor(decay);
     const real dt_velocity = (clock->step == 0 ? 0.5 : 1) * dt * share;
     transfer->dt_velocity = dt_velocity;
     return (struct step){.middle = clock->t + 0.5 * dt, decay, share, dt_velocity};
@@ -41,22 +41,23 @@ static struct step step_begin(const struct run_clock *clock, real damping, struc
  * now->converted: receives their number. */
 static void conversion(struct run *e, struct step *now)
 {
-    const bool marked = conversion_flag_points(e);
-    sample_record_breaks(e, now->broken);
-    now->converted = conversion_convert_and_update_run(e, now->broken, marked, cracks_have_fading_bonds(e->fracture));
-    timer_add_elapsed(&e->timers, TIMER_CONVERT);
+    const bool marked = conversion_flag_points_near_bodies_or_faces(e);
+    sample_record_broken_bonds(e, now->broken);
+    now->converted = conversion_convert_points_and_update_run(e, now->broken, marked,
+                                                              cracks_have_gradually_weakening_bonds(e->fracture));
+    timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
 /* Updates the pairs of particles that may be in contact, and sets in now->motion how peridynamic particles move in this
  * step. */
 static void motion_begin(struct run *e, struct step *now)
 {
-    contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
-                             e->diagnostics->bonds_broken,
-                             e->coupling->conversion.converted + e->coupling->conversion.reverted);
+    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step,
+                                         e->diagnostics->bonds_broken,
+                                         e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have reallocated the list */
-    timer_add_elapsed(&e->timers, TIMER_CONVERT);
+    timer_add_elapsed_to_section(&e->timers, TIMER_CONVERT);
 }
 
 /* Sorts the points on the grid into cells. Returns FAILED, with a message, if positions of points are not finite or a
@@ -65,7 +66,7 @@ static status sort(struct run *e)
 {
     bool lost;
     TRY(grid_sort_points_into_cells(e, &lost));
-    return lost ? divergence_check(e, true, false) : OK;
+    return lost ? divergence_check_particles(e, true, false) : OK;
 }
 
 /* Damps the velocities of points in the interface zone of the coupling, before the forces of the step are computed.
@@ -75,7 +76,7 @@ static void zone_damp(struct run *e, struct step *now)
 {
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
-    e->damped += interface_zone_damp_velocities(&e->coupling->zone, &e->part, e->coupling->damping_share);
+    e->damped += interface_zone_damp_and_return_half_energy(&e->coupling->zone, &e->part, e->coupling->damping_share);
     loads_update_mirror_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
@@ -87,7 +88,7 @@ static void damping_begin(struct run *e, const struct step *now)
     real *const *before = e->report->sampling.before;
     if (!(now->decay > 0)) return;
     if (e->clock.step == 0) {
-        e->damped += damping_apply_first_half_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
+        e->damped += damping_apply_first_half_return_energy_loss(&e->part, &e->frame->mesh, &e->loads, now->decay);
         for (int d = 0; d < e->part.dim && before[d]; d++)
             for (int64_t i = 0; i < e->part.n; i++) before[d][i] *= now->share;
     }
@@ -114,7 +115,7 @@ static int64_t surface_interval(real horizon, real wave_speed, real dt)
  * bonds broken. If sweep_moves returns true, the loop over bonds also moves the particles without loads. */
 static void push_bonds(struct run *e, struct step *now)
 {
-    loads_clear_forces(&e->loads, &e->part);
+    loads_clear_forces_of_loaded_particles(&e->loads, &e->part);
     if (e->clock.step % surface_interval(e->source.family.horizon, e->tables.wave_speed, e->clock.dt) == 0)
         bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
     e->source.limit.retries = e->clock.step % SOFTENING_RETRY_STEPS == 0;
@@ -127,9 +128,9 @@ static void push_bonds(struct run *e, struct step *now)
 static void push_contact(struct contact *c, struct particles *p, const struct run_report *report, const struct scene *s,
                          const struct run_clock *clock)
 {
-    c->recorded = c->push[0] && report_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
+    c->recorded = c->push[0] && report_bits_of_frame_series_due(report->out, s, clock, clock->step + 1) != 0;
     contact_compute_forces(c, p, clock->step > 0 ? clock->dt : 0);
-    contact_record_first_and_last_time(c, clock->t);
+    contact_record_first_and_last_contact_time(c, clock->t);
 }
 
 /* Moves the peridynamic particles that the loop over bonds has not moved: those with loads, or all if sweep_moves is
@@ -152,12 +153,12 @@ static void move_grid(struct run *e, const struct step *now)
     viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, true);
     grid_map_points_to_nodes(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
     viscosity_subtract_or_restore_pressure(e->viscosity, &e->part, false);
-    if (e->clock.step == 0) patch_residual_store(e->probing, e->scene, &e->part, e->grid);
-    grid_advance_points(e, now->middle); /* 3, 4, 6, 7 */
+    if (e->clock.step == 0) patch_test_store_largest_residual_force(e->probing, e->scene, &e->part, e->grid);
+    grid_advance_material_points_one_step(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain)
         bonded_points_compute_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
-    if (any) timer_add_elapsed(&e->timers, TIMER_GATHER);
-    if (now->damps) e->damped += interface_zone_damped_energy_second_half(&e->coupling->zone, &e->part);
+    if (any) timer_add_elapsed_to_section(&e->timers, TIMER_GATHER);
+    if (now->damps) e->damped += interface_zone_second_half_of_damped_energy(&e->coupling->zone, &e->part);
 }
 
 /* Computes the forces on nodes of bodies in the reference frame and moves these nodes. Does nothing without such
@@ -167,7 +168,7 @@ static void move_frame(struct run *e, const struct step *now)
     if (e->frame->mesh.points == 0) return;
     reference_frame_compute_forces(e->frame, &e->part, e->clock.step);
     viscosity_add_nodal_forces(e);
-    if (e->clock.step == 0) patch_residual_store_mesh(e->probing, e->scene, &e->frame->mesh);
+    if (e->clock.step == 0) patch_test_include_mesh_residual_force(e->probing, e->scene, &e->frame->mesh);
     reference_frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
@@ -179,7 +180,7 @@ static void step_hold(struct run *e, const struct step *now)
         loads_add_grid_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
     if (loads_impose_prescribed_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
     loads_update_mirror_images(&e->loads, &e->part);
-    timer_add_elapsed(&e->timers, TIMER_GRID);
+    timer_add_elapsed_to_section(&e->timers, TIMER_GRID);
 }
 
 /* Completes the sample of the start of the step, applies bulk damping and adds its energy loss to e->damped, and
@@ -187,20 +188,21 @@ static void step_hold(struct run *e, const struct step *now)
 static void finish(struct run *e, const struct step *now)
 {
     const bool damps = now->decay > 0;
-    const real loss =
-        damps && e->clock.step > 0 ? damping_energy_loss(e->damping, &e->part, &e->frame->mesh, now->decay) : 0;
+    const real loss = damps && e->clock.step > 0
+                          ? damping_energy_loss_since_previous_step(e->damping, &e->part, &e->frame->mesh, now->decay)
+                          : 0;
     e->damped += loss;
     e->report->sampling.energy.damped += loss;
-    sample_end(e);
+    sample_complete_after_step(e);
     if (damps) damping_apply_full_step(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
-    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
+    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
 }
 
-bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bonds)
+bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count)
 {
-    struct step now = {.broken = broken_bonds};
+    struct step now = {.broken = broken_bond_count};
     if (e->frame->mesh.points > 0 && e->scene->method == METHOD_ADAPTIVE)
         mesh_points_mark(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
     conversion(e, &now);
@@ -224,27 +226,27 @@ status step(struct run *e)
 {
     struct step now = step_begin(&e->clock, e->scene->damping, &e->grid->transfer);
     if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
-    reversion_revert_relaxed_particles(e);
+    reversion_convert_relaxed_particles_to_mpm(e);
     motion_begin(e, &now);
-    sample_begin(e);
+    sample_begin_before_step(e);
     TRY(sort(e));
     zone_damp(e, &now);
     damping_begin(e, &now);
 
     push_bonds(e, &now); /* 2, 5 */
-    viscosity_add_forces(e);
+    viscosity_add_bond_forces_and_pressure(e);
     push_contact(e->contact, &e->part, e->report, e->scene, &e->clock);
-    rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
+    rigids_subtract_impulse_and_update_work(e->rigid, now.dt_velocity, e->loads.impulse);
     loads_apply_to_particle_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
-    timer_add_elapsed(&e->timers, TIMER_BONDS);
+    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
     sample_compute_energies(e);
-    now.broken += cracks_grow_one_step(e);
-    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
+    now.broken += cracks_grow_one_step_and_count_cut_bonds(e);
+    timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
 
     move_peridynamic(e, &now.motion); /* 4 */
-    rigids_move(e->rigid, now.middle, e->clock.dt,
-                now.dt_velocity / now.share); /* bulk damping does not act on rigid bodies */
-    timer_add_elapsed(&e->timers, TIMER_BONDS);
+    rigids_advance_one_step(e->rigid, now.middle, e->clock.dt,
+                            now.dt_velocity / now.share); /* bulk damping does not act on rigid bodies */
+    timer_add_elapsed_to_section(&e->timers, TIMER_BONDS);
     move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
     move_frame(e, &now); /* 3, 4, 7 */
     step_hold(e, &now);

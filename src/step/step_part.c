@@ -75,7 +75,7 @@ static void put_error_bars(struct json *j, const struct run_report *r)
 
 static void put_figures(const struct run *e, struct json *j)
 {
-    const struct observed_run o = observed_run_of(e);
+    const struct observed_run o = observed_run_view_of(e);
     put_probes(j, &e->probing->probes, &o);
     put_error_bars(j, e->report);
 }

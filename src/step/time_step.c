@@ -207,7 +207,7 @@ static real lightest_share(const struct scene *s, const struct particles *p)
 /* Computes the critical time step and the time step of a run, and the number of steps, in e->clock. The limits of all
  * methods of the scene apply from the start, because particles convert later. Returns REFUSED, with a message, if the
  * prescribed step is too large for coarse cells, or the steps are too many. */
-status time_step_choose(struct run *e)
+status time_step_choose_and_count_steps(struct run *e)
 {
     const struct scene *s = e->scene;
     const bool on_grid = e->part.n_free + e->part.n_grid_coupled > 0;
@@ -220,7 +220,7 @@ status time_step_choose(struct run *e)
                            sqrt(lightest_share(s, &e->part)) *
                            viscosity_time_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_time_step(e->contact, &e->part, s->material, e->clock.dt_critical);
-    const int levels = mesh_levels_choose_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
+    const int levels = mesh_levels_choose_level_count(e->frame, &e->part, s, e->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
         real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));

@@ -102,7 +102,8 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
         if (!on_grid || volume == 0) continue;
         const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * dt);
         v->pressure[i] = viscous_pressure(&v->material[p->material[i]], v->cell, rate);
-        v->work[i] = -0.5 * point_mpm_energy_fraction(partial, p->dim, i) * (before + v->pressure[i]) * growth;
+        v->work[i] =
+            -0.5 * point_energy_fraction_not_carried_by_bonds(partial, p->dim, i) * (before + v->pressure[i]) * growth;
     }
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
@@ -111,7 +112,7 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
  * (trapezoidal rule); 0 in the first step, which has no previous forces. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
-void viscosity_add_forces(struct run *e)
+void viscosity_add_bond_forces_and_pressure(struct run *e)
 {
     if (!viscosity_made(e->viscosity, e->scene, e->part.n, e->frame->mesh.grid.n)) return;
     bonds_push(e->viscosity, &e->bonds, &e->part, half_step(&e->clock));
@@ -171,8 +172,8 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
     const real J = invert_gradient(F, dim, inverse);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
-    const real q =
-        viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_energy_fraction(partial, dim, i);
+    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) *
+                   point_energy_fraction_not_carried_by_bonds(partial, dim, i);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
@@ -275,19 +276,20 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
 }
 
-real viscosity_time_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
+real viscosity_time_step_factor(const struct scene *s, const struct loads *l, const struct particles *p,
+                                real initial_speed)
 {
     real impedance = INFINITY;
     for (int m = 0; m < s->materials; m++)
         impedance = real_min(impedance, s->material[m].density * s->material[m].wave_speed);
     for (int b = 0; b < l->n && scene_has_viscosity(s); b++)
-        speed = real_max(speed, speed_of_load(&l->load[b], p, s->duration, impedance));
+        initial_speed = real_max(initial_speed, speed_of_load(&l->load[b], p, s->duration, impedance));
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
-        speed = real_max(speed, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
+        initial_speed = real_max(initial_speed, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
     real q = 0;
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];
-        q = real_max(q, own->viscosity.linear + own->viscosity.quadratic * speed / own->wave_speed);
+        q = real_max(q, own->viscosity.linear + own->viscosity.quadratic * initial_speed / own->wave_speed);
     }
     return sqrt(1 + q * q) - q;
 }

@@ -142,13 +142,13 @@ static void convergence_judge(struct convergence *c)
     c->index = SAFETY * near / (pow(l[1].spacing / l[0].spacing, fmin(o.seen, ORDER_MOST)) - 1);
 }
 
-bool convergence_evaluate(struct convergence *c, const double *spacing, const double *value, const int *level, int runs,
-                          int levels, const double *resolution)
+bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
+                                        const int *level, int run_count, int level_count, const double *resolution)
 {
-    INVARIANT(levels >= LEVELS_LEAST && levels <= LEVELS_MOST);
-    *c = (struct convergence){.levels = levels};
-    for (int k = 0; k < levels; k++) {
-        level_find(&c->level[k], spacing, value, level, runs, k);
+    INVARIANT(level_count >= LEVELS_LEAST && level_count <= LEVELS_MOST);
+    *c = (struct convergence){.levels = level_count};
+    for (int k = 0; k < level_count; k++) {
+        level_find(&c->level[k], spacing, value, level, run_count, k);
         if (c->level[k].runs > 0) continue;
         if (k < LEVELS_LEAST) return false;
         c->levels = k; /* levels coarser than a gap are ignored */
@@ -156,6 +156,6 @@ bool convergence_evaluate(struct convergence *c, const double *spacing, const do
     }
     errors_find(c, resolution);
     convergence_judge(c);
-    convergence_intervals(c);
+    convergence_compute_intervals(c);
     return true;
 }

@@ -26,7 +26,7 @@ static struct path convergence_picture(const char *folder, const char *name)
 status scalar_results_check_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
-    if (study_folder_check(folder) != OK) return OK; /* study_lock_folder reports the fault */
+    if (study_folder_check_is_usable(folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_is_from_cleave(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_check_replaceable(convergence_picture(folder, "convergence.png").text));
     return picture_check_replaceable(convergence_picture(folder, "path.png").text);
@@ -37,7 +37,8 @@ status scalar_results_check_replaceable(const char *folder)
 /* Returns the unit in which a figure (a number in summary.json of the runs) is drawn. */
 static struct unit figure_unit(const struct scalar_result_study *f)
 {
-    return unit_with_allowed_prefix(f->unit, fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
+    return unit_for_largest_value_if_prefixable(f->unit,
+                                                fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }
 
 /* Sends three data blocks to gnuplot for the figure f, a number in summary.json. Their names are $r, $m and $e followed
@@ -46,7 +47,7 @@ static struct unit figure_unit(const struct scalar_result_study *f)
  * level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
-    const int at = study_find_result(&s->table, f->name);
+    const int at = study_index_of_result(&s->table, f->name);
     const double factor = figure_unit(f).factor;
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
@@ -68,7 +69,7 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
     char title[256];
     snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, unit.name);
     fputs("set title ", to);
-    gnuplot_quote(to, title);
+    gnuplot_write_quoted_string(to, title);
     fputs("\nplot ", to);
     if (seen) {
         fprintf(to, "x < 0 ? NaN : %.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ",
@@ -365,5 +366,5 @@ status scalar_results_draw(const struct convergence_study *s, const struct scala
 {
     TRY(folder_make(path_join(s->study.folder, "pictures").text));
     TRY(draw_figures(s, figure, figures));
-    return s->scene.dim > 1 && study_find_result(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
+    return s->scene.dim > 1 && study_index_of_result(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
 }

@@ -64,7 +64,7 @@ static double horizon_moves(const struct convergence_study *s, const double *val
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
-    const int length = study_find_result(&s->table, "crack.length_end");
+    const int length = study_index_of_result(&s->table, "crack.length_end");
     const bool tip = !strncmp(name, "crack.", 6) || !strncmp(name, "probes.tip", 10);
     const bool is_angle = !strcmp(own, "angle_deg") && length >= 0;
     const bool is_place = !strcmp(own, "length_end") || !strcmp(own, "x") || !strcmp(own, "y") || !strcmp(own, "z");
@@ -89,8 +89,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     *f = (struct scalar_result_study){.name = s->table.figure[at]};
     double resolution[LEVELS_MOST];
     const bool steps = resolution_find(resolution, s, f->name);
-    const bool known = convergence_evaluate(&f->c, spacing, s->table.value[at], level, s->study.n, s->spacings.levels,
-                                            steps ? resolution : NULL);
+    const bool known = convergence_evaluate_scalar_result(&f->c, spacing, s->table.value[at], level, s->study.n,
+                                                          s->spacings.levels, steps ? resolution : NULL);
     memory_free(level);
     memory_free(spacing);
     if (!known) return false;
@@ -98,7 +98,7 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     f->horizon_moves = horizon_moves(s, s->table.value[at]);
     if (s->scene.irregularity > 0 && isfinite(f->horizon_moves)) {
         f->c.bias = HORIZON_REST * fabs(f->horizon_moves);
-        convergence_intervals(&f->c);
+        convergence_compute_intervals(&f->c);
     }
     f->spacing_moves = f->c.level[0].mean - f->c.level[1].mean;
     return true;
@@ -135,7 +135,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     char tied[NAME_MAX_LENGTH * 2];
     if (!dot || (strcmp(dot, ".x") && strcmp(dot, ".y") && strcmp(dot, ".z"))) return false;
     snprintf(tied, sizeof tied, "%.*s.tied", (int)(dot - name), name);
-    const int count = study_find_result(&s->table, tied);
+    const int count = study_index_of_result(&s->table, tied);
     for (int k = 0; k < s->study.n && count >= 0; k++)
         if (s->table.value[count][k] > 1) return true;
     return false;
@@ -157,20 +157,21 @@ static void figures_units(const struct convergence_study *s, struct scalar_resul
 {
     char header[HEADER_ROOM];
     study_read_history_header(header, sizeof header, &s->study);
-    for (int f = 0; f < figures; f++) study_result_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
+    for (int f = 0; f < figures; f++)
+        study_write_unit_of_result(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
 }
 
-status scalar_results_find(const struct convergence_study *s, const char *const *wanted_names, int wanted_count,
-                           struct scalar_result_study **figure, int *figures)
+status scalar_results_determine_convergence(const struct convergence_study *s, const char *const *wanted_names,
+                                            int wanted_count, struct scalar_result_study **figure, int *figure_count)
 {
     for (int k = 0; k < wanted_count; k++)
-        if (study_find_result(&s->table, wanted_names[k]) < 0)
+        if (study_index_of_result(&s->table, wanted_names[k]) < 0)
             return status_set(REFUSED,
                               "%s: summary.json has no such figure; names in it are joined by points, as "
                               "in crack.angle_deg",
                               wanted_names[k]);
     *figure = NEW("study.figures", s->table.figures, struct scalar_result_study);
-    *figures = 0;
+    *figure_count = 0;
     for (int f = 0; f < s->table.figures && wanted_count == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
@@ -181,10 +182,11 @@ status scalar_results_find(const struct convergence_study *s, const char *const 
         for (int f = 0; f < s->table.figures; f++)
             if ((wanted_count > 0 || !is_one_of_several(s, s->table.figure[f])) &&
                 part_of(s->table.figure[f]) == part && is_wanted(s, s->table.figure[f], wanted_names, wanted_count) &&
-                figure_make(&(*figure)[*figures], s, f) && (wanted_count > 0 || figure_moves(&(*figure)[*figures])))
-                ++*figures;
-    figures_units(s, *figure, *figures);
-    if (*figures > 0) return OK;
+                figure_make(&(*figure)[*figure_count], s, f) &&
+                (wanted_count > 0 || figure_moves(&(*figure)[*figure_count])))
+                ++*figure_count;
+    figures_units(s, *figure, *figure_count);
+    if (*figure_count > 0) return OK;
     memory_free(*figure);
     *figure = NULL;
     return status_set(FAILED,
@@ -240,7 +242,7 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
     FILE *to = memory_stream_open(&text, &length);
     if (to) figures_table(to, s, figure, figures);
     TRY(study_write_stream_to_file(&s->study, "converge.csv", to, &text, &length));
-    return study_write_scene(s->study.folder, s->scene.text, s->study.options);
+    return study_write_scene_and_options(s->study.folder, s->scene.text, s->study.options);
 }
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */

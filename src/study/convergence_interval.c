@@ -137,7 +137,7 @@ static double normal_half_width(double share)
     return high;
 }
 
-double convergence_half_width(const struct convergence *c, double centre, double probability)
+double convergence_interval_half_width(const struct convergence *c, double centre, double probability)
 {
     struct mixture m;
     const double scale = range_scale(c), rest = c->bias > 0 ? c->bias * normal_half_width(probability) : 0;
@@ -145,7 +145,7 @@ double convergence_half_width(const struct convergence *c, double centre, double
     return hypot(scale * mixture_half_width(&m, (centre - c->level[0].mean) / scale, probability), rest);
 }
 
-void convergence_intervals(struct convergence *c)
+void convergence_compute_intervals(struct convergence *c)
 {
     struct mixture m;
     const double scale = range_scale(c);
@@ -164,7 +164,7 @@ void convergence_intervals(struct convergence *c)
     c->extrapolated += scale * value;
     for (int k = 0; k < c->levels; k++) {
         const double error = c->level[k].error;
-        c->uncertainty[k] = convergence_half_width(c, c->level[k].mean, 0.95);
+        c->uncertainty[k] = convergence_interval_half_width(c, c->level[k].mean, 0.95);
         c->discretisation[k] = sqrt(fmax(square(c->uncertainty[k]) - square(error), 0));
     }
 }

@@ -46,7 +46,7 @@ static void places_find(struct places *p, const struct scene *s)
     bool first = true;
     for (int b = 0; b < s->bodies; b++) {
         const struct region *shape = &s->body[b].shape;
-        if (s->body[b].file || !region_bounding_box(shape, s->dim, low, high)) continue;
+        if (s->body[b].file || !region_compute_bounding_box_if_finite(shape, s->dim, low, high)) continue;
         for (int d = 0; d < s->dim; d++) {
             place_add(p, high[d] - low[d], s->spacing);
             for (int k = 0; k < shape->n; k++) {
@@ -97,12 +97,13 @@ static double spacing_near(const struct places *p, double wanted, double reach, 
     return best;
 }
 
-void spacings_choose(struct spacings *spacings, const struct scene *s, int levels, double finest)
+void spacings_choose_for_convergence_study(struct spacings *spacings, const struct scene *s, int level_count,
+                                           double finest)
 {
     struct places p = {0};
     places_find(&p, s);
-    *spacings = (struct spacings){.levels = levels};
-    for (int k = 0; k < levels; k++) {
+    *spacings = (struct spacings){.levels = level_count};
+    for (int k = 0; k < level_count; k++) {
         double *at = spacings->at[k];
         const double wanted = finest * pow(2, 0.5 * k);
         at[0] = fabs(wanted / s->spacing - 1) < 1e-9 ? s->spacing : spacing_near(&p, wanted, NEAR_WANTED, NULL, 0);

@@ -171,7 +171,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     options.until = s->begun + s->budget;
     level_run_add(s, s->spacings.levels - 1, 0, w->runs);
     TRY(study_determine_case_states(&s->study, false));
-    TRY(study_run(&s->study, options));
+    TRY(study_execute_waiting_runs(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
@@ -204,7 +204,8 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     status done = FAILED;
     s->refused = INFINITY;
     for (int finer = 0; finer <= FINER_MOST; finer++) {
-        spacings_choose(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, -0.5 * finer));
+        spacings_choose_for_convergence_study(&s->spacings, &s->scene, w->levels,
+                                              s->scene.spacing * pow(2, -0.5 * finer));
         done = first_run(s, w, &refused);
         if (!refused) break;
         s->refused = s->point[s->first].spacing;
@@ -219,7 +220,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
     if (levels > LEVELS_MOST) return false;
-    spacings_choose(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
+    spacings_choose_for_convergence_study(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
     while (levels > LEVELS_LEAST && s->spacings.at[levels - 1][0] > 0.999 * s->refused) levels--;
     s->spacings.levels = levels;
     for (int k = 0; k < levels && shift > 0; k++)
@@ -232,7 +233,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
-    const double left = s->budget - (wall_clock() - s->begun);
+    const double left = s->budget - (wall_clock_seconds() - s->begun);
     double need = 0;
     bool planned = false;
     for (size_t k = 0; k < COUNT_OF(own_first); k++) {
@@ -292,10 +293,10 @@ static void plan_print(const struct convergence_study *s)
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;
-    const int cores = machine_cores();
+    const int cores = machine_physical_core_count();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
     s->study.options = w->words;
-    spacings_choose(&s->spacings, &s->scene, w->levels, s->scene.spacing);
+    spacings_choose_for_convergence_study(&s->spacings, &s->scene, w->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,
                           "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
@@ -312,7 +313,7 @@ static status study_go(struct convergence_study *s, const struct convergence_req
         fprintf(stderr, "[1/%d] %s: done in %.3g s\n", s->study.n, s->study.at[s->first].name, s->spent);
     TRY(study_determine_case_states(&s->study, false));
     options.until = s->begun + s->budget;
-    TRY(study_run(&s->study, options));
+    TRY(study_execute_waiting_runs(&s->study, options));
     int failed = 0;
     for (int k = s->first; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
     if (failed > 0)
@@ -326,13 +327,13 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
     *s = (struct convergence_study){.override = w->override,
                                     .overrides = w->overrides,
                                     .budget = w->budget,
-                                    .begun = wall_clock(),
+                                    .begun = wall_clock_seconds(),
                                     .fixed_horizon = w->fixed_horizon,
                                     .study.lock.fd = -1};
     TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));
     const char *refusal = study_refusal(&s->scene, w);
     status done = refusal ? status_set(REFUSED, "%s: %s", w->scene, refusal) : OK;
-    for (int k = 0; k < w->wanteds && done == OK; k++) done = result_name_check(&s->scene, w->wanted[k]);
+    for (int k = 0; k < w->wanteds && done == OK; k++) done = result_name_check_is_known(&s->scene, w->wanted[k]);
     if (done == OK) done = study_go(s, w);
     if (done != OK) convergence_study_free(s);
     return done;

@@ -183,7 +183,7 @@ static const char *figure_lacks(const struct scene *s, const char *group, const 
     return lacks || !body ? lacks : axes_lack(s, leaf);
 }
 
-status result_name_check(const struct scene *s, const char *name)
+status result_name_check_is_known(const struct scene *s, const char *name)
 {
     const char *now = result_current_name(name);
     if (now) fprintf(stderr, "warning: the figure %s is now called %s\n", name, now), name = now;

@@ -44,7 +44,7 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
     if (p->wish.at_rest) chosen_put(to, &n, "solver", "cg");
     snprintf(number, sizeof number, "%.15g", spacing);
     chosen_put(to, &n, "particles.spacing", number);
-    pilot_set_overrides(to, p->override, p->overrides, n);
+    pilot_combine_overrides(to, p->override, p->overrides, n);
 }
 
 static status candidate_study(struct pilot_search *p, struct pilot_candidate *c, double spacing, double budget,
@@ -70,7 +70,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
         .options = {.threads = 1, .quiet = true, .overwrite = true, .stop = p->options.stop}};
     status done = convergence_study_run(&s, &w);
     if (done == OK) {
-        done = pilot_judge_candidate(p, c, &s);
+        done = pilot_determine_required_spacing(p, c, &s);
         c->unknown = done == REFUSED;
         convergence_study_free(&s);
     }
@@ -83,7 +83,10 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
 /* Returns the time of the budget of pilot runs that is left [s], at least 0. */
-static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
+static double time_left(const struct pilot_search *p)
+{
+    return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);
+}
 
 /* Returns the candidate method with the shortest predicted duration of a run at the spacing that it requires for the
  * requested accuracy. Returns NULL if no method has a prediction. */
@@ -107,7 +110,7 @@ static status search_first(struct pilot_search *p)
         /* Rings of probes and notches refuse spacings that are too coarse for them. */
         for (int finer = 0; finer <= REFUSED_MOST && done == FAILED; finer++) {
             const double share = PILOT_FIRST_SHARE * time_left(p) / (p->n - k);
-            if (finer > 0) spacing = spacing_that_fits_lattice(&p->wish.provisional, spacing / FINER_LEAST, true);
+            if (finer > 0) spacing = spacing_that_fits_box_edges(&p->wish.provisional, spacing / FINER_LEAST, true);
             done = candidate_study(p, &p->at[k], spacing, share, !(fixed > 0));
             if (fixed > 0) break;
         }
@@ -125,7 +128,7 @@ static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, s
     const double left = time_left(p), wanted = c->finest / c->spacing;
     const double bearable = pow(left / (PILOT_RUNS_FIRST * c->finest_seconds), 1.0 / (p->wish.provisional.dim + 1));
     const double finer = fmin(fmax(wanted, FINER_LEAST), fmin(bearable, FINER_MOST));
-    const double next = spacing_that_fits_lattice(&p->wish.provisional, c->finest / finer, true);
+    const double next = spacing_that_fits_box_edges(&p->wish.provisional, c->finest / finer, true);
     struct pilot_candidate again = *c;
     if (finer < FINER_LEAST) return false;
     *done = candidate_study(p, &again, next, left, false);
@@ -214,13 +217,14 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
 static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     TRY(folder_make(p->folder));
-    TRY(study_folder_mark(p->folder));
+    TRY(study_folder_mark_as_study(p->folder));
     TRY(scalar_results_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          pilot runs at coarse spacings choose the method and the spacing for an error of %s "
                 "within %.3g %%; they take at most %.3g s (accuracy.budget), and their results are in %s\n",
-                pilot_result_name(p), 100 * p->wish.within, p->wish.budget, printable_name(p->folder).text);
+                pilot_name_of_requested_result(p), 100 * p->wish.within, p->wish.budget,
+                printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "
                         "crack that grows under "
@@ -239,20 +243,24 @@ static status pilot_choose(struct pilot *to, struct pilot_search *p, const char 
 {
     char run[NAME_MAX_LENGTH + sizeof "results/"];
     snprintf(run, sizeof run, "results/%s", p->wish.provisional.name);
-    snprintf(p->folder, sizeof p->folder, "%s", pilot_folder(folder ? folder : run).text);
+    snprintf(p->folder, sizeof p->folder, "%s", pilot_folder_of_run(folder ? folder : run).text);
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long");
-    TRY(pilot_plan(p));
-    return pilot_read_stored(to, p) ? OK : pilot_search_all(to, p);
+    TRY(pilot_list_applicable_methods(p));
+    return pilot_read_stored_choice(to, p) ? OK : pilot_search_all(to, p);
 }
 
-status pilot_scene_read(struct scene *s, struct pilot *to, const char *scene, const struct scene_override *override,
-                        int overrides, const char *folder, struct study_options options)
+status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *to, const char *scene,
+                                         const struct scene_override *override, int overrides, const char *folder,
+                                         struct study_options options)
 {
-    struct pilot_search p = {
-        .scene = scene, .override = override, .overrides = overrides, .options = options, .begun = wall_clock()};
+    struct pilot_search p = {.scene = scene,
+                             .override = override,
+                             .overrides = overrides,
+                             .options = options,
+                             .begun = wall_clock_seconds()};
     *to = (struct pilot){0};
-    TRY(scene_read_or_pilot_wish(s, &p.wish, scene, override, overrides));
+    TRY(scene_read_or_list_pilot_requirements(s, &p.wish, scene, override, overrides));
     if (!p.wish.wanted) return OK;
     status done = pilot_choose(to, &p, folder);
     scene_free(&p.wish.provisional);

@@ -40,7 +40,7 @@ static int level_run(const struct convergence_study *s, int level)
 
 static double pilot_run_figure(const struct convergence_study *s, const char *name, int run)
 {
-    const int figure = study_find_result(&s->table, name);
+    const int figure = study_index_of_result(&s->table, name);
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
@@ -58,7 +58,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
         const double value = pilot_run_figure(s, f->name, run), seconds = pilot_run_figure(s, "wall_seconds", run);
         if (!isfinite(value) || !isfinite(seconds)) continue;
         c->finest = s->point[run].spacing, c->finest_seconds = seconds;
-        c->width = convergence_half_width(&f->c, value, 0.95);
+        c->width = convergence_interval_half_width(&f->c, value, 0.95);
         c->value = value, c->reached = c->width / size;
         const bool fixed = p->wish.spacing > 0 && level != s->own;
         if (!(c->reached <= p->wish.within) || fixed || c->finest > p->wish.spacing_most) continue;
@@ -77,7 +77,7 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     const double likely = isfinite(f->c.order_likely) ? f->c.order_likely - f->c.order_error : 0.5;
     const double reduction = fmax(square(c->reached) - square(bias), 0); /* a spacing above the largest may be enough */
     const double finer = fmax(pow(sqrt(reduction) / within, 1 / fmax(likely, 0.5)), c->finest / p->wish.spacing_most);
-    c->spacing = spacing_that_fits_lattice(&p->wish.provisional, c->finest / finer, false);
+    c->spacing = spacing_that_fits_box_edges(&p->wish.provisional, c->finest / finer, false);
     const double loop = pilot_run_figure(s, "loop_seconds", level_run(s, 0)); /* the rest of wall_seconds is mostly the
                                                                                * start of the process */
     const double growth = pow(c->finest / c->spacing, s->scene.dim + 1);
@@ -85,12 +85,13 @@ static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, cons
     c->expected = p->wish.within;
 }
 
-status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s)
+status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *c,
+                                        const struct convergence_study *study)
 {
     struct scalar_result_study *figure = NULL;
     int figures = 0;
-    const char *wanted = p->wish.figure[0] ? p->wish.figure : p->figure;
-    TRY(scalar_results_find(s, &wanted, *wanted ? 1 : 0, &figure, &figures));
+    const char *wanted = search->wish.figure[0] ? search->wish.figure : search->figure;
+    TRY(scalar_results_determine_convergence(study, &wanted, *wanted ? 1 : 0, &figure, &figures));
     const struct scalar_result_study *f = *wanted ? figure : figure_usual(figure, figures);
     status done = OK;
     if (f && !(fabs(f->c.extrapolated) > 1e-9 * f->c.uncertainty[0]))
@@ -101,26 +102,27 @@ status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *c, 
             REFUSED, "accuracy.of: the scene has no probe, no crack and no energy that could be compared; add a probe");
     else {
         c->spacing = c->finest = c->seconds = 0, c->seen = false;
-        snprintf(p->figure, sizeof p->figure, "%s", f->name);
-        spacing_find(p, c, s, f);
+        snprintf(search->figure, sizeof search->figure, "%s", f->name);
+        spacing_find(search, c, study, f);
     }
-    if (done == OK) done = scalar_results_write(s, f, 1);
+    if (done == OK) done = scalar_results_write(study, f, 1);
     memory_free(figure);
     return done;
 }
 
-void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c)
+void pilot_print(const struct pilot_search *search, const struct pilot_candidate *c)
 {
     if (c->failed[0])
         fprintf(stderr, "pilot          %s: %s\n", c->name, c->failed);
     else if (c->seen)
         fprintf(stderr, "pilot          method %s: %s +- %.2g %% at a spacing of %.4g mm, in %.2g s\n", c->name,
-                p->figure, 100 * c->expected, 1e3 * c->spacing, c->seconds);
+                search->figure, 100 * c->expected, 1e3 * c->spacing, c->seconds);
     else {
         fprintf(stderr, "pilot          method %s: %s +- %.2g %% at a spacing of %.4g mm, in %.2g s", c->name,
-                p->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds);
+                search->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds);
         if (c->spacing > 0)
-            fprintf(stderr, "; %.2g %% would need %.4g mm, %.2g s", 100 * p->wish.within, 1e3 * c->spacing, c->seconds);
+            fprintf(stderr, "; %.2g %% would need %.4g mm, %.2g s", 100 * search->wish.within, 1e3 * c->spacing,
+                    c->seconds);
         fputc('\n', stderr);
     }
 }

@@ -13,13 +13,15 @@
 #define ASKED "asked.yaml"  /* text of the scene's file, with the overrides as comments */
 #define CHOSEN "chosen.txt" /* one KEY=VALUE per line */
 
-void pilot_set_overrides(struct pilot *to, const struct scene_override *override, int overrides, int n)
+void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
+                             int chosen_key_count)
 {
-    memory_free(to->override);
-    to->override = NEW("pilot.override", overrides + n + 1, struct scene_override);
-    to->overrides = overrides + n;
-    for (int k = 0; k < overrides; k++) to->override[k] = override[k];
-    for (int k = 0; k < n; k++) to->override[overrides + k] = (struct scene_override){to->key[k], to->value[k]};
+    memory_free(choice->override);
+    choice->override = NEW("pilot.override", user_override_count + chosen_key_count + 1, struct scene_override);
+    choice->overrides = user_override_count + chosen_key_count;
+    for (int k = 0; k < user_override_count; k++) choice->override[k] = user_override[k];
+    for (int k = 0; k < chosen_key_count; k++)
+        choice->override[user_override_count + k] = (struct scene_override){choice->key[k], choice->value[k]};
 }
 
 void pilot_free(struct pilot *to)
@@ -68,23 +70,24 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     struct scene s;
     char table[CASE_NAME_ROOM];
     TRY(scene_read(&s, p->scene, to->override, to->overrides));
-    const status put = study_write_scene(p->folder, s.text, NULL);
+    const status put = study_write_scene_and_options(p->folder, s.text, NULL);
     scene_free(&s);
     TRY(put);
     snprintf(table, sizeof table, "%s/converge.csv", best->name);
     return file_copy(p->folder, table, "converge.csv");
 }
 
-status pilot_store_choice(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+status pilot_store_choice(const struct pilot *choice, const struct pilot_search *p,
+                          const struct pilot_candidate *chosen_method)
 {
     char *asked = question_text(p), *text = NULL;
     size_t length = 0;
     if (!asked) return status_set(FAILED, "%s: cannot be read again", p->scene);
-    status put = bars_keep(to, p, best);
+    status put = bars_keep(choice, p, chosen_method);
     FILE *out = put == OK ? memory_stream_open(&text, &length) : NULL;
     if (out) {
-        for (int k = p->overrides; k < to->overrides; k++)
-            fprintf(out, "%s=%s\n", to->override[k].key, to->override[k].value);
+        for (int k = p->overrides; k < choice->overrides; k++)
+            fprintf(out, "%s=%s\n", choice->override[k].key, choice->override[k].value);
         put = fclose(out) == 0 ? file_write_whole(path_join(p->folder, CHOSEN).text, text, length)
                                : status_set(FAILED, "%s: out of memory", p->folder);
         if (put == OK) put = file_write_whole(path_join(p->folder, ASKED).text, asked, strlen(asked));
@@ -110,7 +113,7 @@ static int answer_read(struct pilot *to, char *text)
     return n;
 }
 
-bool pilot_read_stored(struct pilot *to, const struct pilot_search *p)
+bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *p)
 {
     char *asked = question_text(p), *before = NULL, *text = NULL;
     size_t length;
@@ -118,7 +121,7 @@ bool pilot_read_stored(struct pilot *to, const struct pilot_search *p)
                       strcmp(asked, before) == 0 &&
                       file_read_whole(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
     if (same) {
-        pilot_set_overrides(to, p->override, p->overrides, answer_read(to, text));
+        pilot_combine_overrides(choice, p->override, p->overrides, answer_read(choice, text));
         if (!p->options.quiet)
             fprintf(stderr, "pilot          as chosen before: %s\n",
                     printable_name(path_join(p->folder, CHOSEN).text).text);

@@ -37,7 +37,7 @@ struct pilot_search {
     struct study_options options;
     struct pilot_wish wish;
     char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the figure */
-    double begun;                        /* start time on wall_clock [s] */
+    double begun;                        /* start time on wall_clock_seconds [s] */
     struct pilot_candidate at[4];        /* [n] applicable methods */
     int n;
 };
@@ -45,34 +45,35 @@ struct pilot_search {
 /* Lists the methods that are applicable to the scene of p in p->at[] and stores their number in p->n. Returns REFUSED
  * if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of the scene has the
  * requested figure. */
-status pilot_plan(struct pilot_search *p);
+status pilot_list_applicable_methods(struct pilot_search *search);
 
 /* Returns the name of the figure (scalar result) whose accuracy the scene requests, or a description of the default
- * figure if it names none. The text belongs to *p or is static. */
-const char *pilot_result_name(const struct pilot_search *p);
+ * figure if it names none. The text belongs to *search or is static. */
+const char *pilot_name_of_requested_result(const struct pilot_search *search);
 
 /* Allocates the array to->override, after releasing an earlier one, and fills it. The first entries are the overrides
- * of the user, override[overrides]. They are followed by n keys that pilot runs have chosen, with the texts to->key[k]
- * and to->value[k]. */
-void pilot_set_overrides(struct pilot *to, const struct scene_override *override, int overrides, int n);
+ * of the user, user_override[overrides]. They are followed by n keys that pilot runs have chosen, with the texts
+ * to->key[k] and to->value[k]. */
+void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
+                             int chosen_key_count);
 
 /* Determines, from the convergence study s of the method `candidate`, the particle spacing that the method requires for
  * the requested accuracy, and stores it with its cost in *candidate (pilot_judge.c). Returns REFUSED if no accuracy can
  * be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
-status pilot_judge_candidate(struct pilot_search *p, struct pilot_candidate *candidate,
-                             const struct convergence_study *s);
+status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
+                                        const struct convergence_study *study);
 
 /* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected time of the run. */
-void pilot_print(const struct pilot_search *p, const struct pilot_candidate *candidate);
+void pilot_print(const struct pilot_search *search, const struct pilot_candidate *candidate);
 
-/* Stores the choice *to as files in the folder of the pilot runs, with the scene and the overrides for which it was
- * made and the error bars of the chosen method *best. search: state of the choice. Returns FAILED if the scene cannot
- * be read or a file cannot be written. */
-status pilot_store_choice(const struct pilot *to, const struct pilot_search *search,
-                          const struct pilot_candidate *best);
+/* Stores the choice *choice as files in the folder of the pilot runs, with the scene and the overrides for which it was
+ * made and the error bars of the chosen method *chosen_method. search: state of the choice. Returns FAILED if the scene
+ * cannot be read or a file cannot be written. */
+status pilot_store_choice(const struct pilot *choice, const struct pilot_search *search,
+                          const struct pilot_candidate *chosen_method);
 
-/* Reads the choice that earlier pilot runs of the same scene with the same overrides have stored, into *to. search: the
- * scene, its overrides and the folder of the pilot runs. Returns false if there is none. */
-bool pilot_read_stored(struct pilot *to, const struct pilot_search *search);
+/* Reads the choice that earlier pilot runs of the same scene with the same overrides have stored, into *choice. search:
+ * the scene, its overrides and the folder of the pilot runs. Returns false if there is none. */
+bool pilot_read_stored_choice(struct pilot *choice, const struct pilot_search *search);
 
 #endif

@@ -71,70 +71,72 @@ static bool scene_acts(const struct scene *s)
 
 /* Lists the methods that are applicable to the scene in p->at. Returns REFUSED if there is none, or if pilot runs are
  * not possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies. */
-status pilot_plan(struct pilot_search *p)
+status pilot_list_applicable_methods(struct pilot_search *search)
 {
-    const struct scene *s = &p->wish.provisional;
+    const struct scene *s = &search->wish.provisional;
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
             return status_set(REFUSED,
                               "%s: method: auto varies the spacing, but a body of this scene comes from a particle "
                               "list, whose spacing is fixed; give a method and particles.spacing",
-                              p->scene);
-    if (!(p->wish.spacing > 0) && !(spacing_that_resolves_all_lengths(s) > 0))
+                              search->scene);
+    if (!(search->wish.spacing > 0) && !(spacing_that_resolves_all_lengths(s) > 0))
         return status_set(REFUSED,
                           "%s: the scene has no length from which pilot runs could choose a spacing; give method and "
                           "particles.spacing",
-                          p->scene);
+                          search->scene);
     if (!scene_acts(s))
         return status_set(REFUSED,
                           "%s: method: auto judges results, and nothing moves or loads the bodies: no boundary with a "
                           "value, gravity, initial or velocity is given",
-                          p->scene);
-    if (p->wish.figure[0]) TRY(result_name_check(s, p->wish.figure));
-    candidates_find(p);
-    return p->n > 0 ? OK
-                    : status_set(REFUSED,
-                                 "%s: no method of the pilot runs can be combined with the model, solver and pd.region "
-                                 "of the scene; give a method and particles.spacing",
-                                 p->scene);
+                          search->scene);
+    if (search->wish.figure[0]) TRY(result_name_check_is_known(s, search->wish.figure));
+    candidates_find(search);
+    return search->n > 0
+               ? OK
+               : status_set(REFUSED,
+                            "%s: no method of the pilot runs can be combined with the model, solver and pd.region "
+                            "of the scene; give a method and particles.spacing",
+                            search->scene);
 }
 
-const char *pilot_result_name(const struct pilot_search *p)
+const char *pilot_name_of_requested_result(const struct pilot_search *search)
 {
-    if (p->wish.figure[0]) return p->wish.figure;
-    if (p->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
-    if (may_crack(&p->wish.provisional) && !p->wish.at_rest)
+    if (search->wish.figure[0]) return search->wish.figure;
+    if (search->wish.provisional.probes > 0) return "the first figure of its probes that is not zero";
+    if (may_crack(&search->wish.provisional) && !search->wish.at_rest)
         return "crack.start_time, or the largest of its energies if nothing breaks";
     return "the largest of its energies";
 }
 
-status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out)
+status pilot_plan_print(const struct pilot_wish *wish, const char *scene, FILE *out)
 {
-    struct pilot_search p = {.scene = scene, .wish = *w};
-    TRY(pilot_plan(&p));
-    const double spacing = 1e3 * w->provisional.spacing;
+    struct pilot_search p = {.scene = scene, .wish = *wish};
+    TRY(pilot_list_applicable_methods(&p));
+    const double spacing = 1e3 * wish->provisional.spacing;
     fprintf(out, "%s can be read\n", printable_name(scene).text);
     fprintf(out, "auto           cleave run chooses method and spacing by pilot runs; check can read the scene.yaml "
                  "that the run writes\n");
-    fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n", pilot_result_name(&p),
-            100 * w->within);
+    fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n",
+            pilot_name_of_requested_result(&p), 100 * wish->within);
     fprintf(out, "auto           pilot runs vary the method (");
     for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);
-    if (w->spacing > 0)
+    if (wish->spacing > 0)
         fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
     else
         fprintf(out, "), the spacing (it starts at %.4g mm; coarser and finer ones are run as well", spacing);
-    if (isfinite(w->spacing_most))
-        fprintf(out, ", at most %.4g mm is chosen, by tensile_strength", 1e3 * w->spacing_most);
-    if (!(w->spacing > 0)) fprintf(out, ")");
-    fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
-    if (w->at_rest)
+    if (isfinite(wish->spacing_most))
+        fprintf(out, ", at most %.4g mm is chosen, by tensile_strength", 1e3 * wish->spacing_most);
+    if (!(wish->spacing > 0)) fprintf(out, ")");
+    fprintf(out, "%s\n", wish->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
+    if (wish->at_rest)
         fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; a crack "
                      "that grows under "
                      "rising loads takes method: pd or adaptive with solver: static\n");
     fprintf(out,
             "auto           pilot runs take at most %.4g s (accuracy.budget), of which %.4g s are for the first %d "
             "runs of each method; the run that is chosen takes at most %.4g s\n",
-            w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST, PILOT_LONGEST * w->budget);
+            wish->budget, PILOT_FIRST_SHARE * wish->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST,
+            PILOT_LONGEST * wish->budget);
     return OK;
 }

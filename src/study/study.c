@@ -18,9 +18,9 @@
 
 /* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
  * folder[capacity]. */
-void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *kind)
+void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind)
 {
-    snprintf(folder, capacity, "results/%s_%s", scene->name, kind);
+    snprintf(folder, capacity, "results/%s_%s", scene->name, study_kind);
 }
 
 /* Reads the scene file `path` and writes the path of the default folder of a study of this scene into to[capacity]:
@@ -35,7 +35,7 @@ static status place_read(char *to, size_t capacity, const char *path, const char
     return OK;
 }
 
-status study_make(struct study *s, const char *scene, const char *folder, const char *kind)
+status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind)
 {
     *s = (struct study){.scene = scene, .lock.fd = -1};
     if (folder && !*folder) return status_set(REFUSED, "-o: needs the name of a folder");
@@ -44,7 +44,7 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
     if (folder)
         snprintf(s->folder, sizeof s->folder, "%s", folder);
     else
-        TRY(place_read(s->folder, sizeof s->folder, scene, kind));
+        TRY(place_read(s->folder, sizeof s->folder, scene, study_kind));
     for (size_t k = strlen(s->folder) - 1; k > 0 && s->folder[k] == '/'; k--) s->folder[k] = '\0';
     return OK;
 }
@@ -68,7 +68,7 @@ static status scene_unread(char **text, const char *path, const struct scene_ove
     return OK;
 }
 
-status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *kind,
+status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
                             const struct varied_key *key, int keys)
 {
     struct scene_override *first = NEW("study.first", keys, struct scene_override);
@@ -90,10 +90,10 @@ status study_make_with_keys(struct study *s, const char *scene, const char *fold
         done = scene_unread(&text, scene, fixed, n);
     }
     if (read) {
-        study_compose_default_folder(place, sizeof place, &is, kind);
+        study_compose_default_folder(place, sizeof place, &is, study_kind);
         scene_free(&is);
     }
-    if (done == OK) done = study_make(s, scene, folder ? folder : place, kind);
+    if (done == OK) done = study_make(s, scene, folder ? folder : place, study_kind);
     s->text = text;
     memory_free(fixed);
     memory_free(first);
@@ -140,7 +140,7 @@ bool study_folder_is_of_scene(const char *folder, const char *text)
     return same;
 }
 
-status study_write_scene(const char *folder, const char *text, const char *options)
+status study_write_scene_and_options(const char *folder, const char *text, const char *options)
 {
     char *all = NULL;
     size_t length = 0;
@@ -171,25 +171,25 @@ static const struct folder_kind study_kind = {.what = "study",
                                               .is_early = is_run_or_study,
                                               .inner = {"logs", "pictures"}};
 
-status study_folder_check(const char *folder)
+status study_folder_check_is_usable(const char *folder)
 {
     bool there;
     return folder_check_writable(&study_kind, folder, NULL, &there);
 }
 
-status study_folder_mark(const char *folder)
+status study_folder_mark_as_study(const char *folder)
 {
     bool there;
     TRY(folder_check_writable(&study_kind, folder, NULL, &there));
-    return there ? OK : study_write_scene(folder, "", NULL);
+    return there ? OK : study_write_scene_and_options(folder, "", NULL);
 }
 
-status study_folder_check_scene(const char *folder, const char *text)
+status study_folder_check_is_usable_for_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
     const bool fits = !own || !*own || scene_texts_are_equal(own, text);
     memory_free(own);
-    if (fits) return study_folder_check(folder);
+    if (fits) return study_folder_check_is_usable(folder);
     return status_set(REFUSED,
                       "%s holds a study of another scene (%s there); choose another -o or replace it with --overwrite",
                       printable_name(folder).text, STUDY_SCENE);
@@ -257,7 +257,7 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
     if (all > CASES_MOST)
         return status_set(REFUSED, "%.0f runs: more than %d; fewer values of a key are expected", all, CASES_MOST);
     int *at = NEW("study.at", keys, int), *order = NEW("study.order", keys, int);
-    const int varied = study_order_name_keys(order, key, keys);
+    const int varied = study_list_keys_in_run_names(order, key, keys);
     struct scene_override *override = NEW("study.override", keys, struct scene_override);
     for (int left = (int)all; left > 0; left--) {
         char name[CASE_NAME_ROOM];
@@ -367,16 +367,17 @@ void study_print_equal_scene_count(const struct study *s, FILE *out)
                 same, s->n, one->name, s->at[one->same].name);
 }
 
-const char *study_case_value(const struct study_case *c, const char *key)
+const char *study_case_value_of_key(const struct study_case *c, const char *key)
 {
     for (int k = 0; k < c->overrides; k++)
         if (strcmp(c->override[k].key, key) == 0) return c->override[k].value;
     return "";
 }
 
-status study_write_stream_to_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
+status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
+                                  const size_t *length)
 {
-    const bool whole = to && fclose(to) == 0;
+    const bool whole = stream && fclose(stream) == 0;
     const status written = whole ? file_write_whole(path_join(s->folder, name).text, *text, *length)
                                  : status_set(FAILED, "cannot write %s: out of memory", name);
     free(*text);

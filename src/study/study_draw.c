@@ -91,7 +91,7 @@ static void line_title(char *text, size_t capacity, const struct study_picture *
 static const char *unit_unsaid(const struct varied_key *key)
 {
     const char *unit = "";
-    return varied_key_is_number(key, &unit) && !*unit ? scene_key_unit(key->key) : "";
+    return varied_key_values_are_numbers(key, &unit) && !*unit ? scene_key_unit(key->key) : "";
 }
 
 /* Writes the name of a key to text[capacity], with the unit of its values if they have none themselves. */
@@ -122,7 +122,7 @@ static void keys_text(char *text, size_t capacity, const struct study_picture *p
 static void screen_label(FILE *to, const struct study_picture *p, const char *text, double x, double y, const char *how)
 {
     fputs("set label ", to);
-    gnuplot_quote(to, text);
+    gnuplot_write_quoted_string(to, text);
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
@@ -150,7 +150,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
         char text[LABEL_ROOM];
         study_value_label(text, key, v);
         if (v > 0) putc(',', to);
-        gnuplot_quote(to, text);
+        gnuplot_write_quoted_string(to, text);
         fprintf(to, " %d", v);
     }
     fputs(")\n", to);
@@ -161,7 +161,7 @@ static int tics_shown(const struct varied_key *key) { return key->values < TICS_
 /* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
 static bool words_touch(const struct study_picture *p, const struct varied_key *key)
 {
-    return tics_shown(key) * (study_longest_label(key) + 2) * character() > p->wide;
+    return tics_shown(key) * (study_longest_label_length(key) + 2) * character() > p->wide;
 }
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
@@ -204,9 +204,9 @@ static void room_find(struct study_picture *p, const struct varied_key *up)
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
     panels_arrange(p);
     const struct varied_key *across = &p->key[p->across];
-    const int along = study_longest_label(across) * character();
+    const int along = study_longest_label_length(across) * character();
     const bool words = up || !p->numbers;
-    p->left = up                                ? (study_longest_label(up) + 7) * character()
+    p->left = up                                ? (study_longest_label_length(up) + 7) * character()
               : picture_is_too_narrow_for_key() ? 8 * character()
                                                 : NUMBERS;
     p->right = up ? COLOURS : words ? 2 * character() + along / 2 : 3 * character();
@@ -250,8 +250,8 @@ static struct unit panel_unit(const struct study_picture *p, int panel)
     double largest = 0;
     for (int c = 0; c < p->table->cases; c++)
         if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
-    study_result_unit(unit, sizeof unit, p->header, p->table->figure[p->figure[panel]]);
-    return unit_with_allowed_prefix(unit, largest);
+    study_write_unit_of_result(unit, sizeof unit, p->header, p->table->figure[p->figure[panel]]);
+    return unit_for_largest_value_if_prefixable(unit, largest);
 }
 
 /* Sends margins, title and axis labels of panel number `panel` to gnuplot. up: label of the vertical axis; NULL if this
@@ -271,7 +271,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
     snprintf(text, sizeof text, *unit.name ? "%s [%s]" : "%s%s", figure, unit.name);
     const double room = p->left + p->wide + p->right - character(), wide = 0.95 * character() * (double)strlen(text);
     fputs("set title ", to);
-    gnuplot_quote(to, text);
+    gnuplot_write_quoted_string(to, text);
     fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
     if (*p->unit)
         snprintf(text, sizeof text, "%s [%s]", p->key[p->across].key, p->unit);
@@ -294,7 +294,7 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct point_of *at = &point[l * across->values + v];
-            const double x = p->numbers ? value_read_number(across->value[v], &unit) : v;
+            const double x = p->numbers ? value_read_number_and_unit(across->value[v], &unit) : v;
             if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean / factor, at->scatter / factor);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
@@ -319,7 +319,7 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
         char text[256];
         line_title(text, sizeof text, p, l);
         fputs("title ", to);
-        gnuplot_quote(to, text);
+        gnuplot_write_quoted_string(to, text);
     }
     putc('\n', to);
 }
@@ -329,8 +329,8 @@ static void send_number_tics(FILE *to, const struct varied_key *key)
     double low = INFINITY, high = -INFINITY;
     const char *unit;
     for (int v = 0; v < key->values; v++) {
-        low = fmin(low, value_read_number(key->value[v], &unit));
-        high = fmax(high, value_read_number(key->value[v], &unit));
+        low = fmin(low, value_read_number_and_unit(key->value[v], &unit));
+        high = fmax(high, value_read_number_and_unit(key->value[v], &unit));
     }
     if (high > low)
         fprintf(to, "set xtics norotate %.10g\n", axis_tick_distance(high - low, STEPS_MOST));
@@ -342,7 +342,7 @@ static status draw_lines(struct study_picture *p)
 {
     char name[PICTURE_NAME_ROOM], text[256];
     struct gnuplot g;
-    roles_choose(p, LINES_MOST);
+    roles_assign_to_keys(p, LINES_MOST);
     room_find(p, NULL);
     study_picture_name(name, p->key[p->across].key);
     TRY(picture_open(&g, p, name));
@@ -375,7 +375,7 @@ static status draw_study_map(struct study_picture *p, int up)
     struct gnuplot g;
     char name[NOTE_ROOM];
     key_text(name, sizeof name, key_up);
-    roles_choose(p, across->values * key_up->values);
+    roles_assign_to_keys(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
     room_find(p, key_up);
     p->unit = "";
@@ -410,7 +410,7 @@ static bool map_keys(const struct study_picture *p, int *up, int *across)
     for (int all = 0; all < 2; all++) {
         int n = 0, last[2] = {0};
         for (int k = 0; k < p->keys; k++)
-            if (p->key[k].values > 1 && (all || !key_is_chance(p->key[k].key))) {
+            if (p->key[k].values > 1 && (all || !key_has_no_physical_meaning(p->key[k].key))) {
                 if (n < 2) last[n] = k;
                 n++;
             }
@@ -427,25 +427,25 @@ static status draw_all(struct study_picture *p)
         if (p->key[k].values < 2) continue;
         p->across = k;
         p->unit = "";
-        p->numbers = varied_key_is_number(&p->key[k], &p->unit);
+        p->numbers = varied_key_values_are_numbers(&p->key[k], &p->unit);
         if (!p->numbers) p->unit = "";
         TRY(draw_lines(p));
     }
     return map_keys(p, &up, &p->across) ? draw_study_map(p, up) : OK;
 }
 
-status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys,
-                  const char *const *result, int results)
+status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,
+                                    int keys, const char *const *result, int results)
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
-    TRY(panels_of(&p, result, results));
-    if (results == 0) panels_choose(&p);
+    TRY(panels_show_named_figures(&p, result, results));
+    if (results == 0) panels_choose_figures(&p);
     if (p.panels == 0) return OK;
     study_read_history_header(header, sizeof header, s);
     p.value_at = NEW("study.value_at", keys, int *);
     p.role = NEW("study.roles", keys, enum key_role);
-    values_find(p.value_at, s, key, keys);
+    values_find_indices_in_runs(p.value_at, s, key, keys);
     const status drawn = draw_all(&p);
     for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
     memory_free(p.value_at);

@@ -21,32 +21,32 @@ void study_grow_name_table(struct study *s);
  * `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken, it is
  * case-HASH, with a hash of the overrides override[n] of the run. */
 void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
-                            const struct scene_override *override, int overrides);
+                            const struct scene_override *override, int override_count);
 
 /* Adds the name of the run with the index `case_number` of the study s to the hash table of the names of its runs. */
 void study_register_case_name(struct study *s, int case_number);
 
 /* Finds which of the keys key[keys] appear in the names of runs, those with several values. Stores their indices in
- * order[], which has space for `keys` entries, in the order in which they appear. Returns their number. */
-int study_order_name_keys(int *order, const struct varied_key *key, int keys);
+ * key_order[], which has space for `key_count` entries, in the order in which they appear. Returns their number. */
+int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
- * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; order[n]: indices of those in the name, in order of
+ * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; key_order[n]: indices of those in the name, in order of
  * appearance; value_index[k]: index of the value of key k in this run. */
-void study_compose_case_name(char *name, const struct varied_key *key, int keys, const int *order, int n,
-                             const int *value_index);
+void study_compose_case_name(char *name, const struct varied_key *key, int key_count, const int *key_order,
+                             int named_key_count, const int *value_index);
 
 /* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
 
 /* Capacity of the label of a value in a picture [byte]. */
 enum { LABEL_ROOM = 40 };
 
-/* Writes the label of value number `value` of a varied key, as in pictures, to text[LABEL_ROOM]. If the values of the
- * key are too long, the label omits their common beginning and end. */
-void study_value_label(char *text, const struct varied_key *key, int value);
+/* Writes the label of value number `value_index` of a varied key, as in pictures, to text[LABEL_ROOM]. If the values of
+ * the key are too long, the label omits their common beginning and end. */
+void study_value_label(char *text, const struct varied_key *key, int value_index);
 
 /* Returns the number of characters of the longest label of the values of a key. */
-int study_longest_label(const struct varied_key *key);
+int study_longest_label_length(const struct varied_key *key);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
@@ -60,6 +60,6 @@ double axis_tick_distance(double range, int max_intervals);
 
 /* Returns true if all values of the varied key are numbers with the same unit, and then stores a pointer to the text of
  * this unit in *unit. */
-bool varied_key_is_number(const struct varied_key *key, const char **unit);
+bool varied_key_values_are_numbers(const struct varied_key *key, const char **unit);
 
 #endif

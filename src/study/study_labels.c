@@ -42,27 +42,27 @@ static void common_keep(size_t *begin, size_t *end, size_t longest)
     *end -= *end < spare - before ? *end : spare - before;
 }
 
-void study_value_label(char *text, const struct varied_key *key, int v)
+void study_value_label(char *text, const struct varied_key *key, int value_index)
 {
     size_t longest = 0, begin, end;
     for (int k = 0; k < key->values; k++) longest = strlen(key->value[k]) > longest ? strlen(key->value[k]) : longest;
     if (longest <= VALUE_SHOWN) {
-        snprintf(text, LABEL_ROOM, "%s", key->value[v]);
+        snprintf(text, LABEL_ROOM, "%s", key->value[value_index]);
         return;
     }
     values_common(key, &begin, &end);
-    const size_t own = strlen(key->value[v]);
+    const size_t own = strlen(key->value[value_index]);
     if (begin + end >= own) begin = end = 0;
     common_keep(&begin, &end, longest);
     const size_t left = own - begin - end;
     if (longest - begin - end + 4 <= VALUE_SHOWN)
-        snprintf(text, LABEL_ROOM, "%s%.*s%s", begin > 0 ? ".." : "", (int)left, key->value[v] + begin,
+        snprintf(text, LABEL_ROOM, "%s%.*s%s", begin > 0 ? ".." : "", (int)left, key->value[value_index] + begin,
                  end > 0 ? ".." : "");
     else
-        snprintf(text, LABEL_ROOM, "%d: %.*s..", v + 1, CUT_SHOWN, key->value[v] + begin);
+        snprintf(text, LABEL_ROOM, "%d: %.*s..", value_index + 1, CUT_SHOWN, key->value[value_index] + begin);
 }
 
-int study_longest_label(const struct varied_key *key)
+int study_longest_label_length(const struct varied_key *key)
 {
     int longest = 0;
     for (int v = 0; v < key->values; v++) {
@@ -89,11 +89,11 @@ void study_picture_name(char *name, const char *key)
         if (*c == '/') *c = '_';
 }
 
-bool varied_key_is_number(const struct varied_key *key, const char **unit)
+bool varied_key_values_are_numbers(const struct varied_key *key, const char **unit)
 {
     for (int v = 0; v < key->values; v++) {
         const char *own;
-        if (isnan(value_read_number(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
+        if (isnan(value_read_number_and_unit(key->value[v], &own)) || (v > 0 && strcmp(own, *unit) != 0)) return false;
         *unit = own;
     }
     return true;

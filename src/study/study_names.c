@@ -69,13 +69,13 @@ static void name_append(char *name, const char *text)
 }
 
 void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
-                            const struct scene_override *override, int overrides)
+                            const struct scene_override *override, int override_count)
 {
     *name = '\0';
     name_append(name, wanted_name);
     const bool reserved = !*name || *name == '.' || *name == '-' || !strcmp(name, "pictures") || !strcmp(name, "logs");
     if (strlen(wanted_name) + 1 < CASE_NAME_ROOM && !reserved && !name_taken(s, name)) return;
-    uint64_t hash = study_hash_add_text(overrides_hash(override, overrides), wanted_name);
+    uint64_t hash = study_hash_add_text(overrides_hash(override, override_count), wanted_name);
     do snprintf(name, CASE_NAME_ROOM, "case-%012llx", (unsigned long long)(hash++ & 0xffffffffffffu));
     while (name_taken(s, name));
 }
@@ -110,28 +110,28 @@ static int label_order(const void *a, const void *b)
     return order != 0 ? order : strcmp(x->key, y->key);
 }
 
-int study_order_name_keys(int *order, const struct varied_key *key, int keys)
+int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count)
 {
-    struct labelled *l = NEW("study.labels", keys, struct labelled);
+    struct labelled *l = NEW("study.labels", key_count, struct labelled);
     int n = 0;
-    for (int k = 0; k < keys; k++)
-        if (key[k].values > 1) l[n++] = (struct labelled){key_label(key, keys, k), key[k].key, k};
+    for (int k = 0; k < key_count; k++)
+        if (key[k].values > 1) l[n++] = (struct labelled){key_label(key, key_count, k), key[k].key, k};
     array_sort(l, n, sizeof *l, label_order);
-    for (int k = 0; k < n; k++) order[k] = l[k].at;
+    for (int k = 0; k < n; k++) key_order[k] = l[k].at;
     memory_free(l);
     return n;
 }
 
-void study_compose_case_name(char *name, const struct varied_key *key, int keys, const int *order, int n,
-                             const int *value_index)
+void study_compose_case_name(char *name, const struct varied_key *key, int key_count, const int *key_order,
+                             int named_key_count, const int *value_index)
 {
     *name = '\0';
-    for (int k = 0; k < n; k++) {
-        const int own = order[k];
+    for (int k = 0; k < named_key_count; k++) {
+        const int own = key_order[k];
         if (k > 0) name_append(name, ",");
-        name_append(name, key_label(key, keys, own));
+        name_append(name, key_label(key, key_count, own));
         name_append(name, "=");
         name_append(name, key[own].value[value_index[own]]);
     }
-    if (n == 0) name_append(name, "run");
+    if (named_key_count == 0) name_append(name, "run");
 }

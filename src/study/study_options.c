@@ -42,7 +42,7 @@ static void line_to_text(char *line)
     *to = '\0';
 }
 
-char *study_options_make(int argc, char *const *argv, const char *scene)
+char *study_options_compose_from_arguments(int argc, char *const *argv, const char *scene)
 {
     static const char *const silent[] = {"-q", "--overwrite", "--list", "--collect", NULL};
     static const char *const taking[] = {"-s",       "-j",       "-t",     "--of",  "--runs",

@@ -33,21 +33,23 @@ struct study_picture {
 
 /* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
  * energies, and the duration. Figures that are equal in all runs are left out. */
-void panels_choose(struct study_picture *p);
+void panels_choose_figures(struct study_picture *picture);
 
-/* Chooses the figures with the names of[asked] for the panels. Returns REFUSED if a name is not in the table. */
-status panels_of(struct study_picture *p, const char *const *of, int asked);
+/* Chooses the figures with the names figure_name[asked] for the panels. Returns REFUSED if a name is not in the table.
+ */
+status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
 /* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
  * combined to one point with a bar. */
-bool key_is_chance(const char *key);
+bool key_has_no_physical_meaning(const char *key);
 
 /* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 for another value. The
  * caller frees each value_at[k]. */
-void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys);
+void values_find_indices_in_runs(int **value_at, const struct study *study, const struct varied_key *key,
+                                 int key_count);
 
 /* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
- * while there are at most lines_most lines. Of further keys only the first value is shown. */
-void roles_choose(struct study_picture *p, int lines_most);
+ * while there are at most max_lines lines. Of further keys only the first value is shown. */
+void roles_assign_to_keys(struct study_picture *picture, int max_lines);
 
 #endif

@@ -29,7 +29,7 @@ struct runner {
     struct core_shares *shares;
     int running, ended;
     bool stopped; /* running runs have been told to stop */
-    double since; /* time of that on wall_clock [s] */
+    double since; /* time of that on wall_clock_seconds [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
@@ -98,16 +98,16 @@ static struct path path_whole(const char *path)
     return whole;
 }
 
-void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out)
+void study_print_command(const struct study *s, const struct study_case *c, struct study_options options, FILE *out)
 {
     char team[16], *pairs;
     const char *name = program_invocation_name;
     const struct path program = strchr(name, '/') ? path_whole(name) : (struct path){{0}};
     const struct path scene = path_whole(s->scene), study = path_whole(s->folder);
     struct path folder = path_join(study.text, c->name);
-    snprintf(team, sizeof team, "%d", how.threads);
-    char **word = command_words(scene.text, c, how.threads > 0 ? team : NULL, folder.text,
-                                how.overwrite ? "--overwrite" : "--resume", &pairs);
+    snprintf(team, sizeof team, "%d", options.threads);
+    char **word = command_words(scene.text, c, options.threads > 0 ? team : NULL, folder.text,
+                                options.overwrite ? "--overwrite" : "--resume", &pairs);
     study_print_shell_word(out, *program.text ? program.text : name);
     for (int k = 1; word[k]; k++) {
         putc(' ', out);
@@ -183,13 +183,13 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
                                 : there          ? "--resume"
                                                  : NULL,
                                 &pairs);
-    c->seconds = -wall_clock();
-    core_share_bind(r->shares, slot); /* inherited by the child */
+    c->seconds = -wall_clock_seconds();
+    core_share_bind_calling_thread(r->shares, slot); /* inherited by the child */
     fflush(NULL);
     c->process = (int)fork();
     if (c->process == 0) become_run(word, fd);
     const int fault = errno;
-    core_share_bind(r->shares, -1);
+    core_share_bind_calling_thread(r->shares, -1);
     close(fd);
     memory_free(pairs);
     memory_free(word);
@@ -223,7 +223,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     char line[1024];
     c->ended = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
     c->state = c->ended == OK ? CASE_DONE : c->ended == INTERRUPTED || r->stopped ? CASE_STOPPED : CASE_FAILED;
-    c->seconds += wall_clock();
+    c->seconds += wall_clock_seconds();
     c->process = 0;
     r->running--;
     r->ended++;
@@ -265,7 +265,7 @@ static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGTERM);
-    if (!r->stopped) r->since = wall_clock();
+    if (!r->stopped) r->since = wall_clock_seconds();
     r->stopped = true;
 }
 
@@ -273,7 +273,7 @@ static void cases_stop(struct runner *r)
  * because of a long set-up. */
 static void cases_kill(struct runner *r)
 {
-    if (!r->stopped || wall_clock() < r->since + PATIENCE) return;
+    if (!r->stopped || wall_clock_seconds() < r->since + PATIENCE) return;
     for (int k = 0; k < r->study->n; k++)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
@@ -286,7 +286,7 @@ static status cases_run(struct runner *r)
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
     status s = OK;
     for (int next = 0; next < r->study->n || r->running > 0;) {
-        const bool late = r->how.until > 0 && wall_clock() > r->how.until;
+        const bool late = r->how.until > 0 && wall_clock_seconds() > r->how.until;
         if (s != OK || late || (r->how.stop && *r->how.stop)) {
             next = r->study->n;
             cases_stop(r);
@@ -312,7 +312,7 @@ static status cases_run(struct runner *r)
  * whichever is smaller. The number of threads becomes an equal share of the cores for each run. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
-    const int cores = machine_cores();
+    const int cores = machine_physical_core_count();
     int waiting = 0;
     for (int k = 0; k < s->n; k++) waiting += s->at[k].state == CASE_WAITING;
     if (how.jobs <= 0) how.jobs = how.threads > 0 ? cores / how.threads : cores < waiting ? cores : waiting;
@@ -326,10 +326,10 @@ static struct study_options options_filled(struct study_options how, const struc
  * files or, unless `overwrite` is true, the study of another scene. Returns FAILED if it cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
-    TRY(study_folder_mark(s->folder));
+    TRY(study_folder_mark_as_study(s->folder));
     if (!s->text) return OK;
-    if (!overwrite) TRY(study_folder_check_scene(s->folder, s->text));
-    return study_write_scene(s->folder, s->text, s->options);
+    if (!overwrite) TRY(study_folder_check_is_usable_for_scene(s->folder, s->text));
+    return study_write_scene_and_options(s->folder, s->text, s->options);
 }
 
 status study_lock_folder(struct study *s, bool overwrite)
@@ -338,25 +338,25 @@ status study_lock_folder(struct study *s, bool overwrite)
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
     if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
     if (s->lock.fd >= 0) return OK;
-    TRY(study_folder_check(s->folder));
+    TRY(study_folder_check_is_usable(s->folder));
     TRY(folder_lock(&s->lock, s->folder));
     return scene_put(s, overwrite);
 }
 
-status study_run(struct study *s, struct study_options how)
+status study_execute_waiting_runs(struct study *s, struct study_options options)
 {
     struct runner r = {.study = s};
     TRY(folder_make(s->folder));
-    TRY(study_lock_folder(s, how.overwrite));
+    TRY(study_lock_folder(s, options.overwrite));
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
-        if (how.overwrite && c->state == CASE_DONE_BEFORE) c->state = CASE_WAITING;
+        if (options.overwrite && c->state == CASE_DONE_BEFORE) c->state = CASE_WAITING;
         r.ended += c->state != CASE_WAITING;
     }
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state == CASE_WAITING) TRY(case_guard(s, &s->at[k]));
     TRY(folder_make(path_join(s->folder, "logs").text));
-    r.how = options_filled(how, s);
+    r.how = options_filled(options, s);
     r.shares = core_shares_make(r.how.jobs);
     const status ran = cases_run(&r);
     core_shares_free(r.shares);

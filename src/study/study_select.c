@@ -27,46 +27,46 @@ static void panel_add(struct study_picture *p, int f)
     p->figure[p->panels++] = f;
 }
 
-void panels_choose(struct study_picture *p)
+void panels_choose_figures(struct study_picture *picture)
 {
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                         "crack.tip_speed_mean"};
-    const struct study_table *t = p->table;
-    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_find_result(t, first[k]));
-    if (p->panels == PANELS_MOST) return;
-    for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(p, f);
-    for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
-        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_result_is_technical(t->figure[f])) panel_add(p, f);
-    panel_add(p, study_find_result(t, "loop_seconds"));
+    const struct study_table *t = picture->table;
+    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(picture, study_index_of_result(t, first[k]));
+    if (picture->panels == PANELS_MOST) return;
+    for (int f = 0; f < t->figures && picture->panels < PANELS_MOST - 1; f++)
+        if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(picture, f);
+    for (int f = 0; f < t->figures && picture->panels < PANELS_MOST - 1; f++)
+        if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_result_is_technical(t->figure[f])) panel_add(picture, f);
+    panel_add(picture, study_index_of_result(t, "loop_seconds"));
 }
 
-status panels_of(struct study_picture *p, const char *const *of, int asked)
+status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count)
 {
-    const struct study_table *t = p->table;
-    for (int k = 0; k < asked && k < PANELS_MOST; k++) {
-        const int f = study_find_result(t, of[k]);
+    const struct study_table *t = picture->table;
+    for (int k = 0; k < figure_count && k < PANELS_MOST; k++) {
+        const int f = study_index_of_result(t, figure_name[k]);
         if (f < 0)
             return status_set(REFUSED, "sweep: --of %s: there is no such figure in sweep.csv; do you mean %s?",
-                              printable_name(of[k]).text,
-                              word_find_most_similar(of[k], (const char *const *)t->figure, t->figures));
-        p->figure[p->panels++] = f;
+                              printable_name(figure_name[k]).text,
+                              word_find_most_similar(figure_name[k], (const char *const *)t->figure, t->figures));
+        picture->figure[picture->panels++] = f;
     }
     return OK;
 }
 
-bool key_is_chance(const char *key)
+bool key_has_no_physical_meaning(const char *key)
 {
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
+void values_find_indices_in_runs(int **value_at, const struct study *study, const struct varied_key *key, int key_count)
 {
-    for (int k = 0; k < keys; k++) {
-        value_at[k] = NEW("study.value_at", s->n, int);
+    for (int k = 0; k < key_count; k++) {
+        value_at[k] = NEW("study.value_at", study->n, int);
         int last = 0;
-        for (int c = 0; c < s->n; c++) {
-            const char *own = study_case_value(&s->at[c], key[k].key);
+        for (int c = 0; c < study->n; c++) {
+            const char *own = study_case_value_of_key(&study->at[c], key[k].key);
             int tried = 0;
             while (tried < key[k].values && strcmp(key[k].value[last], own) != 0) {
                 last = (last + 1) % key[k].values;
@@ -77,18 +77,18 @@ void values_find(int **value_at, const struct study *s, const struct varied_key 
     }
 }
 
-void roles_choose(struct study_picture *p, int lines_most)
+void roles_assign_to_keys(struct study_picture *picture, int max_lines)
 {
-    p->lines = 1;
-    p->chance = false;
-    for (int k = 0; k < p->keys; k++) {
-        const int values = p->key[k].values;
-        p->role[k] = k == p->across                   ? ROLE_ACROSS
-                     : values < 2                     ? ROLE_NONE
-                     : key_is_chance(p->key[k].key)   ? ROLE_CHANCE
-                     : p->lines * values > lines_most ? ROLE_HELD
-                                                      : ROLE_LINES;
-        if (p->role[k] == ROLE_LINES) p->lines *= values;
-        p->chance |= p->role[k] == ROLE_CHANCE;
+    picture->lines = 1;
+    picture->chance = false;
+    for (int k = 0; k < picture->keys; k++) {
+        const int values = picture->key[k].values;
+        picture->role[k] = k == picture->across                               ? ROLE_ACROSS
+                           : values < 2                                       ? ROLE_NONE
+                           : key_has_no_physical_meaning(picture->key[k].key) ? ROLE_CHANCE
+                           : picture->lines * values > max_lines              ? ROLE_HELD
+                                                                              : ROLE_LINES;
+        if (picture->role[k] == ROLE_LINES) picture->lines *= values;
+        picture->chance |= picture->role[k] == ROLE_CHANCE;
     }
 }

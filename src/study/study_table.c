@@ -39,8 +39,9 @@ static int figure_add(struct study_table *t, const char *name)
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
-    int at = f->next < f->table->figures && !strcmp(f->table->figure[f->next], key) ? f->next
-                                                                                    : study_find_result(f->table, key);
+    int at = f->next < f->table->figures && !strcmp(f->table->figure[f->next], key)
+                 ? f->next
+                 : study_index_of_result(f->table, key);
     if (at < 0) at = figure_add(f->table, key);
     f->table->value[at][f->row] = value;
     f->next = at + 1;
@@ -74,12 +75,12 @@ void study_table_free(struct study_table *t)
     *t = (struct study_table){0};
 }
 
-int study_find_result(const struct study_table *t, const char *name)
+int study_index_of_result(const struct study_table *t, const char *name)
 {
     for (int f = 0; f < t->figures; f++)
         if (strcmp(t->figure[f], name) == 0) return f;
     const char *now = result_current_name(name);
-    return now ? study_find_result(t, now) : -1;
+    return now ? study_index_of_result(t, now) : -1;
 }
 
 bool study_result_is_technical(const char *name)
@@ -136,7 +137,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)
-            if (key[k].values > 1) putc(',', to), cell_print(to, study_case_value(&s->at[c], key[k].key));
+            if (key[k].values > 1) putc(',', to), cell_print(to, study_case_value_of_key(&s->at[c], key[k].key));
         for (int f = 0; f < t->figures; f++)
             if (isnan(t->value[f][c]))
                 putc(',', to);
@@ -159,11 +160,11 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* Returns REFUSED if the table sweep.csv or a picture of the study would replace a file that Cleave did not write.
  * key[keys]: keys of the study. Returns OK for folders that are no study, which study_lock_folder reports. */
-status study_check_output_files(const struct study *s, const struct varied_key *key, int keys)
+status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};
     const struct path pictures = path_join(s->folder, "pictures");
-    if (study_folder_check(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
+    if (study_folder_check_is_usable(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_is_from_cleave(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
     TRY(picture_check_replaceable(path_join(pictures.text, "map.png").text));
     for (int k = 0; k < keys; k++) {

@@ -59,13 +59,13 @@ void study_read_history_header(char *header, size_t capacity, const struct study
         history_read_header(header, capacity, study_case_folder(s, &s->at[k]).text);
 }
 
-void study_result_unit(char *unit, size_t capacity, const char *header, const char *figure)
+void study_write_unit_of_result(char *unit, size_t capacity, const char *header, const char *result_name)
 {
-    const char *dot = strrchr(figure, '.'), *own = dot ? dot + 1 : figure;
-    const bool probe = !strncmp(figure, "probes.", 7), energy = !strncmp(figure, "energy.", 7);
+    const char *dot = strrchr(result_name, '.'), *own = dot ? dot + 1 : result_name;
+    const bool probe = !strncmp(result_name, "probes.", 7), energy = !strncmp(result_name, "energy.", 7);
     *unit = '\0';
-    if ((probe || energy) && unit_in_header(unit, capacity, header, figure + 7)) return;
-    if (!probe && unit_in_header(unit, capacity, header, figure)) return;
+    if ((probe || energy) && unit_in_header(unit, capacity, header, result_name + 7)) return;
+    if (!probe && unit_in_header(unit, capacity, header, result_name)) return;
     const bool place = (*own == 'x' || *own == 'y' || *own == 'z') && !own[1];
     if (place) snprintf(unit, capacity, "m");
     for (size_t k = 0; k < COUNT_OF(unit_of_name) && !place; k++)

@@ -27,7 +27,7 @@ static struct path study_beside(const char *folder, const char *name)
     return path_join(parent.text, place);
 }
 
-struct path pilot_folder(const char *folder)
+struct path pilot_folder_of_run(const char *folder)
 {
     struct path to;
     size_t length = strnlen(folder, PATH_ROOM - sizeof "_pilot");
@@ -91,7 +91,8 @@ static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *l
     return true;
 }
 
-int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, const char *folder)
+int error_bars_read_from_convergence_study(struct error_bar *error_bars, int capacity, const struct scene *s,
+                                           const char *folder)
 {
     struct path study = study_beside(folder, s->name);
     struct bar_columns columns;
@@ -99,14 +100,14 @@ int error_bars_read(struct error_bar *bar, int capacity, const struct scene *s, 
     size_t length;
     int n = 0;
     if (!study_folder_is_of_scene(study.text, s->text)) {
-        study = pilot_folder(folder);
+        study = pilot_folder_of_run(folder);
         if (!study_folder_is_of_scene(study.text, s->text)) return 0;
     }
     if (file_read_whole(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);
     if (line) columns_find(&columns, line);
     while (line && n < capacity && (line = strtok_r(NULL, "\n", &rest)))
-        n += bar_read(&bar[n], &columns, line, s->spacing);
+        n += bar_read(&error_bars[n], &columns, line, s->spacing);
     memory_free(text);
     return n;
 }

@@ -41,11 +41,11 @@ static struct band band_of(const char *spacing, const char *method)
     struct scene s;
     struct run e = {0};
     if (scene_read(&s, SCENE, override, COUNT_OF(override)) != OK) fail_msg("%s", status_message());
-    if (engine_make(&e, &s, NULL) != OK || engine_run(&e) != OK) fail_msg("%s", status_message());
-    const struct crack_tip *tip = tips_longest(&e.fracture->tips);
+    if (engine_set_up_run(&e, &s, NULL) != OK || engine_run_to_end(&e) != OK) fail_msg("%s", status_message());
+    const struct crack_tip *tip = tips_find_tip_with_largest_growth(&e.fracture->tips);
     assert_non_null(tip);
     struct band b = {band_width(&e, tip->growth), tip->growth, e.diagnostics->now.energy.fracture};
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(&s);
     return b;
 }
@@ -90,6 +90,6 @@ static void test_adaptive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_pd), cmocka_unit_test(test_adaptive)};
-    team_set_threads(0);
+    team_set_thread_count(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

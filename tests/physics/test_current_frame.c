@@ -63,11 +63,11 @@ static void run_make(struct held_run *r, const struct block *b, const char *meth
              b->edge, strcmp(method, "mpm") ? "pd: {region: " : "", strcmp(method, "mpm") ? b->region : "",
              strcmp(method, "mpm") ? "}\n" : "", more);
     struct bench_overrides o = {0};
-    bench_override(&o, "time.active_set", "false");
-    bench_override(&o, "mpm.frame", "current");
-    bench_override(&o, "mpm.origin", "[%s]", b->origin);
-    if (poisson) bench_override(&o, "material.poisson", "%s", poisson);
-    assert_ok(bench_engine_make(&r->e, &r->s, "block", text, bench_overrides_ready(&o), o.n));
+    bench_overrides_append(&o, "time.active_set", "false");
+    bench_overrides_append(&o, "mpm.frame", "current");
+    bench_overrides_append(&o, "mpm.origin", "[%s]", b->origin);
+    if (poisson) bench_overrides_append(&o, "material.poisson", "%s", poisson);
+    assert_ok(bench_engine_make(&r->e, &r->s, "block", text, bench_overrides_as_array(&o), o.n));
     assert_ok(bench_engine_run(&r->e, 1, NULL)); /* the first step is half a step, and a sample */
 }
 
@@ -113,12 +113,12 @@ static void column(struct held_run *r, const struct places *was, int k, real sig
         at_rest(r, was);
         p->v[k % p->dim][k / p->dim] = unit;
         r->e.coupling->damping_share = damped ? share : 0;
-        assert_ok(engine_step(&r->e));
+        assert_ok(engine_adapt_refinement_and_step(&r->e));
         add_column(p, damped ? o->Q : o->W, o->n, k, 2 * unit);
     }
-    assert_ok(engine_step(&r->e));
+    assert_ok(engine_adapt_refinement_and_step(&r->e));
     add_column(p, o->W, o->n, k, -2 * unit);
-    assert_ok(engine_step(&r->e));
+    assert_ok(engine_adapt_refinement_and_step(&r->e));
     add_column(p, o->third, o->n, k, 2 * unit);
     r->e.coupling->damping_share = share;
 }
@@ -277,7 +277,7 @@ static real shaken(struct held_run *r, int steps)
     const real start = particles_kinetic_energy(p);
     real most = 0;
     for (int k = 0; k < steps; k++) {
-        if (engine_step(&r->e) != OK) return INFINITY;
+        if (engine_adapt_refinement_and_step(&r->e) != OK) return INFINITY;
         if (k % 8 == 0) most = real_max(most, particles_kinetic_energy(p) / start);
     }
     return most;
@@ -319,18 +319,18 @@ static void test_plate(void **state)
     (void)state;
     struct held_run *r = NEW("test.run", 1, struct held_run);
     struct bench_overrides o = {0};
-    bench_override(&o, "time.safety", "0.8");
+    bench_overrides_append(&o, "time.safety", "0.8");
     assert_ok(bench_engine_make(
         &r->e, &r->s, "plate",
         "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 5 ms\nmethod: adaptive\nmpm: {frame: current}\n"
         "material: {young: 200 GPa, poisson: 1/3, density: 7850}\nbody: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\n"
         "particles: {spacing: 1 mm, horizon: 3.015}\npd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\n"
         "initial: [{velocity_gradient: [10, 3, 0, -7]}]\noutput: {frames: 0, samples: 40}\n",
-        bench_overrides_ready(&o), o.n));
+        bench_overrides_as_array(&o), o.n));
     const real start = particles_kinetic_energy(&r->e.part);
     assert_ok(bench_engine_run(&r->e, 1, NULL)); /* creates the record of samples */
     while (r->e.clock.step < 10000) {
-        assert_ok(engine_step(&r->e));
+        assert_ok(engine_adapt_refinement_and_step(&r->e));
         if (r->e.clock.step < 1000) continue; /* the first step of the record is extrapolated */
         if (!(fabs(r->e.diagnostics->now.balance_error) < 1e-5))
             print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics->now.balance_error);
@@ -375,7 +375,7 @@ static void test_turning(void **state)
                  "output: {frames: 0, samples: 40}\n%s",
                  ball[k].model, ball[k].coupling, ball[k].text);
         assert_ok(bench_engine_make(&r->e, &r->s, "disc", text, NULL, 0));
-        assert_ok(engine_run(&r->e));
+        assert_ok(engine_run_to_end(&r->e));
         const real off = r->e.diagnostics->now.balance_error;
         if (!(fabs(off) < 3e-4)) fail_msg("%s, %s, %dD: balance %.2e", ball[k].model, ball[k].coupling, r->s.dim, off);
         bench_engine_free(&r->e, &r->s);

@@ -21,14 +21,14 @@ static bool row_is_as_known(const struct limits_scene *s, const struct limits_ro
     limits_label(s, r, label, sizeof label);
     const status done = limits_measure(s, r, figure);
     if (done != OK) print_message("%s: %s\n", label, status_message());
-    for (int k = 0; k < limits_figures(s); k++) {
+    for (int k = 0; k < limits_quantity_count(s); k++) {
         const bool good = figure[k] >= r->known[k].low && figure[k] <= r->known[k].high;
         if (!good)
             print_message("%s: %s %.4g, known %g to %g\n", label, s->figure[k].quantity, figure[k], r->known[k].low,
                           r->known[k].high);
         known = known && good;
     }
-    if (limits_holds(s, figure) == !r->remedy) return done == OK && known;
+    if (limits_quantities_are_below_thresholds(s, figure) == !r->remedy) return done == OK && known;
     print_message("%s: %s\n", label, r->remedy ? "holds, and is said to fail" : "fails without a remedy");
     return false;
 }

@@ -39,9 +39,9 @@ static void bar_case(const char *shape, real pressure_most)
     struct held_run *r = NEW("test.run", 1, struct held_run);
     struct bench_overrides o = {0};
     real squares = 0, top = 0, radius = 0;
-    bench_override(&o, "mpm.shape", "%s", shape);
-    bench_override(&o, "mpm.frame", "current");
-    assert_ok(bench_engine_make(&r->e, &r->s, "bar", bar, bench_overrides_ready(&o), o.n));
+    bench_overrides_append(&o, "mpm.shape", "%s", shape);
+    bench_overrides_append(&o, "mpm.frame", "current");
+    assert_ok(bench_engine_make(&r->e, &r->s, "bar", bar, bench_overrides_as_array(&o), o.n));
     assert_ok(bench_engine_run(&r->e, INT64_MAX, NULL));
     const struct particles *p = &r->e.part;
     for (int64_t i = 0; i < p->n; i++) {
@@ -109,8 +109,8 @@ static real bending_period(int k, const char *keys)
              "name: beam\nspace: %s\nduration: 150\nmethod: mpm\nmaterial: {young: 1, poisson: 0.499, density: 1}\n%s"
              "particles: {spacing: 1/6}\noutput: {frames: 0, samples: 1}\n%s",
              beam[k].space, beam[k].more, keys);
-    assert_ok(bench_engine_make(&r->e, &r->s, "beam", text, bench_overrides_ready(&o), o.n));
-    bench_engine_start(&r->e, bending_velocity, NULL);
+    assert_ok(bench_engine_make(&r->e, &r->s, "beam", text, bench_overrides_as_array(&o), o.n));
+    bench_engine_set_velocities(&r->e, bending_velocity, NULL);
     real before = 0, now = 0, t = 0;
     do {
         before = now, t = r->e.clock.t;

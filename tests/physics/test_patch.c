@@ -174,7 +174,7 @@ static void test_mpm_rest(void **state)
                 s.c.p.kind[i] = KIND_MPM;
                 for (int c = 0; c < symmetric_component_count(dim); c++) s.c.p.stress[c][i] = 1e6 * (c + 1);
             }
-            particles_update_kind_lists(&s.c.p);
+            particles_rebuild_lists_by_kind(&s.c.p);
             patch_grid(&s, 2, 0);
             patch_map(&s, (enum shape)shape);
             real face = 1e6 * pow(2 * CLOUD_SPACING, dim - 1) * s.c.source.family.section;
@@ -205,7 +205,7 @@ static real crossing_residual(enum shape shape, real lambda)
             p->stretch[0][i] = lambda;
             p->stress[0][i] = 1;
         }
-        particles_update_kind_lists(p);
+        particles_rebuild_lists_by_kind(p);
         patch_grid(&s, 2, 0);
         patch_map(&s, shape);
         worst = fmax(worst, patch_residual(&s, (real[]){8}, (real[]){30 * lambda - 8}) / s.c.source.family.section);
@@ -239,6 +239,6 @@ int main(void)
         cmocka_unit_test(test_pd_rest),         cmocka_unit_test(test_pd_lattice), cmocka_unit_test(test_pd_isotropic),
         cmocka_unit_test(test_pd_calibrations), cmocka_unit_test(test_mpm_rest),   cmocka_unit_test(test_mpm_crossing),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,10 +26,10 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
     struct run e;
     struct scene s;
     struct bench_figure peak = {"reaction", "force_max", NAN};
-    bench_override(o, "output.frames", "0");
-    if (bench_engine_make(&e, &s, scene, NULL, bench_overrides_ready(o), o->n) != OK || engine_run(&e) != OK)
+    bench_overrides_append(o, "output.frames", "0");
+    if (bench_engine_make(&e, &s, scene, NULL, bench_overrides_as_array(o), o->n) != OK || engine_run_to_end(&e) != OK)
         fail_msg("%s: %s", scene, status_message());
-    bench_figures_take(&e, &peak, 1);
+    bench_figures_read_from_probes(&e, &peak, 1);
     const struct steps_record *record = &e.statics->record;
     struct outcome found = {peak.value, NAN, specimen->crack + record->area / specimen->thickness,
                             record->released / record->area};
@@ -46,8 +46,8 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
 static double check(const char *scene, struct bench_overrides *o, const struct specimen *specimen, double last)
 {
     const struct outcome found = outcome_of(scene, o, specimen);
-    const double peak = found.peak / specimen_load(specimen, specimen->crack) - 1;
-    const double end = found.last / specimen_load(specimen, found.crack) - 1;
+    const double peak = found.peak / specimen_load_at_crack_growth(specimen, specimen->crack) - 1;
+    const double end = found.last / specimen_load_at_crack_growth(specimen, found.crack) - 1;
     if (!(fabs(peak) < 0.03)) fail_msg("%s: the largest load is off by %.3g", scene, peak);
     if (!(fabs(end) < last)) fail_msg("%s: at a = %.4g m the load is off by %.3g", scene, found.crack, end);
     if (!(fabs(found.released / toughness - 1) < 0.03)) fail_msg("%s: released over area %.5g", scene, found.released);
@@ -61,7 +61,7 @@ static void test_compact_tension(void **state)
     const struct specimen specimen = {COMPACT_TENSION, 50e-3, 0, 10e-3, 25e-3, young, toughness};
     struct bench_overrides o = {0};
     (void)state;
-    bench_override(&o, "particles.spacing", "1.25 mm"), bench_override(&o, "steps.number", "4");
+    bench_overrides_append(&o, "particles.spacing", "1.25 mm"), bench_overrides_append(&o, "steps.number", "4");
     check("inputs/compact_tension.yaml", &o, &specimen, 0.06);
 }
 
@@ -71,7 +71,7 @@ static void test_edge_crack_in_grips(void **state)
     const struct specimen specimen = {EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness};
     struct bench_overrides o = {0};
     (void)state;
-    bench_override(&o, "particles.spacing", "1 mm"), bench_override(&o, "steps.number", "8");
+    bench_overrides_append(&o, "particles.spacing", "1 mm"), bench_overrides_append(&o, "steps.number", "8");
     check("inputs/edge_crack_grips.yaml", &o, &specimen, 0.03);
 }
 
@@ -81,8 +81,8 @@ static void test_three_point_bend(void **state)
     const struct specimen specimen = {THREE_POINT_BEND, 40e-3, 160e-3, 10e-3, 16e-3, young, toughness};
     struct bench_overrides o = {0};
     (void)state;
-    bench_override(&o, "variables.h", "1 mm"), bench_override(&o, "steps.number", "7");
-    bench_override(&o, "cracks.0", "{from: [0, -1 mm], to: [0, 16 mm]}");
+    bench_overrides_append(&o, "variables.h", "1 mm"), bench_overrides_append(&o, "steps.number", "7");
+    bench_overrides_append(&o, "cracks.0", "{from: [0, -1 mm], to: [0, 16 mm]}");
     check("inputs/bend_offset_notch.yaml", &o, &specimen, 0.03);
 }
 
@@ -92,7 +92,7 @@ static void test_double_cantilever(void **state)
     const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
     struct bench_overrides o = {0};
     (void)state;
-    bench_override(&o, "variables.h", "1 mm"), bench_override(&o, "steps.number", "10");
+    bench_overrides_append(&o, "variables.h", "1 mm"), bench_overrides_append(&o, "steps.number", "10");
     check("inputs/cantilevers.yaml", &o, &specimen, 0.03);
 }
 
@@ -107,9 +107,9 @@ static void test_control_load(void **state)
     (void)state;
     for (int k = 0; k < 3; k++) {
         struct bench_overrides o = {0};
-        bench_override(&o, "variables.h", "1 mm"), bench_override(&o, "steps", "%s", control[k]);
-        bench_override(&o, "boundary.0.displacement", "[free, 2 mm]");
-        bench_override(&o, "boundary.1.displacement", "[free, -2 mm]");
+        bench_overrides_append(&o, "variables.h", "1 mm"), bench_overrides_append(&o, "steps", "%s", control[k]);
+        bench_overrides_append(&o, "boundary.0.displacement", "[free, 2 mm]");
+        bench_overrides_append(&o, "boundary.1.displacement", "[free, -2 mm]");
         peak[k] = check("inputs/cantilevers.yaml", &o, &specimen, 0.06);
     }
     assert_true(fabs(peak[1] / peak[0] - 1) < 0.005 && fabs(peak[2] / peak[0] - 1) < 0.005);
@@ -127,11 +127,12 @@ static void test_yielding(void **state)
         EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness * area / (0.5 * critical * critical)};
     struct bench_overrides o = {0};
     (void)state;
-    bench_override(&o, "particles.spacing", "1 mm"), bench_override(&o, "steps.number", "8");
-    bench_override(&o, "material.yield_stress", "10 MPa"), bench_override(&o, "material.yield_tangent", "300 MPa");
+    bench_overrides_append(&o, "particles.spacing", "1 mm"), bench_overrides_append(&o, "steps.number", "8");
+    bench_overrides_append(&o, "material.yield_stress", "10 MPa"),
+        bench_overrides_append(&o, "material.yield_tangent", "300 MPa");
     const struct outcome found = outcome_of("inputs/edge_crack_grips.yaml", &o, &specimen);
-    assert_true(fabs(found.peak / specimen_load(&specimen, specimen.crack) - 1) < 0.03);
-    assert_true(fabs(found.last / specimen_load(&specimen, found.crack) - 1) < 0.03);
+    assert_true(fabs(found.peak / specimen_load_at_crack_growth(&specimen, specimen.crack) - 1) < 0.03);
+    assert_true(fabs(found.last / specimen_load_at_crack_growth(&specimen, found.crack) - 1) < 0.03);
 }
 
 int main(void)

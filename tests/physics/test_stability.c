@@ -58,7 +58,7 @@ static void test_bounds(void **state)
     for (size_t k = 0; k < COUNT_OF(bounds); k++) {
         struct stability_limits l;
         const bool linear = bounds[k].shape && !strcmp(bounds[k].shape, "linear");
-        assert_ok(stability_observe(&bounds[k], linear ? 1500 : 250, 0, &l));
+        assert_ok(stability_determine_limits(&bounds[k], linear ? 1500 : 250, 0, &l));
         const double share = l.automatic / l.observed;
         if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST))
             print_message("case %zu: %.3f of the limit\n", k, share);
@@ -72,8 +72,8 @@ static void test_no_limit(void **state)
     (void)state;
     struct stability_limits l;
     assert_int_equal(
-        stability_observe(&(struct stability_case){.dim = 1, .method = "mpm", .shape = "linear", .transfer = "apic"},
-                          10, 0, &l),
+        stability_determine_limits(
+            &(struct stability_case){.dim = 1, .method = "mpm", .shape = "linear", .transfer = "apic"}, 10, 0, &l),
         REFUSED);
     assert_non_null(strstr(status_message(), "strains from velocities that are not mapped again"));
 }
@@ -85,7 +85,8 @@ static void test_drift(void **state)
     for (size_t k = 0; k < COUNT_OF(bounds); k++) {
         bool stays;
         if (bounds[k].group != GROUP_POINTS) continue;
-        assert_ok(stability_stays(&bounds[k], 0, (struct stability_shake){1e-5, 2e-3, 1500}, &stays));
+        assert_ok(
+            stability_run_and_test_boundedness(&bounds[k], 0, (struct stability_shake){1e-5, 2e-3, 1500}, &stays));
         assert_true(stays);
     }
 }
@@ -102,7 +103,7 @@ static void test_caught(void **state)
         double step;
         struct stability_case c = bounds[k];
         if (c.offset == 0.01) c.offset = 0;
-        assert_ok(stability_caught(&c, 1.2, &step));
+        assert_ok(stability_find_step_of_automatic_stop(&c, 1.2, &step));
         if (!(step <= 1000)) print_message("case %zu is not caught, or not said: %s\n", k, status_message());
         assert_true(step <= 1000);
     }
@@ -115,8 +116,8 @@ static double automatic_of(const char *text, const char *key, const char *value)
     struct run e;
     struct scene s;
     struct bench_overrides o = {0};
-    if (key) bench_override(&o, key, "%s", value);
-    assert_ok(bench_engine_make(&e, &s, "block", text, bench_overrides_ready(&o), o.n));
+    if (key) bench_overrides_append(&o, key, "%s", value);
+    assert_ok(bench_engine_make(&e, &s, "block", text, bench_overrides_as_array(&o), o.n));
     const double critical = e.clock.dt_critical;
     bench_engine_free(&e, &s);
     return critical;
@@ -171,7 +172,7 @@ static void test_odd_bodies(void **state)
         "output: {frames: 0, samples: 1}\n"};
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct stability_limits l;
-        assert_ok(stability_observe(&(struct stability_case){.method = "pd", .text = text[k]}, 400, 0, &l));
+        assert_ok(stability_determine_limits(&(struct stability_case){.method = "pd", .text = text[k]}, 400, 0, &l));
         const double share = l.automatic / l.observed;
         if (!(share >= STABILITY_LEAST && share <= STABILITY_MOST))
             print_message("body %zu: %.3f of the limit\n", k, share);
@@ -189,7 +190,8 @@ static void test_close_mirrors(void **state)
         "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: pd\nmaterial: {young: 72e9, density: 2440}\n"
         "body: {box: {from: [0, 0], to: [24e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n"
         "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 1e-3}}\n";
-    assert_int_equal(stability_observe(&(struct stability_case){.method = "pd", .text = row}, 10, 0, &l), REFUSED);
+    assert_int_equal(stability_determine_limits(&(struct stability_case){.method = "pd", .text = row}, 10, 0, &l),
+                     REFUSED);
     assert_non_null(strstr(status_message(), "they must be farther apart than 0.002"));
 }
 

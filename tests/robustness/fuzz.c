@@ -209,7 +209,7 @@ int main(int argc, char **argv)
     const time_t end = time(NULL) + atol(argv[2]);
     state = strtoull(argv[3], NULL, 10) * 2 + 1;
     output_configure_hdf5();
-    team_set_threads(1);
+    team_set_thread_count(1);
     atexit(leave);
     read_words(argv[4]);
     for (int k = 5; k < argc; k++) pool_file(argv[k]);

@@ -30,7 +30,7 @@ static void begin(struct run *e)
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
         fuzz_fail("the scene", status_message());
     *e = (struct run){0};
-    if (engine_make(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
+    if (engine_set_up_run(e, &scene, &out) != OK) fuzz_fail("the engine", status_message());
     e->report->quiet = true;
     if (!out.folder && output_open(&out, "fuzz_run", scene.text, OUTPUT_OVERWRITE, false) != OK)
         fuzz_fail("the folder", status_message());
@@ -41,9 +41,9 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     struct run e;
     char *bytes = NULL;
     begin(&e);
-    if (engine_run(&e) != OK || file_read_whole("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
+    if (engine_run_to_end(&e) != OK || file_read_whole("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
         fuzz_fail("the run", status_message());
-    engine_free(&e);
+    engine_free_run(&e);
     uint8_t *seed = malloc(*n);
     if (seed) memcpy(seed, bytes, *n -= FOOTER_BYTES);
     memory_free(bytes);
@@ -55,7 +55,7 @@ static void put_checkpoint(const uint8_t *bytes, size_t n)
 {
     static const char path[] = "fuzz_run/checkpoint.h5";
     unlink("fuzz_run/checkpoint.previous.h5");
-    const int fd = open(path_temporary(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int fd = open(path_of_temporary_file(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (fd < 0 || write(fd, bytes, n) != (ssize_t)n) fuzz_fail("cannot write", "");
     close(fd);
     if (file_append_checksum_footer(path) != OK || file_replace_by_temporary(path) != OK)
@@ -73,9 +73,9 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n)
         e.report->out = NULL;
         if (e.clock.steps > e.clock.step && e.clock.step >= 0)
             e.clock.steps = e.clock.step + STEPS < e.clock.steps ? e.clock.step + STEPS : e.clock.steps;
-        s = engine_run(&e);
+        s = engine_run_to_end(&e);
     }
     if (s != OK && (!status_message()[0] || strchr(status_message(), '\n')))
         fuzz_fail("refused without a line", status_message());
-    engine_free(&e);
+    engine_free_run(&e);
 }

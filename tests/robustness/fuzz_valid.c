@@ -176,12 +176,12 @@ static void run(const char *text)
     status_set(OK, "%s", "");
     status done = scene_read_text(&s, text, strlen(text), "valid", NULL, 0);
     if (done == OK) {
-        done = engine_make(&e, &s, NULL);
+        done = engine_set_up_run(&e, &s, NULL);
         e.report->quiet = true;
         if (done == OK) judge(&e, "at the start");
         if (e.clock.steps > STEPS) e.clock.steps = STEPS;
-        if (done == OK && (done = engine_run(&e)) == OK) judge(&e, "at the end");
-        engine_free(&e);
+        if (done == OK && (done = engine_run_to_end(&e)) == OK) judge(&e, "at the end");
+        engine_free_run(&e);
         scene_free(&s);
     }
     if (done != OK && (!status_message()[0] || strchr(status_message(), '\n')))

@@ -264,7 +264,7 @@ static void every_command_and_option_is_called(void **state)
     char scene[sizeof auto_scene.file + 2];
     const struct command *check;
     snprintf(scene, sizeof scene, " %s ", auto_scene.file);
-    assert_int_equal(command_find("check", &check), OK);
+    assert_int_equal(command_find_by_name("check", &check), OK);
     if (!is_called(check, scene)) complain("check", auto_scene.file);
     assert_int_equal(complaints, 0);
 }

@@ -72,8 +72,9 @@ static struct search look_through(const char *path)
 static void yaml_write_number_list(const char *path, double middle)
 {
     const double value[3] = {1, middle, -1e300};
-    const hsize_t n = 3;
-    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), space = H5Screate_simple(1, &n, NULL);
+    const hsize_t count = 3;
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                space = H5Screate_simple(1, &count, NULL);
     const hid_t group = H5Gcreate2(file, "/inner", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     const hid_t list = H5Dcreate2(group, "list", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(H5Dwrite(list, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);

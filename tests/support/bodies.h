@@ -38,7 +38,7 @@ static inline void body_make(struct body *b, int dim, const int *count)
         b->p.volume0[i] = b->p.volume[i] = 1, b->p.mass[i] = BODY_MASS;
         b->p.id[i] = (int32_t)i;
     }
-    cells_make(&b->c, &b->p, 3.1);
+    cells_make_for_neighbour_search(&b->c, &b->p, 3.1);
 }
 
 static inline void body_free(struct body *b)
@@ -66,7 +66,7 @@ static inline void hurt(struct body *b, real x, real y, real z)
 {
     const int64_t i = particle_at(b, x, y, z);
     b->p.damage[i] = 0.5, b->p.kind[i] = KIND_PD;
-    particles_update_kind_lists(&b->p);
+    particles_rebuild_lists_by_kind(&b->p);
 }
 
 /* ---- archives in memory ------------------------------------------------------------------------------------------ */
@@ -118,7 +118,7 @@ static inline void notched_make(struct body *b, struct crack_tips *t, real windo
     for (real x = 0.5; x < 9; x++) hurt(b, x, 10.5, 0), hurt(b, x, 9.5, 0);
     real corner[2][DIM_MAX] = {{-1, 10.5, 0}, {10, 10.5, 0}};
     struct crack crack = {.n = 2, .corner = corner};
-    tips_make(t, &b->p, &b->c, &crack, 1, 1, window);
+    tips_make_at_precrack_ends(t, &b->p, &b->c, &crack, 1, 1, window);
 }
 
 static inline void notched_free(struct body *b, struct crack_tips *t)

@@ -90,7 +90,7 @@ static inline void particle_cloud_make(struct particle_cloud *c, const struct cl
                                        .surface = plan->surface,
                                        .shells = plan->shells,
                                        .influence = plan->influence};
-    family_make(&c->source.family, plan->space, CLOUD_SPACING, plan->horizon, section[dim]);
+    family_make_on_lattice(&c->source.family, plan->space, CLOUD_SPACING, plan->horizon, section[dim]);
 
     struct particles *p = &c->p;
     uint64_t seed = plan->seed;
@@ -109,7 +109,7 @@ static inline void particle_cloud_make(struct particle_cloud *c, const struct cl
         for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
         if (dim == 3 && plan->optional & WITH_ROTATIONS) p->end_rotation[ROTATION - 1][i] = 1;
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
 }
 
 /* Rounds the positions of a regular lattice to multiples of half a spacing that are exact doubles, as src/scene/fill.c
@@ -126,7 +126,7 @@ static inline void cloud_exact(struct particle_cloud *c)
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->implicit[g]) row_block_write_columns_from_stencil(b, g);
+        if (b->implicit[g]) bond_row_block_write_columns_from_stencil(b, g);
 }
 
 /* Creates the cells of body c and sets c->source, all that bonds_make needs: materials, limits, and the surface
@@ -135,15 +135,16 @@ static inline void cloud_unfold(struct bonds *b)
 static inline void cloud_source(struct particle_cloud *c)
 {
     struct bond_source *s = &c->source;
-    particles_update_kind_lists(&c->p);
-    cells_make(&c->cells, &c->p, s->family.cutoff);
+    particles_rebuild_lists_by_kind(&c->p);
+    cells_make_for_neighbour_search(&c->cells, &c->p, s->family.cutoff);
     s->cells = &c->cells;
     s->material = c->material;
     s->materials = CLOUD_MATERIALS;
     s->limit =
         (struct bond_limit){.critical_stretch = c->limit, .materials = CLOUD_MATERIALS, .last_force = LAST_FORCE_HALF};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
-    if (s->family.surface == SURFACE_MOMENTS && surface_weights_make(&c->surface, &c->p, s, s->rotates) == OK)
+    if (s->family.surface == SURFACE_MOMENTS &&
+        surface_weights_fit_bond_weight_factors(&c->surface, &c->p, s, s->rotates) == OK)
         s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
@@ -192,7 +193,7 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
             memcpy(particle_field_array(to, field, k), particle_field_array(from, field, k),
                    (size_t)from->n * field->size);
     }
-    particles_update_kind_lists(to);
+    particles_rebuild_lists_by_kind(to);
 }
 
 /* Returns the largest difference of corresponding elements of a[n] and b[n] over the largest magnitude in b; 0 if they

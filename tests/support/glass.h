@@ -11,7 +11,7 @@ static inline struct crack_medium glass(enum space space)
 {
     struct material m = {.young = 75.629e9, .poisson = 0.286, .density = 2456};
     material_compute_derived_constants(&m, space);
-    return crack_medium_of(&m, space);
+    return crack_medium_of_material(&m, space);
 }
 
 #endif

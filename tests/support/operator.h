@@ -129,8 +129,8 @@ static inline void operator_forces(struct operator* o, real *f)
         for (int d = 0; d < g->dim; d++)
             e->frame->mesh.displacement[d][g->mirror_node[k].node] =
                 g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) reference_frame_update_points(e->frame, &e->part, &e->loads);
-    run_compute_forces(e);
+    if (getenv("OPERATOR_SHOW")) reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
+    run_compute_internal_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
             g->force[d][g->mirror_node[k].image] += g->mirror_node[k].sign[d] * g->force[d][g->mirror_node[k].node];
@@ -168,7 +168,7 @@ static inline status operator_make(struct operator* o, const struct stability_ca
 {
     char text[4096];
     *o = (struct operator){.n = 0};
-    stability_text(c, text, sizeof text);
+    stability_write_scene_text(c, text, sizeof text);
     TRY(bench_engine_make(&o->e, &o->s, "block", text, NULL, 0));
     operator_unknowns(o);
     operator_fill(o);

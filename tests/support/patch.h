@@ -46,7 +46,7 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
 static inline void patch_map(struct patch *s, enum shape shape)
 {
     struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
-    transfer_order_sort(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
+    transfer_order_sort_points_by_cell(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
     grid_clear(&s->g);
     p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);
 }

@@ -26,7 +26,7 @@ static inline void solution_make_list(struct solution *a, const char *text, va_l
 {
     memset(a, 0, sizeof *a);
     a->made = scene_with(&a->s, text, list);
-    if (a->made == OK) a->made = engine_make(&a->e, &a->s, NULL);
+    if (a->made == OK) a->made = engine_set_up_run(&a->e, &a->s, NULL);
     if (a->e.report) a->e.report->quiet = true;
     a->ran = a->made;
 }
@@ -48,7 +48,7 @@ static inline void solution_run(struct solution *a, const char *text, ...)
     va_start(list, text);
     solution_make_list(a, text, list);
     va_end(list);
-    if (a->made == OK) a->ran = engine_run(&a->e);
+    if (a->made == OK) a->ran = engine_run_to_end(&a->e);
 }
 
 /* Fails the test with the message of the last error unless a->ran is OK. */
@@ -59,7 +59,7 @@ static inline void solution_done(const struct solution *a)
 
 static inline void solution_free(struct solution *a)
 {
-    engine_free(&a->e);
+    engine_free_run(&a->e);
     scene_free(&a->s);
 }
 
@@ -73,7 +73,7 @@ static inline void near_to(const char *what, real value, real expected, real tol
 /* Returns the index of the particle nearest to (x, y, z) [m], in the reference configuration. */
 static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
 {
-    return particles_nearest(&a->e.part, (const real[DIM_MAX]){x, y, z});
+    return particles_index_nearest_to_position(&a->e.part, (const real[DIM_MAX]){x, y, z});
 }
 
 /* Returns component d of the displacement [m] of the particle nearest to the reference position (x, y, z) [m]. */

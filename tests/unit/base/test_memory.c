@@ -22,9 +22,9 @@ static void memory_is_aligned_and_zero(void **state)
 {
     (void)state;
     check_zero();
-    memory_set_reuse(true);
+    memory_set_reuse_of_freed_arrays(true);
     for (int k = 0; k < 3; k++) check_zero();
-    memory_set_reuse(false);
+    memory_set_reuse_of_freed_arrays(false);
 }
 
 static void memory_resize_keeps_what_fits(void **state)
@@ -44,7 +44,7 @@ static void memory_resize_keeps_what_fits(void **state)
 static void memory_resize_clears_reused_blocks(void **state)
 {
     (void)state;
-    memory_set_reuse(true);
+    memory_set_reuse_of_freed_arrays(true);
     for (int64_t large = 1; large < 5; large++) {
         const int64_t most = large << 20, some = most / 2, more = most - 1000;
         char *array = NEW("test", most, char);
@@ -56,7 +56,7 @@ static void memory_resize_clears_reused_blocks(void **state)
         for (int64_t i = 0; i < more; i++) assert_int_equal(array[i], i < some ? 1 : 0);
         memory_free(array);
     }
-    memory_set_reuse(false);
+    memory_set_reuse_of_freed_arrays(false);
 }
 
 static void memory_grows(void **state)

@@ -24,10 +24,10 @@ static void front_has_what_nothing_beats(void **state)
     (void)state;
     static const int expected[] = {9, 1, 2, 0};
     int front[DOTS];
-    assert_int_equal(accuracy_front(cloud, DOTS, front), COUNT_OF(expected));
+    assert_int_equal(accuracy_find_pareto_front(cloud, DOTS, front), COUNT_OF(expected));
     for (size_t k = 0; k < COUNT_OF(expected); k++) assert_int_equal(front[k], expected[k]);
-    assert_int_equal(accuracy_front(cloud, 0, front), 0);
-    assert_int_equal(accuracy_front(&cloud[6], 2, front), 0);
+    assert_int_equal(accuracy_find_pareto_front(cloud, 0, front), 0);
+    assert_int_equal(accuracy_find_pareto_front(&cloud[6], 2, front), 0);
 }
 
 /* The front of random sets of points agrees with its definition: a point is on the front exactly if no other point is
@@ -41,7 +41,7 @@ static void front_of_random_clouds(void **state)
     srand(7);
     for (int trial = 0; trial < 50; trial++) {
         for (int k = 0; k < N; k++) dot[k] = (struct accuracy_dot){rand() % 40, rand() % 40};
-        const int n = accuracy_front(dot, N, front);
+        const int n = accuracy_find_pareto_front(dot, N, front);
         for (int k = 1; k < n; k++) {
             assert_true(dot[front[k]].time > dot[front[k - 1]].time);
             assert_true(dot[front[k]].error < dot[front[k - 1]].error);
@@ -58,11 +58,11 @@ static void front_of_random_clouds(void **state)
 static void cheapest_is_the_first_good_enough(void **state)
 {
     (void)state;
-    assert_int_equal(accuracy_cheapest(cloud, DOTS, 1), 9);
-    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.05), 2);
-    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.02), 2);
-    assert_int_equal(accuracy_cheapest(cloud, DOTS, 0.019), 0);
-    assert_int_equal(accuracy_cheapest(cloud, DOTS, 1e-4), -1);
+    assert_int_equal(accuracy_index_of_fastest_point(cloud, DOTS, 1), 9);
+    assert_int_equal(accuracy_index_of_fastest_point(cloud, DOTS, 0.05), 2);
+    assert_int_equal(accuracy_index_of_fastest_point(cloud, DOTS, 0.02), 2);
+    assert_int_equal(accuracy_index_of_fastest_point(cloud, DOTS, 0.019), 0);
+    assert_int_equal(accuracy_index_of_fastest_point(cloud, DOTS, 1e-4), -1);
 }
 
 /* ---- exact forms satisfy rho u_tt = c12 grad div u + G (lap u + grad div u) + f ---------------------------------- */
@@ -130,7 +130,7 @@ static void force_of_scene(const struct manufactured *m, const real *X, real t, 
             "body: {box: {from: %s, to: %s}}\nboundary:\n",
             m->dim == 2 ? "plane stress\nthickness: 1" : "solid", m->dim == 2 ? "[0, 0]" : "[0, 0, 0]",
             m->dim == 2 ? "[1, 1]" : "[1, 1, 1]");
-    manufactured_boundaries(to, m);
+    manufactured_write_body_force(to, m);
     fclose(to);
     assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
     for (int a = 0; a < m->dim; a++) f[a] = 0;
@@ -229,7 +229,7 @@ static void particles_start_in_a_transverse_wave(void **state)
     struct scene s;
     struct particles p;
     assert_int_equal(scene_read_text(&s, text, strlen(text), "test", NULL, 0), OK);
-    assert_int_equal(fill_particles(&p, &s, NULL, 0), OK);
+    assert_int_equal(fill_bodies_with_particles(&p, &s, NULL, 0), OK);
     const struct wave_pulse *w = &s.initial[0].pulse;
     const real speed = sqrt(2 / (2 * 1.2) / 1.3), *n = w->direction;
     for (int64_t i = 0; i < p.n; i++) {
@@ -258,7 +258,7 @@ static const struct accuracy_problem *problem_named(const char *name)
 
 static int case_named(const struct accuracy_problem *q, const char *name)
 {
-    for (int k = 0; k < accuracy_cases(q); k++)
+    for (int k = 0; k < accuracy_case_count(q); k++)
         if (strcmp(q->cases[k], name) == 0) return k;
     return -1;
 }
@@ -300,8 +300,8 @@ static void line_is_of_the_plan(char *const *column)
                                       .step = atof(column[STEP])};
     assert_true(at.at >= 0 && (!q->applies || q->applies(&at)));
     struct accuracy_scene s;
-    accuracy_scene_make(&at, &s);
-    bench_overrides_ready(&s.set);
+    accuracy_compose_scene_of_point(&at, &s);
+    bench_overrides_as_array(&s.set);
     for (int j = 0; j < s.set.n; j++) {
         const char *key = s.set.at[j].key;
         bool apart = false, later = false;

@@ -18,7 +18,7 @@ static void scenes_are_sound(void **state)
     struct accuracy_plan plan = {0};
     assert_int_equal(accuracy_plan_make(&plan), OK);
     for (int k = 0; k < accuracy_problems; k++)
-        for (int at = 0; at < accuracy_cases(accuracy_problem[k]); at++) {
+        for (int at = 0; at < accuracy_case_count(accuracy_problem[k]); at++) {
             int points = 0, quick = 0;
             for (int n = 0; n < plan.n; n++) {
                 const struct accuracy_entry *entry = &plan.entry[n];
@@ -39,14 +39,14 @@ static void hole_is_free_and_edges_are_pulled(void **state)
     double u[2], s[3];
     for (int k = 0; k <= 90; k++) { /* accuracy of the boundary collocation: 4e-5 */
         const double angle = k * M_PI / 180, c = cos(angle), n = sin(angle), side = 5 * n;
-        accuracy_hole_exact((double[2]){c, n}, u, s);
+        accuracy_hole_compute_exact_solution((double[2]){c, n}, u, s);
         assert_true(fabs(s[0] * c + s[2] * n) <= 3e-4 * 1e4 && fabs(s[2] * c + s[1] * n) <= 3e-4 * 1e4);
-        accuracy_hole_exact((double[2]){5, side}, u, s);
+        accuracy_hole_compute_exact_solution((double[2]){5, side}, u, s);
         assert_true(fabs(s[0]) <= 3e-4 * 1e4 && fabs(s[2]) <= 3e-4 * 1e4);
-        accuracy_hole_exact((double[2]){side, 5}, u, s);
+        accuracy_hole_compute_exact_solution((double[2]){side, 5}, u, s);
         assert_true(fabs(s[1] - 1e4) <= 3e-4 * 1e4 && fabs(s[2]) <= 3e-4 * 1e4);
     }
-    accuracy_hole_exact((double[2]){1, 0}, u, s);
+    accuracy_hole_compute_exact_solution((double[2]){1, 0}, u, s);
     assert_true(fabs(s[1] - 3.3601e4) <= 1);
 }
 
@@ -59,11 +59,11 @@ static void hole_is_elastic_and_in_balance(void **state)
     const double h = 1e-4, young = 1e9, nu = 1.0 / 3;
     for (size_t k = 0; k < COUNT_OF(place); k++) {
         double u[4][2], s[4][3], here[3], at[2];
-        accuracy_hole_exact(place[k], at, here);
+        accuracy_hole_compute_exact_solution(place[k], at, here);
         for (int end = 0; end < 4; end++) {
             double X[2] = {place[k][0], place[k][1]};
             X[end / 2] += end % 2 ? -h : h;
-            accuracy_hole_exact(X, u[end], s[end]);
+            accuracy_hole_compute_exact_solution(X, u[end], s[end]);
         }
         const double exx = (u[0][0] - u[1][0]) / (2 * h), eyy = (u[2][1] - u[3][1]) / (2 * h);
         const double exy = (u[2][0] - u[3][0] + u[0][1] - u[1][1]) / (4 * h);
@@ -122,10 +122,10 @@ static void points_are_as_far_off_as_measured(void **state)
         struct scene s;
         double error, part[ACCURACY_PARTS];
         assert_true(!p.problem->applies || p.problem->applies(&p));
-        accuracy_scene_make(&p, &from);
-        assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_ready(&from.set), from.set.n),
+        accuracy_compose_scene_of_point(&p, &from);
+        assert_int_equal(bench_engine_make(&e, &s, "test", from.text, bench_overrides_as_array(&from.set), from.set.n),
                          OK);
-        assert_int_equal(p.problem->run ? p.problem->run(&p, &e) : engine_run(&e), OK);
+        assert_int_equal(p.problem->run ? p.problem->run(&p, &e) : engine_run_to_end(&e), OK);
         assert_int_equal(p.problem->measure(&p, &e, &error, part), OK);
         if (fabs(error / cheap[k].error - 1) > 0.2)
             fail_msg("%s, %s %d: error %g, %g was measured", p.problem->name, method->name, p.resolution, error,

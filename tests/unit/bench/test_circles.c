@@ -69,7 +69,7 @@ static double volume_of_list(const struct circle_specimen *specimen, double spac
     char path[] = "/tmp/test_circles_XXXXXX", line[128];
     const int file = mkstemp(path);
     assert_true(file >= 0 && close(file) == 0);
-    assert_int_equal(circle_list_write(path, specimen, spacing, degrees, middle, list), OK);
+    assert_int_equal(circle_write_particle_list(path, specimen, spacing, degrees, middle, list), OK);
     FILE *from = fopen(path, "r");
     double x, y, volume, sum = 0;
     assert_non_null(fgets(line, sizeof line, from));

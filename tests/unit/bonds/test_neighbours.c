@@ -15,7 +15,8 @@
 static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius,
                                     int32_t skip)
 {
-    int32_t found[1000], n = cells_find_near(c, p, X, radius, skip, found, COUNT_OF(found)), expected = 0;
+    int32_t found[1000], n = cells_list_particles_near_point(c, p, X, radius, skip, found, COUNT_OF(found)),
+                         expected = 0;
     assert_in_range(n, 0, COUNT_OF(found));
     for (int32_t j = 0; j < p->n; j++) {
         real r2 = 0;
@@ -25,7 +26,7 @@ static void search_equals_all_pairs(const struct particles *p, const struct cell
         assert_int_equal(found[expected++], j); /* ascending, without duplicates, complete */
     }
     assert_int_equal(n, expected);
-    assert_int_equal(cells_find_near(c, p, X, radius, skip, NULL, 0), expected);
+    assert_int_equal(cells_list_particles_near_point(c, p, X, radius, skip, NULL, 0), expected);
 }
 
 static void searches(const struct cloud_plan *plan, real edge, bool outlier)
@@ -36,7 +37,7 @@ static void searches(const struct cloud_plan *plan, real edge, bool outlier)
     particle_cloud_make(&c, plan);
     if (outlier) /* a mostly empty box must not need a cell for every spacing */
         for (int d = 0; d < c.p.dim; d++) c.p.X[d][c.p.n - 1] = 1e3 * CLOUD_SPACING;
-    cells_make(&cells, &c.p, edge);
+    cells_make_for_neighbour_search(&cells, &c.p, edge);
     for (int32_t i = 0; i < c.p.n; i++) {
         real X[DIM_MAX];
         for (int d = 0; d < c.p.dim; d++) X[d] = c.p.X[d][i];
@@ -320,7 +321,7 @@ static void test_rows_inherit(void **state)
         real *before = reference_table(&c.bonds, p), energy = bonds_fracture_energy(&c.bonds);
         for (int64_t i = 0; i < p->n; i++)
             if (p->X[0][i] < 8e-3) p->kind[i] = KIND_PD;
-        particles_update_kind_lists(p);
+        particles_rebuild_lists_by_kind(p);
         struct bonds old = c.bonds;
         bonds_make(&c.bonds, &old, p, &c.source);
         real *after = reference_table(&c.bonds, p);
@@ -354,7 +355,7 @@ static void test_rows_again(void **state)
         particle_cloud_make(&c, &plan[k]);
         const int last = c.p.dim - 1;
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
-        particles_update_kind_lists(&c.p);
+        particles_rebuild_lists_by_kind(&c.p);
         cloud_source(&c);
         c.source.yield = (struct bond_yield){NULL, NULL, 0}; /* bonds that may yield always move */
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
@@ -363,7 +364,7 @@ static void test_rows_again(void **state)
             const real *was = old.w;
             for (int64_t i = 0; i < c.p.n; i++)
                 if (c.p.X[last][i] < column * CLOUD_SPACING) c.p.kind[i] = KIND_PD;
-            particles_update_kind_lists(&c.p);
+            particles_rebuild_lists_by_kind(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
             assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
@@ -467,6 +468,6 @@ int main(void)
         cmocka_unit_test(test_rows_inherit),    cmocka_unit_test(test_rows_again),
         cmocka_unit_test(test_rows_of_lattice), cmocka_unit_test(test_rows_threads),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

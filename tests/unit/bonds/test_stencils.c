@@ -200,7 +200,8 @@ static void test_same_bits(void **state)
             assert_true(a.value[0] > 0);                    /* some bonds have broken, */
             assert_true(count_folded(&implicit.bonds) > 0); /* and some row blocks still follow a stencil */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
-            assert_null(bonds_find_inconsistency(&implicit.bonds)), assert_null(bonds_find_inconsistency(&open.bonds));
+            assert_null(bonds_describe_first_inconsistency(&implicit.bonds)),
+                assert_null(bonds_describe_first_inconsistency(&open.bonds));
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
@@ -215,27 +216,27 @@ static void test_fault(void **state)
     struct particle_cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
-    assert_null(bonds_find_inconsistency(b));
+    assert_null(bonds_describe_first_inconsistency(b));
     const int64_t q = bond_index_for_writing(b, b->row_blocks / 2, 3, 4), column = q / LANES;
-    assert_null(bonds_find_inconsistency(b)); /* stored explicitly, it still follows its stencil */
+    assert_null(bonds_describe_first_inconsistency(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
-    assert_null(bonds_find_inconsistency(b));
+    assert_null(bonds_describe_first_inconsistency(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_find_inconsistency(b), "a bond with weight is broken or padding");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond with weight is broken or padding");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
-    assert_string_equal(bonds_find_inconsistency(b), "intact is not what the weights say");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "intact is not what the weights say");
     b->common[column].intact ^= 1;
     b->nbr[q]++;
-    assert_string_equal(bonds_find_inconsistency(b), "neighbours are not consecutive");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
-    assert_string_equal(bonds_find_inconsistency(b), "first is not what a column shares");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "first is not what a column shares");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_find_inconsistency(b), "a bond leads farther than reach");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "a bond leads farther than reach");
     b->row_of[b->particle[9]] = 3;
-    assert_string_equal(bonds_find_inconsistency(b), "row_of does not lead back to the row of a particle");
+    assert_string_equal(bonds_describe_first_inconsistency(b), "row_of does not lead back to the row of a particle");
     particle_cloud_free(&c);
 }
 
@@ -263,7 +264,7 @@ static void test_who_stays_out(void **state)
     bonds_free(&c.bonds);
     const int32_t point = (int32_t)c.p.n / 2 + 3;
     c.p.kind[point] = KIND_MPM;
-    particles_update_kind_lists(&c.p);
+    particles_rebuild_lists_by_kind(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     const int64_t row = c.bonds.row_of[point] + 1,
                   q = bond_index_for_writing(&c.bonds, row / LANES, 5, (int)(row % LANES));
@@ -271,7 +272,7 @@ static void test_who_stays_out(void **state)
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
     struct bonds old = c.bonds;
-    particles_update_kind_lists(&c.p);
+    particles_rebuild_lists_by_kind(&c.p);
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);
     int found = 0;
@@ -322,7 +323,7 @@ static void convert_tube(struct particle_cloud *c, real radius)
         for (int d = 0; d < p->dim; d++) r2 += d == 2 ? 0 : square(p->X[d][i] - p->X[d][p->n / 2]);
         p->kind[i] = r2 < square(radius * CLOUD_SPACING) ? KIND_PD : KIND_MPM;
     }
-    particles_update_kind_lists(&c->p);
+    particles_rebuild_lists_by_kind(&c->p);
 }
 
 /* Beside material points, too, the site map yields the bonds that a search finds; bonds that may yield are searched. */

@@ -125,8 +125,8 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
     cloud_exact(&s->cloud);
     cloud_source(&s->cloud);
     int64_t apart[2];
-    assert_int_equal(near_faces_make(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
-    surface_fit_targets_make(&s->faces, &s->body, false);
+    assert_int_equal(near_faces_list_particles_and_neighbours(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
+    surface_fit_targets_compute_moments(&s->faces, &s->body, false);
     const struct offsets *o = &s->body.offset;
     real third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}}, bonds = 0, squared = 0;
     for (int k = 0; k < o->n; k++) add_bond(s, k, 1, s->full, third);
@@ -348,10 +348,11 @@ static void residual_is_told(void **state)
     struct plain s;
     struct bond_classes a;
     plain_make(&s, &plan);
-    bond_classes_make_near_faces(&a, &s.body);
+    bond_classes_group_bonds_near_faces(&a, &s.body);
     real *factor = NEW("test.factors", a.groups, real);
-    assert_true(surface_fit_factors(factor, &s.body, &s.faces, &a, false, SURFACE_PRODUCTS) < 1e-12);
-    const real left = surface_fit_factors(factor, &s.body, &s.faces, &a, false, 3);
+    assert_true(surface_fit_compute_bond_weight_factors(factor, &s.body, &s.faces, &a, false, SURFACE_PRODUCTS) <
+                1e-12);
+    const real left = surface_fit_compute_bond_weight_factors(factor, &s.body, &s.faces, &a, false, 3);
     if (!(left > 1e-6 && left < 1)) fail_msg("%g", left);
     memory_free(factor);
     bond_classes_free(&a);
@@ -363,6 +364,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least), cmocka_unit_test(faces_are_at_their_places),
                                        cmocka_unit_test(bending_has_the_energy_of_a_beam),
                                        cmocka_unit_test(half_is_as_the_whole), cmocka_unit_test(residual_is_told)};
-    team_set_threads(0);
+    team_set_thread_count(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,15 +52,15 @@ static struct run *contact_run(struct scene *s, const char *text, const char *la
     const struct scene_override set = {"contact.law", law};
     struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "contact.yaml", &set, 1) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_make(e, s, NULL));
+    assert_ok(engine_set_up_run(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start(e));
+    assert_ok(report_start_before_first_step(e));
     return e;
 }
 
 static void contact_end(struct run *e, struct scene *s)
 {
-    engine_free(e);
+    engine_free_run(e);
     memory_free(e);
     scene_free(s);
 }
@@ -84,7 +84,7 @@ static real plain_stiffness(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
     struct family family = e->source.family;
-    family_make(&family, family.space, family.spacing, 3.015, family.section);
+    family_make_on_lattice(&family, family.space, family.spacing, 3.015, family.section);
     const real a = family_micro_modulus(&family, &e->scene->material[p->material[i]]);
     const real b = family_micro_modulus(&family, &e->scene->material[p->material[j]]);
     return 15 * (2 * a * b / (a + b)) * p->volume0[i] * p->volume0[j] / (3.015 * e->scene->spacing);
@@ -229,7 +229,7 @@ static void check_plain(struct run *e)
     const struct particles *p = &e->part;
     real *f = NEW("test.f", p->n * p->dim, real), most = 0;
     contact_alone(e);
-    const real found = contact_energy(e->contact, p);
+    const real found = contact_elastic_energy(e->contact, p);
     if (e->scene->contact_form == CONTACT_SURFACE) {
         const real energy = plain_faces(e);
         const real k = plain_stiffness(e, 0, 0) * square(e->scene->spacing);
@@ -258,9 +258,9 @@ static void check_gradient(struct run *e)
     for (int d = 0; d < p->dim; d++) {
         const real x = p->x[d][i];
         p->x[d][i] = x + h;
-        const real above = contact_energy(e->contact, p);
+        const real above = contact_elastic_energy(e->contact, p);
         p->x[d][i] = x - h;
-        const real below = contact_energy(e->contact, p);
+        const real below = contact_elastic_energy(e->contact, p);
         p->x[d][i] = x;
         assert_near(p->f[d][i], (below - above) / (2 * h), 1e-4 * most);
     }
@@ -273,8 +273,8 @@ static void check_collision(const char *text, const char *law, real pairs_least)
     struct run *e = contact_run(&s, text, law);
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_step(e));
-        assert_ok(stability_check(e));
+        assert_ok(engine_adapt_refinement_and_step(e));
+        assert_ok(stability_check_after_step(e));
         if (e->clock.step % 4 > 0) continue;
         check_plain(e);
         if (e->contact->touching == 0) continue;
@@ -329,7 +329,7 @@ static void test_steps(void **state)
     real most = 0;
     int64_t seen = 0;
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_step(e));
+        assert_ok(engine_adapt_refinement_and_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
         if (e->contact->touching == 0) continue;
         if (seen % 8 == 0) check_law_gradient(e);
@@ -365,7 +365,7 @@ static void check_rest(const char *law)
                                "contact: {between: all}\ntime: {step: 0.1 us}\noutput: {frames: 1, samples: 10}\n";
     struct scene s;
     struct run *e = contact_run(&s, text, law);
-    for (int step = 0; step < 1000; step++) assert_ok(engine_step(e));
+    for (int step = 0; step < 1000; step++) assert_ok(engine_adapt_refinement_and_step(e));
     assert_true(e->contact->pairs > 50);
     for (int d = 0; d < 2; d++)
         for (int64_t i = 0; i < e->part.n; i++) assert_true(e->part.v[d][i] == 0);
@@ -388,7 +388,7 @@ static void test_account(void **state)
     static const int gaps[] = {4, 6};
     const real K = 7.3;
     for (int k = 0; k < 2; k++) {
-        struct contact_balance b = contact_energy_correction_begin(NULL, gap[k][0]);
+        struct contact_balance b = contact_energy_correction_start_account(NULL, gap[k][0]);
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
@@ -428,8 +428,8 @@ static void test_sizes(void **state)
         contact_list_compute_entry_data(&c, &p);
         assert_close(c.size[0], h, 1e-14);
         assert_close(c.size[1], dim == 1 ? 0.3 * h : dim == 2 ? sqrt(0.3) * h : cbrt(0.3) * h, 1e-12);
-        assert_near(contact_notch_width(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
-        assert_near(contact_notch_width(&c, &p, 0, 2), 0, 0);
+        assert_near(contact_notch_width_between_entries(&c, &p, 0, 1), dim == 2 ? 0.31 * h : 0, 0);
+        assert_near(contact_notch_width_between_entries(&c, &p, 0, 2), 0, 0);
         memory_free(c.particle), memory_free(c.size), memory_free(c.rise), memory_free(c.root);
         particles_free(&p);
     }
@@ -466,7 +466,7 @@ static void test_beside_a_ball(void **state)
             const real r = 9e-3 + (0.5 - depth[k - 1]) * h, angle = 0.2 + 0.4 * i;
             p.x[0][i] = r * cos(angle), p.x[1][i] = r * sin(angle);
         }
-        contact_rigid_list_particles(&c[k], &c[k - 1], &p, 0.3 * h);
+        contact_rigid_list_nearby_particles(&c[k], &c[k - 1], &p, 0.3 * h);
         assert_int_equal(c[k].near[0].n, 3);
         for (int q = 0; q < 3; q++) assert_near(c[k].near[0].zero[q], -zero[k - 1] * h, 1e-12 * h);
     }

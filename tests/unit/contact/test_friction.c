@@ -56,22 +56,22 @@ static struct run *body_begin(struct scene *s, const char *text)
 {
     struct run *e = NEW("test.engine", 1, struct run);
     if (scene_read_text(s, text, strlen(text), "friction.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_make(e, s, NULL));
+    assert_ok(engine_set_up_run(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start(e));
+    assert_ok(report_start_before_first_step(e));
     return e;
 }
 
 static void body_end(struct run *e, struct scene *s)
 {
-    engine_free(e);
+    engine_free_run(e);
     memory_free(e);
     scene_free(s);
 }
 
 static void look(struct run *e)
 {
-    contact_update_pair_list(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
+    contact_update_pair_list_if_outdated(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, 0, 0);
 }
 
 static void forces_at(struct run *e, real dt)
@@ -100,7 +100,7 @@ static void rigid_force_is_a_gradient(void **state)
     look(e);
     r->x[1] -= 0.1e-3;
     forces_at(e, 0);
-    const real energy = contact_energy(e->contact, p), step = 1e-9;
+    const real energy = contact_elastic_energy(e->contact, p), step = 1e-9;
     const real force[] = {r->force[0], r->force[1]}, moment = r->moment[2];
     real sum[2] = {0}, turning = 0, own[2] = {0};
     int32_t one = -1;
@@ -117,7 +117,7 @@ static void rigid_force_is_a_gradient(void **state)
         real work[2];
         for (int side = 0; side < 2; side++) {
             p->x[d][one] += (side ? -1 : 1) * step;
-            work[side] = contact_energy(e->contact, p);
+            work[side] = contact_elastic_energy(e->contact, p);
             p->x[d][one] -= (side ? -1 : 1) * step;
         }
         assert_near(own[d], -(work[0] - work[1]) / (2 * step), 1e-5 * hypot(own[0], own[1]));
@@ -177,14 +177,14 @@ static void faces_rub(void **state)
     }
     for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
     assert_near(contact_friction_stored_energy(e->contact), 0, 1e-20);
-    assert_near(contact_friction_work(e->contact), 0, 1e-20);
+    assert_near(contact_friction_dissipated_energy(e->contact), 0, 1e-20);
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
     for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 80 um: all springs slide */
     for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
     assert_true(press[1] > 0);
     assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
     assert_close(drag[1], -0.3 * press[1], 0.02); /* forces at the ends of the face are oblique */
-    assert_true(contact_friction_work(e->contact) > 0);
+    assert_true(contact_friction_dissipated_energy(e->contact) > 0);
     body_end(e, &s);
 }
 
@@ -223,7 +223,7 @@ static void rigid_body_rubs(void **state)
     }
     for (int k = 0; k < 3; k++) forces_at(e, 1e-7);
     assert_near(contact_friction_stored_energy(e->contact), 0, 1e-20);
-    assert_near(contact_friction_work(e->contact), 0, 1e-20);
+    assert_near(contact_friction_dissipated_energy(e->contact), 0, 1e-20);
     r->spin[2] = 0;
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = 5.4, p->v[1][i] = 2;
     for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 64 um: all springs slide */
@@ -235,9 +235,9 @@ static void rigid_body_rubs(void **state)
     for (int64_t i = 0; i < p->n; i++)
         turning += (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
     assert_near(r->moment[2], -turning, 1e-12 * fabs(force[1]) * 31e-3);
-    const real before = contact_friction_work(e->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
+    const real before = contact_friction_dissipated_energy(e->contact), lost = -0.3 * force[1] * 1.6 * 7e-7;
     for (int k = 0; k < 7; k++) forces_at(e, 1e-7);
-    assert_close(contact_friction_work(e->contact) - before, lost, 1e-9);
+    assert_close(contact_friction_dissipated_energy(e->contact) - before, lost, 1e-9);
     e->report->sampling.due = true, e->damped = 0.021;
     sample_compute_energies(e);
     assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);

@@ -351,10 +351,10 @@ static void test_approach(void **state)
         p->body[i] = (uint8_t)body, p->flag[i] = 0, p->kind[i] = i % 7 == 0 ? KIND_PD : KIND_MPM;
         p->x[0][i] += 1.3 * CLOUD_SPACING * body, p->x[1][i] += 0.4 * CLOUD_SPACING * (body == 1);
     }
-    flag_points_near_bodies(p, BODIES, &rigid, 1, reach);
+    flag_points_near_other_bodies_to_convert(p, BODIES, &rigid, 1, reach);
     for (int64_t i = 0; i < p->n; i++) {
         real normal[DIM_MAX], x[DIM_MAX] = {p->x[0][i], p->x[1][i]};
-        bool near = region_distance(&shape, x, 2, normal) < reach;
+        bool near = region_signed_distance(&shape, x, 2, normal) < reach;
         for (int64_t j = 0; j < p->n; j++)
             near |= p->body[j] != p->body[i] && hypot(p->x[0][j] - x[0], p->x[1][j] - x[1]) <= reach;
         assert_true(near == (p->kind[i] == KIND_PD ? p->low_since[i] == INFINITY : (p->flag[i] & FLAG_NEAR) != 0));
@@ -386,7 +386,7 @@ static void test_faces_meet(void **state)
         c.p.x[1][i] -= moved[k] * h, c.p.v[1][i] = -way[k] * h / ahead;
     }
     const struct notches notches = {.slits = 1, .slit = &slit, .faces = c.p.n, .face = face};
-    notches_flag_closing_faces(&notches, &c.p, h, ahead);
+    notches_flag_points_at_closing_faces(&notches, &c.p, h, ahead);
     for (int64_t i = 0; i < c.p.n; i++) {
         const int k = (int)(c.p.X[0][i] / h);
         assert_int_equal((c.p.flag[i] & FLAG_NEAR) != 0, moved[k] + real_max(way[k], 0) > 0.3);
@@ -404,6 +404,6 @@ int main(void)
         cmocka_unit_test(test_crack_in_its_body), cmocka_unit_test(test_approach),
         cmocka_unit_test(test_faces_meet),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

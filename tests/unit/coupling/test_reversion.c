@@ -34,10 +34,10 @@ static void know_stress(struct setting *s) { bond_stress_table[s->c.p.dim][PD_BO
 static int64_t choose(struct setting *s, int32_t **list)
 {
     know_stress(s);
-    assert_int_equal(reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 1, list), 0);
+    assert_int_equal(reversion_select_particles_to_become_mpm(&s->rule, &s->c.p, &s->c.bonds, 1, list), 0);
     assert_null(*list);
-    assert_int_equal(reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 1.999, list), 0);
-    return reversion_select_particles(&s->rule, &s->c.p, &s->c.bonds, 2, list);
+    assert_int_equal(reversion_select_particles_to_become_mpm(&s->rule, &s->c.p, &s->c.bonds, 1.999, list), 0);
+    return reversion_select_particles_to_become_mpm(&s->rule, &s->c.p, &s->c.bonds, 2, list);
 }
 
 static void setting_never(struct setting *s)
@@ -92,7 +92,7 @@ static void test_bar(void **state)
     assert_near(energy / particle, 60, 1e-3);
     assert_int_equal(choose(&s, &list), 20);
     cloud_copy(&before, p, WITH_REVERSION | WITH_GRADIENT);
-    reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, &partial, list, 20);
+    reversion_convert_listed_particles_to_mpm(&conversion, p, &s.c.bonds, &s.c.source, &partial, list, 20);
     assert_near((energy_of(&s, &partial) - energy) / particle, 0, 1e-3);
     assert_memory_equal(p->x[0], before.x[0], (size_t)p->n * sizeof(real));
     assert_memory_equal(p->v[0], before.v[0], (size_t)p->n * sizeof(real));
@@ -137,7 +137,7 @@ static void test_wave(void **state)
         setting_never(&s);
         const real before = energy_of(&s, &partial);
         assert_int_equal(choose(&s, &list), p->n);
-        reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
+        reversion_convert_listed_particles_to_mpm(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         assert_near(0.5 * (energy_of(&s, &partial) / before - 1), row[k].change, row[k].within);
         memory_free(list);
         particle_cloud_free(&s.c);
@@ -170,7 +170,7 @@ static void test_surfaces(void **state)
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
         assert_true(most > 0);
-        reversion_revert_listed_particles(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
+        reversion_convert_listed_particles_to_mpm(&conversion, p, &s.c.bonds, &s.c.source, NULL, list, p->n);
         for (int64_t i = 0; i < p->n; i++) {
             for (int c = 0; c < n; c++) assert_near(p->stress[c][i], middle[c], 1e-5 * most);
             assert_near(p->volume[i] / p->volume0[i], 1 + strain[0][0] + strain[1][1], 1e-11);
@@ -216,8 +216,8 @@ static void test_who_stays(void **state)
         if (reason == REASON_REGION) s.rule.kept = &region;
         know_stress(&s);
         if (reason == REASON_STRESS) p->stress[1][one] = 0.51 * s.elastic[0].trigger;
-        assert_int_equal(reversion_select_particles(&s.rule, p, &s.c.bonds, 1, &list), 0);
-        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, 2, &list);
+        assert_int_equal(reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, 1, &list), 0);
+        const int64_t n = reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, 2, &list);
         int64_t k = 0, stay = 0;
         for (int64_t i = 0; i < p->n; i++) {
             const bool stays = distance(p, i, one) <= reach[reason];
@@ -249,7 +249,7 @@ static void test_dwell_and_gap(void **state)
     know_stress(&s);
     for (int t = 0; t < 5; t++) { /* unstressed except for 0.5 < share at times 0, 1, 2 */
         p->stress[0][30] = t < 3 ? 0.51 * s.elastic[0].trigger : 0.49 * s.elastic[0].trigger;
-        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, t, &list);
+        const int64_t n = reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, t, &list);
         assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side also stay */
         memory_free(list);
     }
@@ -258,7 +258,7 @@ static void test_dwell_and_gap(void **state)
     for (int k = 0; k < 2; k++) {
         p->stress[0][30] = 0, p->stress[0][0] = (k ? 0.24 : 0.3) * s.elastic[0].trigger;
         for (int t = 6; t < 8; t++) {
-            const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, t + 2 * k, &list);
+            const int64_t n = reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, t + 2 * k, &list);
             assert_int_equal(n, t == 6 ? (k ? 56 : 0) : k ? 60 : 56);
             memory_free(list);
         }
@@ -270,8 +270,8 @@ static void test_dwell_and_gap(void **state)
         setting_never(&s);
         p->stress[0][30] = 0;
         p->stress[0][20] = p->stress[0][20 + gap + 1] = s.elastic[0].trigger;
-        assert_int_equal(reversion_select_particles(&s.rule, p, &s.c.bonds, 10, &list), 0);
-        const int64_t n = reversion_select_particles(&s.rule, p, &s.c.bonds, 20, &list);
+        assert_int_equal(reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, 10, &list), 0);
+        const int64_t n = reversion_select_particles_to_become_mpm(&s.rule, p, &s.c.bonds, 20, &list);
         int64_t inside = 0;
         for (int64_t k = 0; k < n; k++) inside += list[k] > 20 && list[k] < 20 + gap + 1;
         assert_int_equal(inside, gap == 13 ? 7 : 0);
@@ -343,6 +343,6 @@ int main(void)
         cmocka_unit_test(test_bar),       cmocka_unit_test(test_wave),          cmocka_unit_test(test_surfaces),
         cmocka_unit_test(test_who_stays), cmocka_unit_test(test_dwell_and_gap), cmocka_unit_test(test_mesh),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

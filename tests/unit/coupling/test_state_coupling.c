@@ -251,8 +251,8 @@ static void test_response(void **state)
         for (struct bond_iterator it = bond_iterator_of_row(&c->bonds, r); bond_next(&it);) {
             const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
             const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
-            const struct response one = bond_strain_response(&c->p, &c->bonds, &c->source, i, &it.bond);
-            const struct response other = bond_strain_response(&c->p, &c->bonds, &c->source, j, &back);
+            const struct response one = bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, i, &it.bond);
+            const struct response other = bond_force_derivative_by_strain(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
             if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete families */
@@ -321,7 +321,7 @@ static void test_positive(void **state)
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
         for (int a = 0; a < n * n; a++) rest[a] = T[a];
-        partial_tensor_limit_bond_based(T, &b.s.c.p, &b.s.c.source, 0);
+        partial_tensor_limit_for_bond_based_model(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */
@@ -348,6 +348,6 @@ int main(void)
                                        cmocka_unit_test(test_torque),   cmocka_unit_test(test_energy),
                                        cmocka_unit_test(test_response), cmocka_unit_test(test_positive),
                                        cmocka_unit_test(test_rows)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,7 +34,7 @@ static const char block[] =
 static void engine_from(struct run *e, struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "points.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_int_equal(engine_make(e, s, NULL), OK);
+    assert_int_equal(engine_set_up_run(e, s, NULL), OK);
 }
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
@@ -67,7 +67,7 @@ static void shake(struct run *e)
 
 static real energy_of(struct run *e)
 {
-    run_compute_forces(e);
+    run_compute_internal_forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
@@ -129,7 +129,7 @@ static void test_gradient(void **state)
                  coupling[k / 2 % 2]);
         engine_from(&e, &s, whole);
         check_gradient(&e);
-        engine_free(&e);
+        engine_free_run(&e);
         scene_free(&s);
     }
 }
@@ -185,7 +185,7 @@ static void check_points(const char *text)
         points++;
     }
     assert_true(points > 40);
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(&s);
 }
 
@@ -238,7 +238,7 @@ static void check_partials(const char *text)
     same_partials(&e.coupling->partial, &again, e.part.n, e.part.dim);
     partial_stress_free(&again);
     bonds_free(&searched);
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(&s);
 }
 
@@ -253,7 +253,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gradient), cmocka_unit_test(test_points),
                                        cmocka_unit_test(test_partials)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -18,7 +18,7 @@ static void principal_values_of_turned_tensors(void **state)
             real tensor[6] = {0}, found[3], direction[9];
             for (int c = 0; c < 6; c++)
                 for (int m = 0; m < 3; m++) tensor[c] += values[v][m] * n[m][row[c]] * n[m][column[c]];
-            tensor_principal_values(tensor, found, direction);
+            tensor_compute_principal_values(tensor, found, direction);
             for (int m = 0; m < 3; m++) assert_true(fabs(found[m] - values[v][m]) <= 1e-14 * largest);
             for (int c = 0; c < 6; c++) {
                 real again = 0;
@@ -53,15 +53,15 @@ static void fields_by_name(void **state)
     real out[DERIVED_MOST];
     (void)state;
     for (int k = 0; k < DERIVED_FIELDS; k++)
-        assert_ptr_equal(derived_field_find(derived_fields[k].name), derived_fields + k);
-    assert_null(derived_field_find("stress"));
-    derived_field_find("speed")->compute(velocity, out);
+        assert_ptr_equal(derived_field_find_by_name(derived_fields[k].name), derived_fields + k);
+    assert_null(derived_field_find_by_name("stress"));
+    derived_field_find_by_name("speed")->compute(velocity, out);
     assert_near(out[0], 7, 0);
-    derived_field_find("pressure")->compute(stress, out);
+    derived_field_find_by_name("pressure")->compute(stress, out);
     assert_near(out[0], 6, 0);
-    derived_field_find("principal_stress")->compute(stress, out);
+    derived_field_find_by_name("principal_stress")->compute(stress, out);
     assert_true(out[0] == -3 && out[1] == -6 && out[2] == -9);
-    derived_field_find("principal_directions")->compute(stress, out);
+    derived_field_find_by_name("principal_directions")->compute(stress, out);
     for (int k = 0; k < 9; k++) assert_near(out[k], k % 4 == 0, 0);
 }
 

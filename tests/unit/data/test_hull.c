@@ -47,7 +47,7 @@ static struct grid_hull grid_make(bool torus, int n, int m)
 
 static void hull_of(struct hull *s, const struct grid_hull *g)
 {
-    hull_make(s, 3, g->corners, g->corner, g->faces, g->face);
+    hull_make_closed_surface(s, 3, g->corners, g->corner, g->faces, g->face);
 }
 
 static void ball_and_torus(void **state)
@@ -70,7 +70,7 @@ static void ball_and_torus(void **state)
                 torus ? sqrt(square(out - 2) + square(X[2])) - 0.5 : sqrt(square(out) + square(X[2])) - 1;
             real normal[DIM_MAX];
             assert_true(fabs(hull_winding_number(&s, X) - (exact < 0)) < 0.04 || fabs(exact) < 0.003);
-            const real distance = hull_distance(&s, X, normal);
+            const real distance = hull_signed_distance(&s, X, normal);
             assert_true(fabs(distance - exact) < 0.003);
             const real most[] = {0, 0.4, -0.4, distance, nextafter(distance, -9)};
             for (int t = 0; t < 5; t++)
@@ -96,7 +96,7 @@ static void turned_and_open(void **state)
     }
     hull_of(&s, &g);
     assert_true(s.reversed && s.open_edges == 0 && s.volume > 4);
-    assert_true(hull_distance(&s, (real[]){0, 0, 0}, NULL) < -0.97);
+    assert_true(hull_signed_distance(&s, (real[]){0, 0, 0}, NULL) < -0.97);
     hull_free(&s);
     /* A hole of two of 1104 faces: the middle is inside, and few positions are uncertain. */
     g = grid_make(false, 24, 24);
@@ -104,7 +104,7 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_ambiguous_inside_fraction(&s) < 0.01);
+    assert_true(hull_sample_fraction_with_unclear_inside(&s) < 0.01);
     assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
@@ -112,7 +112,7 @@ static void turned_and_open(void **state)
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_ambiguous_inside_fraction(&s) > 0.1);
+    assert_true(hull_sample_fraction_with_unclear_inside(&s) > 0.1);
     hull_free(&s);
 }
 
@@ -146,14 +146,14 @@ static void plane_ring(void **state)
         corner[k][0] = at[k][0], corner[k][1] = at[k][1];
         face[k][0] = k, face[k][1] = k / 4 * 4 + (k + 1) % 4;
     }
-    hull_make(&s, 2, 8, corner, 8, face);
+    hull_make_closed_surface(&s, 2, 8, corner, 8, face);
     assert_int_equal(s.shells, 2);
     assert_true(fabs(s.volume - 12) < 1e-12);
     real normal[DIM_MAX];
-    assert_true(fabs(hull_distance(&s, (real[]){2, 2}, normal) - 1) < 1e-12);
-    assert_true(fabs(hull_distance(&s, (real[]){0.25, 2}, normal) + 0.25) < 1e-12);
+    assert_true(fabs(hull_signed_distance(&s, (real[]){2, 2}, normal) - 1) < 1e-12);
+    assert_true(fabs(hull_signed_distance(&s, (real[]){0.25, 2}, normal) + 0.25) < 1e-12);
     assert_true(normal[0] < -0.999);
-    assert_true(fabs(hull_distance(&s, (real[]){-3, -4}, normal) - 5) < 1e-12);
+    assert_true(fabs(hull_signed_distance(&s, (real[]){-3, -4}, normal) - 5) < 1e-12);
     assert_true(fabs(normal[0] + 0.6) < 1e-12 && fabs(normal[1] + 0.8) < 1e-12);
     assert_true(fabs(hull_winding_number(&s, (real[]){0.5, 0.5}) - 1) < 1e-12);
     hull_free(&s);
@@ -169,10 +169,10 @@ static void open_ones(void **state)
     corner[1][0] = 1, corner[2][1] = 5;
     face[0][1] = face[0][2] = 1;
     face[1][0] = face[1][1] = face[1][2] = 2;
-    hull_make_open(&s, 3, 3, corner, 2, face);
-    assert_true(fabs(hull_distance(&s, (real[]){0.5, 0, 2}, NULL) - 2) < 1e-12);
-    assert_true(fabs(hull_distance(&s, (real[]){0, 5, -1}, NULL) - 1) < 1e-12);
-    assert_true(hull_distance(&s, (real[]){0, 5, 0}, NULL) == 0);
+    hull_make_open_surface(&s, 3, 3, corner, 2, face);
+    assert_true(fabs(hull_signed_distance(&s, (real[]){0.5, 0, 2}, NULL) - 2) < 1e-12);
+    assert_true(fabs(hull_signed_distance(&s, (real[]){0, 5, -1}, NULL) - 1) < 1e-12);
+    assert_true(hull_signed_distance(&s, (real[]){0, 5, 0}, NULL) == 0);
     assert_true(hull_point_is_within_distance(&s, (real[]){0, 5, 0}, 0) &&
                 hull_point_is_within_distance(&s, (real[]){0, 5, 1}, 1));
     assert_false(hull_point_is_within_distance(&s, (real[]){0, 5, 1}, 0.999) ||

@@ -79,14 +79,14 @@ static void micro_modulus(void **state)
         const int dim = space_dim(spaces[k]);
         const real section = dim == 1 ? 4e-5 : 0.37, s = 1.3e-4;
         const struct material m = made(spaces[k], dim == 1 ? 0 : bond_based_poisson_ratio(spaces[k]));
-        const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
+        const real c = material_micro_modulus_of_continuum(&m, spaces[k], HORIZON, section);
         real energy = 0, sigma = 0;
         for (int p = 0; p < PIECES; p++) {
             const real r = (p + 0.5) * HORIZON / PIECES, dV = shell(dim, r, section) * HORIZON / PIECES;
             energy += 0.25 * c * s * s * r * dV, sigma += r * dV;
         }
         assert_close(energy, 0.5 * dim * dim * m.bulk * s * s, 1e-4);
-        assert_close(material_micro_modulus(&m, spaces[k], sigma), c, 1e-4);
+        assert_close(material_micro_modulus_of_discrete_family(&m, spaces[k], sigma), c, 1e-4);
     }
 }
 
@@ -100,7 +100,7 @@ static void critical_stretch(void **state)
         const real section = dim == 1 ? 4e-5 : 0.37;
         const struct material m = made(spaces[k], dim == 1 ? 0 : bond_based_poisson_ratio(spaces[k]));
         const real s = material_critical_stretch(&m, spaces[k], HORIZON, STRETCH_BOND);
-        const real c = material_micro_modulus_continuum(&m, spaces[k], HORIZON, section);
+        const real c = material_micro_modulus_of_continuum(&m, spaces[k], HORIZON, section);
         real energy = 0;
         for (int p = 0; p < PIECES; p++)
             for (int q = 0; q < PIECES; q++) {
@@ -132,13 +132,13 @@ static void families(void **state)
     const real wanted[] = {1, exp(-5 / square(3.015)), 3.015 / sqrt(5), square(3.015) / 5, 1 - sqrt(5) / 4.015};
     for (int k = INFLUENCE_ONE; k <= INFLUENCE_LINEAR; k++) {
         struct family f = {.influence = (enum influence)k};
-        family_make(&f, SPACE_PLANE_STRESS, h, 3.015, 0.37);
+        family_make_on_lattice(&f, SPACE_PLANE_STRESS, h, 3.015, 0.37);
         assert_close(f.horizon, delta, 1e-12);
         assert_close(f.cell_volume, h * h * 0.37, 1e-12);
         assert_close(family_bond_weight(&f, xi, r), wanted[k], 1e-9);
     }
     struct family f = {.calibration = CALIBRATION_VMPD};
-    family_make(&f, SPACE_LINE, h, 3, 4e-5);
+    family_make_on_lattice(&f, SPACE_LINE, h, 3, 4e-5);
     assert_close(f.horizon, 3.5 * h, 1e-12);
 }
 

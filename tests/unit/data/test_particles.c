@@ -82,7 +82,7 @@ static void images_are_added_behind(void **state)
     struct particles p;
     particles_make(&p, 2, 10, WITH_STRETCH);
     for (int i = 0; i < 10; i++) p.X[1][i] = p.stretch[1][i] = i, p.flag[i] = (uint8_t)i;
-    particles_add_mirror_images(&p, 1000, WITH_STRETCH);
+    particles_extend_arrays_for_mirror_images(&p, 1000, WITH_STRETCH);
     assert_int_equal(p.n, 10);
     assert_int_equal(p.n_all, 1010);
     for (int i = 0; i < 1010 + LANES; i++) {
@@ -103,7 +103,7 @@ static void extent_and_sites(void **state)
     real low, high, site;
     particles_make(&p, 2, N, 0);
     for (int i = 0; i < N; i++) p.X[0][i] = (i * 7919 % N) - 100, p.X[1][i] = 0.001 * i;
-    particles_add_mirror_images(&p, 1, 0);
+    particles_extend_arrays_for_mirror_images(&p, 1, 0);
     p.X[0][N] = -1e6;
     particles_coordinate_range(&p, p.n, 0, &low, &high);
     assert_exact(low, -100);

@@ -88,7 +88,7 @@ static void test_correlation(void **state)
                 struct strength_scatter s = {.given = true, .length = 0.02, .seed = (uint64_t)i};
                 real X[DIM_MAX] = {0.0013 * i, 0.0007 * i, -0.0003 * i}, Y[DIM_MAX];
                 for (int d = 0; d < DIM_MAX; d++) Y[d] = X[d] + (d < dim ? distance[k] * s.length / sqrt(dim) : 0);
-                sum += scatter_gaussian_field(&s, X, dim, 0) * scatter_gaussian_field(&s, Y, dim, 0);
+                sum += scatter_gaussian_field_value(&s, X, dim, 0) * scatter_gaussian_field_value(&s, Y, dim, 0);
             }
             const real exact = exp(-square(distance[k]));
             assert_near(sum / pairs, exact, 4 * sqrt((1 + exact * exact) / pairs) + 1e-3);

@@ -89,12 +89,12 @@ static void check_volume(const struct solid *s, int dim, real volume)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], box = 1;
-    assert_true(region_bounding_box(&r, dim, from, to));
+    assert_true(region_compute_bounding_box_if_finite(&r, dim, from, to));
     for (int d = 0; d < dim; d++) {
         const real edge = to[d] - from[d];
         from[d] -= 0.05 * edge, to[d] += 0.04 * edge, box *= 1.09 * edge;
     }
-    assert_float_equal(region_volume(&r, dim, from, to), volume, 2e-3 * box);
+    assert_float_equal(region_volume_within_box(&r, dim, from, to), volume, 2e-3 * box);
 }
 
 /* Checks the bounds: no point of the solid is outside, and it touches each side. */
@@ -103,7 +103,7 @@ static void check_bounds(const struct solid *s, int dim)
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
     real from[DIM_MAX], to[DIM_MAX], X[DIM_MAX] = {0};
     uint64_t seed = 7;
-    assert_true(region_bounding_box(&r, dim, from, to));
+    assert_true(region_compute_bounding_box_if_finite(&r, dim, from, to));
     for (int side = 0; side < 2 * dim; side++) {
         const int d = side / 2;
         real nearest = INFINITY;
@@ -126,16 +126,16 @@ static void check_distance(const struct solid *s, int dim)
     for (int k = 0; k < 2000; k++) {
         real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0}, normal[DIM_MAX] = {0}, other[DIM_MAX] = {0};
         for (int d = 0; d < dim; d++) X[d] = 9 * random_next(&seed) - 4.5;
-        const real distance = solid_distance(s, X, dim, normal), level = solid_level_set_value(s, X, dim);
+        const real distance = solid_signed_distance(s, X, dim, normal), level = solid_level_set_value(s, X, dim);
         assert_float_equal(dot(normal, normal, dim), 1, 1e-12);
         assert_true((level > 0) == (distance > 0));
         for (int d = 0; d < dim; d++) Y[d] = X[d] + 0.3 * (2 * random_next(&seed) - 1);
         real apart = 0;
         for (int d = 0; d < dim; d++) apart += square(X[d] - Y[d]);
-        assert_true(fabs(solid_distance(s, Y, dim, other) - distance) <= sqrt(apart) * (1 + 1e-9) + 1e-12);
+        assert_true(fabs(solid_signed_distance(s, Y, dim, other) - distance) <= sqrt(apart) * (1 + 1e-9) + 1e-12);
         if (distance <= 0) continue;
         for (int d = 0; d < dim; d++) Y[d] = X[d] - distance * normal[d];
-        assert_float_equal(solid_distance(s, Y, dim, other), 0, 1e-7);
+        assert_float_equal(solid_signed_distance(s, Y, dim, other), 0, 1e-7);
     }
 }
 
@@ -161,8 +161,9 @@ static void test_every_kind_moved(void **state)
         struct solid_motion turn = {.kind = MOTION_ROTATE, .about = {0.3, 0.1}, .axis = {1, -2, 0.5}, .angle = 0.7};
         struct solid_motion mirror = {.kind = MOTION_MIRROR, .about = {0.2}, .axis = {1, 0.5, 0}};
         struct solid_motion move = {.kind = MOTION_MOVE, .step = {0.3, -0.2, 0.1}};
-        assert_true(solid_add_motion(&s, &turn, dim) && solid_add_motion(&s, &mirror, dim) &&
-                    solid_add_motion(&s, &move, dim));
+        assert_true(solid_apply_motion_if_not_too_many_copies(&s, &turn, dim) &&
+                    solid_apply_motion_if_not_too_many_copies(&s, &mirror, dim) &&
+                    solid_apply_motion_if_not_too_many_copies(&s, &move, dim));
         assert_int_equal(s.images, 1);
         check_volume(&s, dim, examples[k].volume);
         check_bounds(&s, dim);
@@ -182,8 +183,8 @@ static void test_quarter_turns(void **state)
         struct solid s = {.kind = SOLID_BOX, .from = {1, 2}, .to = {4, 3}};
         struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
         real from[DIM_MAX], to[DIM_MAX];
-        assert_true(solid_add_motion(&s, &turn, 2));
-        assert_true(region_bounding_box(&(struct region){.n = 1, .solid = &s}, 2, from, to));
+        assert_true(solid_apply_motion_if_not_too_many_copies(&s, &turn, 2));
+        assert_true(region_compute_bounding_box_if_finite(&(struct region){.n = 1, .solid = &s}, 2, from, to));
         assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
         assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
         memory_free(s.image), memory_free(s.motion), box_tree_free(&s.tree);
@@ -202,7 +203,7 @@ static void test_gear(void **state)
     int corner;
     uint64_t seed = 3;
     assert_int_equal(polygon_check_and_complete(&flank, &corner), POLYGON_FINE);
-    assert_true(solid_add_motion(&s[1], &ring, 2));
+    assert_true(solid_apply_motion_if_not_too_many_copies(&s[1], &ring, 2));
     assert_int_equal(s[1].images, 18);
     for (int k = 0; k < 5000; k++) {
         const real r = 8 + 5 * random_next(&seed), angle = 2 * pi * random_next(&seed), turned = angle + 7 * pi / 9;
@@ -217,7 +218,7 @@ static void test_gear(void **state)
         area += 18 * 2 * real_max(0, end - sqrt(100 - y * y)) / STRIPS;
     }
     const real from[] = {-12, -12, 0}, to[] = {12, 12, 0};
-    assert_float_equal(region_volume(&gear, 2, from, to), area, 1e-3 * 576);
+    assert_float_equal(region_volume_within_box(&gear, 2, from, to), area, 1e-3 * 576);
     memory_free(s[1].image), memory_free(s[1].motion), box_tree_free(&s[1].tree);
 }
 
@@ -236,21 +237,22 @@ static void test_grid_and_mirror(void **state)
         list[1 + k].centre[0] += 2 * (k % 3), list[1 + k].centre[1] += 2 * (k / 3);
     }
     struct solid holes = hole, two = hole;
-    assert_true(solid_add_motion(&holes, &grid, 2) && solid_add_motion(&two, &mirror, 2));
+    assert_true(solid_apply_motion_if_not_too_many_copies(&holes, &grid, 2) &&
+                solid_apply_motion_if_not_too_many_copies(&two, &mirror, 2));
     struct solid perforated[] = {plate, holes}, pair[] = {plate, two}, said[] = {plate, hole, list[3]};
     for (int k = 0; k < 4000; k++) {
         const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
         real one[DIM_MAX], other[DIM_MAX];
         assert_float_equal(region_level_set_value(&(struct region){.n = 2, .solid = perforated}, X, 2),
                            region_level_set_value(&(struct region){.n = 7, .solid = list}, X, 2), 1e-13);
-        assert_float_equal(region_distance(&(struct region){.n = 2, .solid = pair}, X, 2, one),
-                           region_distance(&(struct region){.n = 3, .solid = said}, X, 2, other), 1e-13);
+        assert_float_equal(region_signed_distance(&(struct region){.n = 2, .solid = pair}, X, 2, one),
+                           region_signed_distance(&(struct region){.n = 3, .solid = said}, X, 2, other), 1e-13);
     }
     memory_free(holes.image), memory_free(holes.motion), memory_free(two.image), memory_free(two.motion);
     box_tree_free(&holes.tree), box_tree_free(&two.tree);
     struct solid many = hole;
     grid.count[0] = 3000;
-    assert_false(solid_add_motion(&many, &grid, 2));
+    assert_false(solid_apply_motion_if_not_too_many_copies(&many, &grid, 2));
 }
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
@@ -265,7 +267,7 @@ static void check_same(const struct region *a, const struct region *b, int dim, 
         for (int d = 0; d < dim && k % 4 == 0; d++) X[d] = nearbyint(X[d]);
         const real level = region_level_set_value(a, X, dim), grown[] = {0, 0.4, -0.4, 2, level, -level};
         assert_true(level == region_level_set_value(b, X, dim));
-        assert_true(region_distance(a, X, dim, one) == region_distance(b, X, dim, other));
+        assert_true(region_signed_distance(a, X, dim, one) == region_signed_distance(b, X, dim, other));
         for (int d = 0; d < dim; d++) assert_true(one[d] == other[d]);
         for (size_t t = 0; t < COUNT_OF(grown); t++) {
             assert_true(region_contains(a, X, dim, grown[t]) == (level <= grown[t]));
@@ -303,8 +305,8 @@ static void test_index_of_list(void **state)
             list[k] = e->s;
             list[k].subtract = k / 30 % 2;
             if (k == 70) continue;
-            assert_true((k % 3 == 0 || solid_add_motion(&list[k], &turn, dim)) &&
-                        solid_add_motion(&list[k], &move, dim));
+            assert_true((k % 3 == 0 || solid_apply_motion_if_not_too_many_copies(&list[k], &turn, dim)) &&
+                        solid_apply_motion_if_not_too_many_copies(&list[k], &move, dim));
         }
         list[70] = (struct solid){.kind = SOLID_BALL, .intersect = true, .centre = {10, 10, 10}, .radius = 11};
         const struct region plain = {.n = MANY, .solid = list};
@@ -329,7 +331,8 @@ static void test_index_of_copies(void **state)
     struct solid plate[] = {{.kind = SOLID_BOX, .to = {20, 20}},
                             {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}},
                  list[MANY];
-    assert_true(solid_add_motion(&plate[1], &turn, 2) && solid_add_motion(&plate[1], &grid, 2));
+    assert_true(solid_apply_motion_if_not_too_many_copies(&plate[1], &turn, 2) &&
+                solid_apply_motion_if_not_too_many_copies(&plate[1], &grid, 2));
     for (int k = 0; k < MANY; k++) {
         list[k] = plate[1], list[k].image = &plate[1].image[k], list[k].images = 1;
         const struct bounds endless = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};
@@ -357,7 +360,7 @@ static void test_intersection(void **state)
     struct solid group = {.kind = SOLID_GROUP, .region = r};
     real from[DIM_MAX], to[DIM_MAX];
     uint64_t seed = 11;
-    assert_true(region_bounding_box(&r, 2, from, to));
+    assert_true(region_compute_bounding_box_if_finite(&r, 2, from, to));
     assert_true(from[0] == -2 && to[0] == 0.5 && from[1] == -2 && to[1] == 2);
     assert_true(region_contains(&r, (real[]){0.5, 0, 0}, 2, 0) && region_contains(&r, (real[]){-2, 0, 0}, 2, 0));
     assert_false(region_contains(&r, (real[]){0.6, 0, 0}, 2, 0));

@@ -65,7 +65,7 @@ static void test_least(void **state)
     for (int k = 0; k < 3; k++) {
         struct material m = {.young = 70e9, .poisson = bond_based_poisson_ratio(spaces[k]), .tensile_strength = 40e6};
         m.surface = strength_surface_from_compression(40e6, 1000e6);
-        const struct surface_strengths at = material_surface_strengths(&m, spaces[k]);
+        const struct surface_strengths at = material_strength_surface_strengths(&m, spaces[k]);
         const real nu = m.poisson, expected[] = {(1 - nu) * at.biaxial, (1 + nu) * (1 - 2 * nu) * at.biaxial,
                                                  (1 - 2 * nu) * at.hydrostatic};
         assert_close(material_smallest_strain_at_strength(&m, spaces[k]), expected[k] / 70e9, 1e-12);

@@ -24,7 +24,7 @@ static void scatter_points(struct particle_cloud *c, int dim, struct grid *g)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = cloud_between(&seed, from[d], to[d]);
     }
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = cloud_random(&seed) < 0.1 ? KIND_PD : KIND_MPM;
-    particles_update_kind_lists(&c->p);
+    particles_rebuild_lists_by_kind(&c->p);
     assert_int_equal(grid_extend_box(g, from, to, 1000000, &changed), OK);
     assert_true(changed);
 }
@@ -82,7 +82,7 @@ static void test_transfer_order(void **state)
         struct grid g;
         struct transfer_order o = {0};
         scatter_points(&c, dim, &g);
-        transfer_order_sort(&o, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+        transfer_order_sort_points_by_cell(&o, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(o.n, c.p.n_of[KIND_MPM]);
         assert_int_equal(o.block_start[0], 0);
         assert_int_equal(o.block_start[o.blocks], o.n);
@@ -112,14 +112,14 @@ static void test_transfer_order_growth(void **state)
         struct transfer_order small = {0}, large = {0};
         bool changed;
         scatter_points(&c, dim, &g);
-        transfer_order_sort(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+        transfer_order_sort_points_by_cell(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         real from[DIM_MAX], to[DIM_MAX], before = grid_node_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
             from[d] = -(19 + transfer_block_edge_length(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not
                                                                                       * depend on the box */
         assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_node_position(&g, 0, -g.first[0]) == before);
-        transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+        transfer_order_sort_points_by_cell(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(small.n, large.n);
         assert_memory_equal(small.particle, large.particle, (size_t)small.n * sizeof(int32_t));
         assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
@@ -140,17 +140,17 @@ static void test_transfer_order_threads(void **state)
         struct grid g;
         struct transfer_order one = {0}, many = {0};
         scatter_points(&c, dim, &g);
-        team_set_threads(1);
-        transfer_order_sort(&one, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+        team_set_thread_count(1);
+        transfer_order_sort_points_by_cell(&one, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         for (int threads = 2; threads <= 7; threads++) {
-            team_set_threads(threads);
-            transfer_order_sort(&many, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
+            team_set_thread_count(threads);
+            transfer_order_sort_points_by_cell(&many, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
             assert_int_equal(one.cells, many.cells);
             assert_memory_equal(one.particle, many.particle, (size_t)one.n * sizeof(int32_t));
             assert_memory_equal(one.cell_start, many.cell_start, (size_t)(one.cells + 1) * sizeof(int32_t));
             assert_memory_equal(one.block_start, many.block_start, (size_t)(one.blocks + 1) * sizeof(int32_t));
         }
-        team_set_threads(2);
+        team_set_thread_count(2);
         transfer_order_free(&one);
         transfer_order_free(&many);
         grid_free(&g);
@@ -165,6 +165,6 @@ int main(void)
         cmocka_unit_test(test_transfer_order_growth),
         cmocka_unit_test(test_transfer_order_threads),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

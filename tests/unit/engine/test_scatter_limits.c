@@ -13,14 +13,14 @@ static void make(struct run *e, struct scene *s, const char *text)
 {
     omp_set_num_threads(2);
     if (scene_read_text(s, text, strlen(text), "scatter.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_make(e, s, NULL));
+    assert_ok(engine_set_up_run(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start(e));
+    assert_ok(report_start_before_first_step(e));
 }
 
 static void drop(struct run *e, struct scene *s)
 {
-    engine_free(e);
+    engine_free_run(e);
     scene_free(s);
 }
 
@@ -73,7 +73,7 @@ static void check_breaks(const char *text)
     real weakest = INFINITY, first = NAN;
     for (int64_t i = 0; i < p->n; i++) weakest = real_min(weakest, p->strength[i]);
     while (e.clock.step + 1 < e.clock.steps && broken_in(&e) < 200) {
-        assert_ok(engine_step(&e));
+        assert_ok(engine_adapt_refinement_and_step(&e));
         if (isnan(first) && broken_in(&e) > 0) first = e.clock.t * 400 / (1e-3 * weakest);
         for (int64_t row = 0; row < e.bonds.rows && e.clock.step % 10 == 0; row++)
             for (struct bond_iterator it = bond_iterator_of_row(&e.bonds, row); bond_next(&it);) {
@@ -111,7 +111,7 @@ static void check_points(const char *frame)
     int64_t weak = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (p->strength[i] < weakest) weakest = p->strength[weak = i];
-    while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0) assert_ok(engine_step(&e));
+    while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0) assert_ok(engine_adapt_refinement_and_step(&e));
     assert_true(p->n_of[KIND_PD] > 0 && p->n_of[KIND_PD] < p->n / 10);
     assert_int_equal(p->kind[weak], KIND_PD);
     /* Uniform biaxial strain: sigma = E/(1 - nu) strain, nu = 1/3. */

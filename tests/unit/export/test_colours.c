@@ -92,7 +92,7 @@ static int colours_of(const struct points *s)
 {
     struct touched t = touched_of(s);
     int32_t *colour = NEW("test", t.n, int32_t);
-    const int n = particle_colours_assign(colour, &t);
+    const int n = particle_colours_assign_and_count(colour, &t);
     uint8_t *pair = particle_colours_find_bonded_pairs(colour, n, &t);
     assert_non_null(pair);
     for (int64_t k = 0; k < t.n; k++)
@@ -154,7 +154,7 @@ static void both_kinds_are_found(void **state)
     assert_non_null(pair);
     memory_free(pair);
     int32_t made[3];
-    const int n = particle_colours_assign(made, &t);
+    const int n = particle_colours_assign_and_count(made, &t);
     pair = particle_colours_find_bonded_pairs(made, n, &t);
     assert_non_null(pair);
     memory_free(pair);

@@ -145,7 +145,7 @@ static void run_by_netcdf(void **state)
     int file, id, node[2], driven;
     real t[5], u[6], damage[4];
     assert_ok(export_to("a.exo", false));
-    assert_ok(command_run(7, run));
+    assert_ok(command_run_main(7, run));
     assert_ok(export_exodus(&(struct export_request){.scene = "out", .folder = "a.exo", .overwrite = true}));
     NC(nc_open("a.exo", NC_NOWRITE, &file));
     assert_int_equal(length_of(file, "time_step"), 5);
@@ -190,7 +190,7 @@ static void files_are_kept(void **state)
 
 int main(void)
 {
-    team_set_threads(2);
+    team_set_thread_count(2);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scene_by_netcdf),
         cmocka_unit_test(scene_by_cleave),

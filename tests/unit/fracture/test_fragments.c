@@ -27,7 +27,7 @@ static void test_fragments(void **state)
     cloud_source(&c);
     c.source.crack = crack, c.source.cracks = 2;
     bonds_make(&c.bonds, NULL, p, &c.source);
-    fragments_find(&f, &c.bonds, p);
+    fragments_find_by_intact_bonds(&f, &c.bonds, p);
     assert_int_equal(f.n, PIECES);
     assert_int_equal(f.singles, 0);
     for (int k = 0; k < PIECES; k++) {
@@ -67,7 +67,7 @@ static void test_alone(void **state)
     cloud_source(&c);
     c.source.crack = crack, c.source.cracks = 3;
     bonds_make(&c.bonds, NULL, p, &c.source);
-    fragments_find(&f, &c.bonds, p);
+    fragments_find_by_intact_bonds(&f, &c.bonds, p);
     assert_int_equal(f.n, 1);
     assert_int_equal(f.fragment[0].particles, 3);
     assert_int_equal(f.singles, 3);

@@ -28,7 +28,7 @@ static void patch_make(struct patch *k, int edge, real shake, uint64_t seed)
             k->p.X[d][i] = k->p.x[d][i] = place[d] - 0.5 * (edge - 1) + cloud_between(&seed, -shake, shake);
         k->p.volume0[i] = THICKNESS * (1 + cloud_between(&seed, -shake, shake));
     }
-    cells_make(&k->c, &k->p, 3.1);
+    cells_make_for_neighbour_search(&k->c, &k->p, 3.1);
     for (int d = 0; d < 2; d++) k->u[d] = NEW("test.u", k->p.n, real);
 }
 
@@ -62,7 +62,7 @@ static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule
     for (int64_t i = 0; i < k->p.n; i++)
         for (int a = 0; a < 2; a++) k->u[a][i] = quadratic_at(coefficient[a], k->p.X[0][i], k->p.X[1][i]);
     for (int64_t i = 0; i < k->p.n; i++) {
-        gradient_stencil_compute(&s, rule, &k->p, &k->c, i);
+        gradient_stencil_compute_weights(&s, rule, &k->p, &k->c, i);
         assert_int_equal(s.order, rule->method == GRADIENT_MLS ? 2 : 1);
         gradient_stencil_apply(&s, i, field, gradient);
         for (int a = 0; a < 2; a++)
@@ -106,7 +106,7 @@ static void cracks_hide_particles(void **state)
         for (int method = 0; method < 2; method++) {
             if (k.p.X[0][i] > -3) continue; /* entirely behind the tip */
             rule.method = method;
-            gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
+            gradient_stencil_compute_weights(&s, &rule, &k.p, &k.c, i);
             gradient_stencil_apply(&s, i, field, gradient);
             assert_near(gradient[0][0], 3, 1e-12);
             assert_near(gradient[0][1], 0, 1e-12);
@@ -114,13 +114,13 @@ static void cracks_hide_particles(void **state)
     }
     int64_t i = 6 * 13 + 6; /* the origin, beside the tip */
     rule.method = GRADIENT_MLS;
-    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute_weights(&s, &rule, &k.p, &k.c, i);
     const int seen = s.n;
     rule.diffraction = 1;
-    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute_weights(&s, &rule, &k.p, &k.c, i);
     const int round = s.n;
     rule.sight.cracks = 0;
-    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute_weights(&s, &rule, &k.p, &k.c, i);
     assert_true(seen < round && round < s.n);
     gradient_stencil_free(&s);
     patch_free(&k);
@@ -142,11 +142,11 @@ static void gradients_fall_back(void **state)
         for (int i = 0; i < count[k]; i++)
             for (int d = 0; d < 2; d++) p.X[d][i] = place[k][i][d];
         for (int i = 0; i < count[k]; i++) p.volume0[i] = 1;
-        cells_make(&c, &p, 3.1);
+        cells_make_for_neighbour_search(&c, &p, 3.1);
         const real *const field[2] = {p.X[0], p.X[1]};
         real gradient[2][2];
         for (int method = 0; method < 2; method++) {
-            gradient_stencil_compute(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
+            gradient_stencil_compute_weights(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
             assert_int_equal(s.order, order[k]);
             gradient_stencil_apply(&s, 0, field, gradient);
             for (int a = 0; a < 2; a++)
@@ -188,13 +188,13 @@ static void gradients_have_their_weights(void **state)
             real gradient[2][2], w = 0, wx = 0, wf = 0, wxx = 0, wxf = 0, xf = 0, xx = 0;
             particles_make(&p, 2, 4, 0);
             for (int i = 0; i < 4; i++) p.X[0][i] = x[i], p.X[1][i] = y[i], p.volume0[i] = V[i], p.x[0][i] = f[i];
-            cells_make(&c, &p, 3.1);
+            cells_make_for_neighbour_search(&c, &p, 3.1);
             for (int i = 0; i < 3; i++) {
                 const real r = hidden && i == 1 ? round * round : fabs(x[i]), own = spline_weight(r / (2 * reach));
                 w += own, wx += own * x[i], wf += own * f[i], wxx += own * x[i] * x[i], wxf += own * x[i] * f[i];
                 if (i > 0) xf += V[i] / r * x[i] * (f[i] - f[0]), xx += V[i] / r * x[i] * x[i];
             }
-            gradient_stencil_compute(&s, &rule, &p, &c, 0);
+            gradient_stencil_compute_weights(&s, &rule, &p, &c, 0);
             gradient_stencil_apply(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
             const real expected = method == GRADIENT_MLS ? (w * wxf - wx * wf) / (w * wxx - wx * wx) : xf / xx;
             assert_near(gradient[0][0], expected, 1e-12);
@@ -246,7 +246,7 @@ static void lattice_field(struct site_map *l, const real K[MODES])
     }
 }
 
-static void site_map_make(struct site_map *map, int edge, real degrees, const real shift[2], real speed)
+static void site_map_make_if_on_lattice(struct site_map *map, int edge, real degrees, const real shift[2], real speed)
 {
     memset(map, 0, sizeof *map);
     patch_make(&map->patch, edge, 0, 1);
@@ -320,7 +320,7 @@ static void lattice_sums_of_exact_gradients(void **state)
     const real outer[] = {10, 20, 40}, cubic[] = {0.0035, 0.0005, 0.0005}, quintic[] = {0.0007, 0.00007, 0.00002};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
         struct site_map l;
-        site_map_make(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        site_map_make_if_on_lattice(&l, 90, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
         for (int mode = 0; mode < MODES; mode++)
             for (int k = 0; k < 3; k++) {
                 l.tip.weight = SIF_QUINTIC;
@@ -346,7 +346,7 @@ static void lattice_sums_of_fitted_gradients(void **state)
     real worst[2][3] = {{0}};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
         struct site_map l;
-        site_map_make(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
+        site_map_make_if_on_lattice(&l, 96, degrees[n % COUNT_OF(degrees)], shift[n / COUNT_OF(degrees)], 0);
         for (size_t k = 0; k < COUNT_OF(Ks); k++) {
             lattice_field(&l, Ks[k]);
             for (int method = 0; method < 2; method++)
@@ -376,7 +376,7 @@ static void body_forces_leave_the_factors(void **state)
     for (int n = 0; n < 2; n++) {
         struct site_map l;
         real *body[2];
-        site_map_make(&l, 96, degrees[n], (const real[]){0.2, 0.4}, 0);
+        site_map_make_if_on_lattice(&l, 96, degrees[n], (const real[]){0.2, 0.4}, 0);
         lattice_field(&l, K);
         const struct crack_medium *m = &l.tip.medium;
         const real c = m->lambda / (m->lambda + 2 * m->shear), a = 0.002 / m->modulus, *e = l.tip.along;
@@ -415,7 +415,7 @@ static void particle_stresses_are_turned(void **state)
     struct site_map l;
     real *stress[3];
     const real K[MODES] = {0.8, 0.6};
-    site_map_make(&l, 48, 30, (const real[]){0, 0}, 0);
+    site_map_make_if_on_lattice(&l, 48, 30, (const real[]){0, 0}, 0);
     lattice_field(&l, K);
     const struct sif hooke = lattice_sif(&l, 10, 20);
     for (int c = 0; c < 3; c++) stress[c] = NEW("test.stress", l.patch.p.n, real);
@@ -423,9 +423,9 @@ static void particle_stresses_are_turned(void **state)
     const real *const field[2] = {l.patch.u[0], l.patch.u[1]};
     for (int64_t i = 0; i < l.patch.p.n; i++) {
         real gradient[2][2], t[2][2];
-        gradient_stencil_compute(&s, &l.rule, &l.patch.p, &l.patch.c, i);
+        gradient_stencil_compute_weights(&s, &l.rule, &l.patch.p, &l.patch.c, i);
         gradient_stencil_apply(&s, i, field, gradient);
-        crack_stress_from_gradient(&l.tip.medium, gradient, t);
+        crack_stress_from_displacement_gradient(&l.tip.medium, gradient, t);
         stress[0][i] = t[0][0], stress[1][i] = t[1][1], stress[2][i] = t[0][1];
     }
     l.tip.stress = SIF_PARTICLE;
@@ -448,7 +448,7 @@ static void lattice_sums_of_a_moving_crack(void **state)
     const real speed[] = {500, 1000, 2000}, K[MODES] = {0.8, -0.6}, degrees[] = {0, 30};
     for (size_t n = 0; n < COUNT_OF(speed) * 2; n++) {
         struct site_map l;
-        site_map_make(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
+        site_map_make_if_on_lattice(&l, 96, degrees[n % 2], (const real[]){0.2, 0.4}, speed[n / 2]);
         l.tip.core = 5;
         lattice_field(&l, K);
         const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
@@ -474,7 +474,7 @@ static void a_core_does_not_see_single_particles(void **state)
     real low = INFINITY, high = -INFINITY;
     for (int place = 0; place < PLACES; place++) {
         struct site_map l;
-        site_map_make(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
+        site_map_make_if_on_lattice(&l, 96, 0, (const real[]){(real)place / PLACES, 0.4}, 1000);
         l.tip.core = 5;
         lattice_field(&l, (const real[MODES]){1, 0});
         for (int d = 0; d < 2; d++)
@@ -491,10 +491,10 @@ static void spread_of_contours(void **state)
 {
     (void)state;
     const struct sif found[] = {{{3, 4.5}, 2}, {{3, 3.5}, 2}, {{3, 4}, 2}};
-    assert_near(sif_contour_spread(found, 3), 0.2, 1e-15);
-    assert_near(sif_contour_spread((const struct sif[]){{{3, 4}, 1.9}, {{3, 4}, 2.1}}, 2), 0.1, 1e-15);
-    assert_exact(sif_contour_spread(found, 1), 0);
-    assert_true(isnan(sif_contour_spread((const struct sif[]){{{0, 0}, 0}, {{0, 0}, 0}}, 2)));
+    assert_near(sif_relative_spread_over_contours(found, 3), 0.2, 1e-15);
+    assert_near(sif_relative_spread_over_contours((const struct sif[]){{{3, 4}, 1.9}, {{3, 4}, 2.1}}, 2), 0.1, 1e-15);
+    assert_exact(sif_relative_spread_over_contours(found, 1), 0);
+    assert_true(isnan(sif_relative_spread_over_contours((const struct sif[]){{{0, 0}, 0}, {{0, 0}, 0}}, 2)));
 }
 
 int main(void)

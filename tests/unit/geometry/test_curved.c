@@ -120,7 +120,7 @@ static void every_kind_is_curved(void **state)
                 real at[3], X[3];
                 if (!on_side(kinds[k].shape, side, (i % 7 + 0.3) / 7, (i / 7 + 0.4) / 7, at)) continue;
                 curve_map(at, X);
-                assert_near(hull_distance(&g.whole, X, NULL), 0, fine);
+                assert_near(hull_signed_distance(&g.whole, X, NULL), 0, fine);
             }
         geometry_free(&g);
         remove(name);
@@ -164,7 +164,8 @@ static void a_ring_is_round(void **state)
         struct geometry g;
         write_ring("r.inp", types[k]);
         assert_ok(geometry_read(&g, "r.inp", 2, 1, fine));
-        const struct geometry_set *outer = geometry_find_set(&g, "outer"), *inner = geometry_find_set(&g, "inner");
+        const struct geometry_set *outer = geometry_find_named_part(&g, "outer"),
+                                  *inner = geometry_find_named_part(&g, "inner");
         assert_near(g.whole.volume, 0.75 * pi, 2 * 3.3e-4 * 3 + 5 * fine);
         assert_near(inner->hull.volume, (2.25 - 1) * pi / 4, 2 * 3.3e-4 * 1.25 + 4 * fine);
         assert_int_equal(g.whole.shells, 1);
@@ -172,8 +173,9 @@ static void a_ring_is_round(void **state)
         for (int i = 0; i < 40; i++) {
             const real angle = (i + 0.5) / 40 * pi / 2, X[] = {2 * cos(angle), 2 * sin(angle)};
             /* Parabolas deviate by up to 3e-3 of the radius from circles of 45 degrees. */
-            assert_near(hull_distance(&outer->hull, X, NULL), 0, 2 * 3e-3 + fine);
-            assert_near(hull_distance(&inner->hull, (real[]){0.75 * X[0], 0.75 * X[1]}, NULL), 0, 1.5 * 3e-3 + fine);
+            assert_near(hull_signed_distance(&outer->hull, X, NULL), 0, 2 * 3e-3 + fine);
+            assert_near(hull_signed_distance(&inner->hull, (real[]){0.75 * X[0], 0.75 * X[1]}, NULL), 0,
+                        1.5 * 3e-3 + fine);
         }
         geometry_free(&g);
     }
@@ -207,7 +209,7 @@ static void curved_beside_straight(void **state)
     assert_ok(geometry_read(&g, "b.inp", 3, 1, 1e-4));
     assert_int_equal(g.whole.open_edges, 0);
     assert_close(g.whole.volume, 2 + 2.0 / 3 * 0.1, 1e-4); /* below a parabola of height 0.1 */
-    assert_near(hull_distance(&g.whole, (real[]){0.5, 1.1, 0.3}, NULL), 0, 1e-4);
+    assert_near(hull_signed_distance(&g.whole, (real[]){0.5, 1.1, 0.3}, NULL), 0, 1e-4);
     geometry_free(&g);
     remove("b.inp");
 }

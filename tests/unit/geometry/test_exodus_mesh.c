@@ -98,13 +98,13 @@ static void each_type(void **state)
                 const int *corner = elements[k].side[side];
                 char name[32];
                 snprintf(name, sizeof name, "surface_%d", side + 1);
-                const struct geometry_set *set = geometry_find_set(&g, name);
+                const struct geometry_set *set = geometry_find_named_part(&g, name);
                 assert_true(set && set->hull.open);
                 for (int c = 1; c <= elements[k].corners; c++) {
                     real X[DIM_MAX];
                     for (int d = 0; d < DIM_MAX; d++) X[d] = 1e-3 * elements[k].X[c - 1][d];
                     const bool on = c == corner[0] || c == corner[1] || c == corner[2] || c == corner[3];
-                    const real distance = hull_distance(&set->hull, X, NULL);
+                    const real distance = hull_signed_distance(&set->hull, X, NULL);
                     assert_true(on ? distance < 1e-15 : distance > 1e-3);
                 }
             }
@@ -131,7 +131,7 @@ static void twisted_sides(void **state)
     assert_int_equal(g.whole.faces, 20);
     assert_close(g.whole.volume, 1e-9 * 20 * 10 * 8, 1e-12);
     for (int k = 0; k < 3; k++) /* along the diagonals of the shared side of the hexahedron, and between them */
-        assert_close(hull_distance(&g.whole, (real[]){1e-3 * (10 + 0.5 * k), 5e-3, 4e-3}, NULL), -4e-3, 1e-12);
+        assert_close(hull_signed_distance(&g.whole, (real[]){1e-3 * (10 + 0.5 * k), 5e-3, 4e-3}, NULL), -4e-3, 1e-12);
     geometry_free(&g);
     unlink("a.exo");
 }
@@ -148,7 +148,8 @@ static void curved_edges(void **state)
     NC(nc_close(file));
     assert_ok(geometry_read(&g, "a.exo", 2, 1e-3, 1e-7));
     assert_close(g.whole.volume, 1e-6 * (6 + 2. / 3 * 0.3 * 4), 1e-4); /* chords are 1e-4 mm off at most */
-    assert_near(hull_distance(&geometry_find_set(&g, "surface_1")->hull, (real[]){2e-3, -0.3e-3}, NULL), 0, 1e-7);
+    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "surface_1")->hull, (real[]){2e-3, -0.3e-3}, NULL),
+                0, 1e-7);
     geometry_free(&g);
     unlink("a.exo");
 }
@@ -181,9 +182,9 @@ static void write_plate(const char *path, int mode, int dim)
 /* Returns the distance of a point of the plane, in units of the file, from the set `name` [units of the file]. */
 static real off(const struct geometry *g, const char *name, real x, real y)
 {
-    const struct geometry_set *set = geometry_find_set(g, name);
+    const struct geometry_set *set = geometry_find_named_part(g, name);
     assert_non_null(set);
-    return hull_distance(&set->hull, (real[]){1e-2 * x, 1e-2 * y, 0.07}, NULL) / 1e-2;
+    return hull_signed_distance(&set->hull, (real[]){1e-2 * x, 1e-2 * y, 0.07}, NULL) / 1e-2;
 }
 
 static void blocks_and_sets(void **state)
@@ -196,8 +197,8 @@ static void blocks_and_sets(void **state)
         assert_ok(geometry_read(&g, "a.exo", 2, 1e-2, NAN));
         assert_close(g.whole.volume, 18e-4, 1e-12);
         assert_int_equal(g.sets, 6);
-        assert_close(geometry_find_set(&g, "glass")->hull.volume, 6e-4, 1e-12);
-        assert_close(geometry_find_set(&g, "block_20")->hull.volume, 12e-4, 1e-12);
+        assert_close(geometry_find_named_part(&g, "glass")->hull.volume, 6e-4, 1e-12);
+        assert_close(geometry_find_named_part(&g, "block_20")->hull.volume, 12e-4, 1e-12);
         assert_near(off(&g, "grip", 6, 1), 0, 1e-12); /* the sides: nodes of this name come after them */
         assert_close(off(&g, "grip", 1, 1), 5, 1e-12);
         assert_near(off(&g, "surface_2", 1, 3), 0, 1e-12);
@@ -205,7 +206,7 @@ static void blocks_and_sets(void **state)
         assert_near(off(&g, "nodelist_1", 0, 2), 0, 1e-12);
         assert_close(off(&g, "nodelist_1", 1, 2), 1, 1e-12);
         assert_close(off(&g, "corner", 6, 1), 2, 1e-12);
-        assert_null(geometry_find_set(&g, "rod"));
+        assert_null(geometry_find_named_part(&g, "rod"));
         geometry_free(&g);
     }
     unlink("a.exo");
@@ -389,7 +390,7 @@ static void damaged(void **state)
             assert_true(status_message()[0] && !strchr(status_message(), '\n'));
             continue;
         }
-        assert_true(g.whole.volume > 0 && hull_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
+        assert_true(g.whole.volume > 0 && hull_signed_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
         geometry_free(&g);
     }
     unlink("a.exo"), unlink("bad.e");

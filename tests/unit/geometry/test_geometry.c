@@ -87,7 +87,7 @@ static void stl_of_both_forms(void **state)
     write_file("b.stl", bytes, stl_bytes(bytes, 12));
     assert_ok(geometry_read(&g, "b.stl", 3, 1, NAN));
     assert_close(g.whole.volume, 8, 1e-12);
-    assert_close(hull_distance(&g.whole, (real[]){1, 1, 1.5}, NULL), -0.5, 1e-12);
+    assert_close(hull_signed_distance(&g.whole, (real[]){1, 1, 1.5}, NULL), -0.5, 1e-12);
     geometry_free(&g);
 }
 
@@ -146,11 +146,12 @@ static void check_msh2(const char *name)
     assert_int_equal(g.whole.open_edges, 0);
     assert_int_equal(g.whole.shells, 1);
     assert_int_equal(g.sets, 3);
-    assert_close(geometry_find_set(&g, "Left")->hull.volume, 1, 1e-12);
-    assert_close(geometry_find_set(&g, "right")->hull.volume, 1, 1e-12);
-    assert_true(geometry_find_set(&g, "grip")->hull.open);
-    assert_close(hull_distance(&geometry_find_set(&g, "grip")->hull, (real[]){0.25, 0.5, 0.7}, NULL), 0.25, 1e-12);
-    assert_null(geometry_find_set(&g, "leg"));
+    assert_close(geometry_find_named_part(&g, "Left")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
+    assert_true(geometry_find_named_part(&g, "grip")->hull.open);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "grip")->hull, (real[]){0.25, 0.5, 0.7}, NULL),
+                 0.25, 1e-12);
+    assert_null(geometry_find_named_part(&g, "leg"));
     geometry_free(&g);
 }
 
@@ -182,9 +183,10 @@ static void check_msh4(const char *name)
     assert_close(g.whole.volume, 1.5e-6, 1e-12);
     assert_int_equal(g.whole.faces, 5);
     assert_int_equal(g.sets, 2);
-    assert_true(geometry_find_set(&g, "plate") && geometry_find_set(&g, "edge"));
-    assert_close(geometry_find_set(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3, 1e-12);
+    assert_true(geometry_find_named_part(&g, "plate") && geometry_find_named_part(&g, "edge"));
+    assert_close(geometry_find_named_part(&g, "plate")->hull.volume, 1.5e-6, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "edge")->hull, (real[]){0.5e-3, 2e-3}, NULL), 2e-3,
+                 1e-12);
     geometry_free(&g);
 }
 
@@ -323,9 +325,10 @@ static void abaqus_decks(void **state)
     assert_ok(geometry_read(&g, "a.inp", 2, 1, NAN));
     assert_close(g.whole.volume, 2, 1e-12);
     assert_int_equal(g.whole.faces, 6);
-    assert_close(geometry_find_set(&g, "right")->hull.volume, 1, 1e-12);
-    assert_close(geometry_find_set(&g, "both")->hull.volume, 2, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3, 1e-12);
+    assert_close(geometry_find_named_part(&g, "right")->hull.volume, 1, 1e-12);
+    assert_close(geometry_find_named_part(&g, "both")->hull.volume, 2, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3,
+                 1e-12);
     geometry_free(&g);
     write_words("b.inp", parts);
     assert_ok(geometry_read(&g, "b.inp", 3, 1, NAN));
@@ -334,11 +337,12 @@ static void abaqus_decks(void **state)
     /* B is rotated by a right angle about a line through (5, 0): its corner 3 at (1, 0) moves to (5, 1). */
     assert_close(g.whole.node[0].high[0], 5, 1e-12);
     assert_close(g.whole.node[0].high[1], 1, 1e-12);
-    assert_close(geometry_find_set(&g, "low")->hull.volume, 1. / 6, 1e-12);
-    assert_near(hull_distance(&geometry_find_set(&g, "low")->hull, (real[]){5, 1, 0}, NULL), 0, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "low")->hull, (real[]){5, 1.5, 0}, NULL), 0.5, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
+    assert_close(geometry_find_named_part(&g, "low")->hull.volume, 1. / 6, 1e-12);
+    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "low")->hull, (real[]){5, 1, 0}, NULL), 0, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "low")->hull, (real[]){5, 1.5, 0}, NULL), 0.5,
+                 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "foot")->hull, (real[]){5, 0, 1}, NULL), 2, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "tip")->hull, (real[]){0, 0, 0}, NULL), 1, 1e-12);
     geometry_free(&g);
 }
 
@@ -360,13 +364,16 @@ static void abaqus_generates(void **state)
           file);
     assert_int_equal(fclose(file), 0);
     assert_ok(geometry_read(&g, "c.inp", 2, 1, NAN));
-    assert_close(geometry_find_set(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
-    assert_close(geometry_find_set(&g, "all")->hull.volume, 7, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8, 1e-12);
+    assert_close(geometry_find_named_part(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
+    assert_close(geometry_find_named_part(&g, "all")->hull.volume, 7, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8,
+                 1e-12);
     /* Nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; none of these is closer to (3, 1) than 1. */
-    assert_close(hull_distance(&geometry_find_set(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5, 1e-12);
-    assert_close(hull_distance(&geometry_find_set(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5,
+                 1e-12);
+    assert_close(hull_signed_distance(&geometry_find_named_part(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1,
+                 1e-12);
     geometry_free(&g);
 }
 
@@ -394,8 +401,8 @@ static void abaqus_solids(void **state)
         write_words("solid.inp", text);
         assert_ok(geometry_read(&g, "solid.inp", 3, 1, 1e-3));
         assert_close(g.whole.volume, solid[k].volume, 1e-12);
-        assert_close(hull_distance(&g.whole, (real[]){1.5, 0.9, -0.6}, NULL), solid[k].outside, 1e-12);
-        assert_close(hull_distance(&g.whole, (real[]){1.5, 0.9, 0.1}, NULL), -0.1, 1e-12);
+        assert_close(hull_signed_distance(&g.whole, (real[]){1.5, 0.9, -0.6}, NULL), solid[k].outside, 1e-12);
+        assert_close(hull_signed_distance(&g.whole, (real[]){1.5, 0.9, 0.1}, NULL), -0.1, 1e-12);
         geometry_free(&g);
     }
 }
@@ -464,7 +471,7 @@ static void damaged(void **state)
             for (int dim = 2; dim <= 3; dim++) {
                 struct geometry g;
                 if (geometry_read(&g, name, dim, 1, NAN) != OK) continue;
-                assert_true(g.whole.volume > 0 && hull_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
+                assert_true(g.whole.volume > 0 && hull_signed_distance(&g.whole, (real[]){0, 0, 0}, NULL) < 1e31);
                 geometry_free(&g);
             }
         }

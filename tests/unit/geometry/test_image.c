@@ -304,7 +304,7 @@ static void distances(void **state)
         v.grey = NEW("test", all, uint16_t);
         for (int64_t k = 0; k < all; k++) v.grey[k] = (uint16_t)(k * k * 7 % 13 < 9 ? 200 : 10);
         struct voxel_part part = {.of = &v, .ranges = 2, .range = {{100, 199}, {200, 255}}};
-        voxel_part_make(&part);
+        voxel_part_make_from_grey_value_ranges(&part);
         for (int64_t a = 0; a < all; a++) {
             real X[DIM_MAX], best = INFINITY, normal[DIM_MAX];
             const int64_t at[] = {a % v.n[0], a / v.n[0] % v.n[1], a / v.n[0] / v.n[1]};
@@ -321,9 +321,9 @@ static void distances(void **state)
                 for (int d = 0; d < dim; d++) r2 += square((real)(at[d] - other[d]) * v.size[d]);
                 if ((v.grey[b] == 200) != in) best = real_min(best, sqrt(r2));
             }
-            assert_near(voxel_part_distance(&part, X, normal), in ? 0.5 - best : best - 0.5, 1e-6);
+            assert_near(voxel_part_signed_distance(&part, X, normal), in ? 0.5 - best : best - 0.5, 1e-6);
         }
-        assert_near(voxel_part_distance(&part, (real[]){-3, 4, 5}, NULL) > 3, 1, 0);
+        assert_near(voxel_part_signed_distance(&part, (real[]){-3, 4, 5}, NULL) > 3, 1, 0);
         voxel_part_free(&part);
         voxels_free(&v);
     }

@@ -239,7 +239,7 @@ static void test_taken_over(void **state)
     cloud_source(&c);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_PD;
-    particles_update_kind_lists(&c.p);
+    particles_rebuild_lists_by_kind(&c.p);
     struct bonds old = c.bonds;
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);

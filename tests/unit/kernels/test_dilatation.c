@@ -55,7 +55,7 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
         p->kind[i] = KIND_MPM;
         for (int c = 0; c < symmetric_component_count(dim); c++) p->stress[c][i] = cloud_between(&seed, -1e8, 1e8);
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING, .anchor = {0.37e-3, 0.11e-3, 0.23e-3}};
     if (crowded) setting_crowd(s);
     for (int d = 0; d < dim; d++) particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
@@ -70,7 +70,7 @@ static void setting_make(struct setting *s, int dim, enum shape shape, enum tran
                                   .dt = STEP,
                                   .dt_velocity = STEP,
                                   .mean_dilatation = true};
-    transfer_order_sort(&s->order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &s->g);
+    transfer_order_sort_points_by_cell(&s->order, p, p->list[KIND_MPM], p->n_of[KIND_MPM], &s->g);
 }
 
 static void setting_free(struct setting *s)
@@ -216,7 +216,7 @@ int main(void)
         cmocka_unit_test(test_uniform),
         cmocka_unit_test(test_several),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -177,7 +177,7 @@ static void test_bond_momentum(void **state)
 /* ---- common data of columns -------------------------------------------------------------------------------------- */
 
 /* Creates a displaced lattice of one material; some bonds are broken by load, one is partially released. */
-static void site_map_make(struct particle_cloud *c, int dim, bool state)
+static void site_map_make_if_on_lattice(struct particle_cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
     particle_cloud_make(c, &(struct cloud_plan){.space = space_of[dim],
@@ -229,7 +229,7 @@ static void test_column_kinds(void **unused)
             const bool state = model >= PD_OSPD;
             struct particle_cloud c;
             if (model == PD_BOND_PLASTIC || (dim == 1 && state)) continue;
-            site_map_make(&c, dim, state);
+            site_map_make_if_on_lattice(&c, dim, state);
             const size_t bytes = (size_t)(dim * c.p.n) * sizeof(real);
             real *f = forces_by_kind(&c, state ? state_force_table[dim][model] : bond_force_table[dim][model], kinds);
             assert_memory_equal(f, f + dim * c.p.n, bytes);
@@ -413,7 +413,7 @@ static void test_partial_stress(void **state)
             struct partial_stress partial = {0};
             body_make(&c, dim, way | MIXED);
             for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[0][i] < 2.2e-3 ? KIND_PD : KIND_MPM;
-            particles_update_kind_lists(&c.p);
+            particles_rebuild_lists_by_kind(&c.p);
             bonds_free(&c.bonds);
             bonds_make(&c.bonds, NULL, &c.p, &c.source);
             if (way & MIXED) /* broken bonds carry nothing */
@@ -424,7 +424,7 @@ static void test_partial_stress(void **state)
             int32_t changed[] = {(int32_t)c.p.n - 2, (int32_t)c.p.n - 1};
             struct bonds old = c.bonds;
             for (size_t k = 0; k < COUNT_OF(changed); k++) c.p.kind[changed[k]] = KIND_PD;
-            particles_update_kind_lists(&c.p);
+            particles_rebuild_lists_by_kind(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             bonds_free(&old);
             partial_stress_make(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
@@ -461,7 +461,7 @@ int main(void)
         cmocka_unit_test(test_pd_move),        cmocka_unit_test(test_bond_threads),
         cmocka_unit_test(test_partial_stress), cmocka_unit_test(test_partial_stress_corner),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

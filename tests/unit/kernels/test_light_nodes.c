@@ -68,7 +68,7 @@ static void test_light_nodes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_light_nodes)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

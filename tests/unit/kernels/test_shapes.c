@@ -32,7 +32,7 @@ static void points_make(struct points *s, int dim)
     assert_int_equal(grid_extend_box(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
     s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .half_width = 0.25};
     for (int64_t i = 0; i < POINTS; i++) s->p.volume[i] = 1;
-    particles_update_kind_lists(&s->p);
+    particles_rebuild_lists_by_kind(&s->p);
 }
 
 /* Places points between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two cells. */
@@ -44,7 +44,7 @@ static void points_place(struct points *s, uint64_t *seed)
             s->p.x[d][i] = i % 4 ? place : s->g.anchor[d] + 0.5 * floor(2 * place + 1);
             s->p.stretch[d][i] = cloud_between(seed, 0.1, 4);
         }
-    transfer_order_sort(&s->order, &s->p, s->p.list[KIND_MPM], POINTS, &s->g);
+    transfer_order_sort_points_by_cell(&s->order, &s->p, s->p.list[KIND_MPM], POINTS, &s->g);
 }
 
 static void points_free(struct points *s)
@@ -120,6 +120,6 @@ static void test_complete(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_complete)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

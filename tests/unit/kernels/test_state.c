@@ -269,7 +269,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
     const int dim = space_dim(space);
     body_make(b, &plan, model, 0.3, local);
     cloud_bonds(&b->c);
-    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) row_block_write_columns_from_stencil(&b->c.bonds, g);
+    for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) bond_row_block_write_columns_from_stencil(&b->c.bonds, g);
     for (int64_t g = 0; g < b->c.bonds.row_blocks; g++) /* a cut along x = 4.5, up to y = 4 */
         for (int64_t q = b->c.bonds.column[g] * LANES; q < (b->c.bonds.column[g] + b->c.bonds.column_count[g]) * LANES;
              q++) {
@@ -279,7 +279,7 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.bonds.w[q] = 0, b->c.bonds.inverse_length[q] *= -1;
             bond_column_update_after_bond_change(&b->c.bonds, g * LANES + q % LANES, q);
         }
-    state_update_weighted_volumes(&b->c.bonds, &b->c.p, &b->c.source);
+    state_based_update_weighted_volumes(&b->c.bonds, &b->c.p, &b->c.source);
     uint64_t seed = 17;
     for (int64_t i = 0; i < b->c.p.n; i++)
         for (int d = 0; d < dim; d++)
@@ -381,12 +381,13 @@ static void test_volumes(void **state)
                           .space = spaces[s], .count = {7, 7, 7}, .horizon = 2.515, .influence = INFLUENCE_INVERSE},
                       PD_OSPD, 0.23, local);
             const real middle[DIM_MAX] = {3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING, 3.5 * CLOUD_SPACING};
-            const int64_t i = particles_nearest(&b.c.p, middle);
+            const int64_t i = particles_index_nearest_to_position(&b.c.p, middle);
             b.c.p.volume0[i] *= 1.37, b.c.p.volume0[0] *= 1.37;
             cloud_bonds(&b.c);
             Q[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[i]];
             corner[local] = b.c.bonds.state.weighted[b.c.bonds.row_of[0]];
-            if (local) assert_close(Q[1], state_row_intact_weighted_volume(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
+            if (local)
+                assert_close(Q[1], state_based_weighted_volume_of_intact_bonds(&b.c.bonds, b.c.bonds.row_of[i]), 1e-6);
             particle_cloud_free(&b.c);
         }
         assert_close(Q[0], Q[1], 1e-6);

@@ -237,8 +237,8 @@ static void test_strength(void **state)
 }
 
 /* Two halves of a lattice move apart: the work of the forces on the upper half of its middle column per area is that of
- * family_softening_work_per_area within 2e-3 (steps of the opening), and equals the energy that its rows have
- * dissipated within 1 % (both ends share what a bond dissipates). */
+ * family_fracture_energy_of_softening_bonds within 2e-3 (steps of the opening), and equals the energy that its rows
+ * have dissipated within 1 % (both ends share what a bond dissipates). */
 static void test_separation(void **state)
 {
     (void)state;
@@ -263,7 +263,7 @@ static void test_separation(void **state)
         }
         for (int y = 0; y < HIGH; y++) spent += b->fracture_energy[b->row_of[y * WIDE + WIDE / 2]];
         const real expected =
-            family_softening_work_per_area(&a.s.c.source.family, &a.modulus[0], k == 1, &a.s.curve, range);
+            family_fracture_energy_of_softening_bonds(&a.s.c.source.family, &a.modulus[0], k == 1, &a.s.curve, range);
         assert_close(work / area, expected, 2e-3);
         assert_close(spent / area, expected, 1e-2);
         assert_near(before, 0, 1e-9 * a.s.c.material[0].young * area);

@@ -31,7 +31,7 @@ static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model mod
 {
     if (model >= PD_OSPD) state_precompute_table[p->dim][model](b, p);
     for (int64_t g = 1; g < b->row_blocks; g += 3) b->active.level[g] = 0;
-    active_set_rebuild_list(&b->active);
+    active_set_rebuild_active_block_list(&b->active);
 }
 
 static void body_make(struct body *b, int dim, enum pd_model model, int way)
@@ -133,10 +133,10 @@ static void check_sweeps(int dim, enum pd_model model)
     struct plain plain[WAYS];
     for (int way = 0; way < WAYS; way++) plain_make(&plain[way], force, dim, model, way);
     for (int threads = 1; threads <= THREADS_MOST; threads++) {
-        team_set_threads(threads);
+        team_set_thread_count(threads);
         for (int way = 0; way < WAYS; way++) check_sweep(&plain[way], force, dim, model, way, threads);
     }
-    team_set_threads(1);
+    team_set_thread_count(1);
     for (int way = 0; way < WAYS; way++) body_free(&plain[way].body);
 }
 
@@ -176,7 +176,7 @@ int main(void)
         cmocka_unit_test(test_sweep),
         cmocka_unit_test(test_reach),
     };
-    team_set_threads(1);
+    team_set_thread_count(1);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -53,7 +53,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
         for (int k = 0; k < s->dim * s->dim && s->optional & WITH_GRADIENT; k++)
             p->gradient[k][i] = cloud_between(seed, -1e3, 1e3);
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
 }
 
 /* Gives every second point a random partial stress, which it leaves to bonds. */
@@ -120,7 +120,7 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
                                   .half_width = 0.5 * CLOUD_SPACING,
                                   .dt = 2e-7,
                                   .dt_velocity = 1e-7};
-    transfer_order_sort(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
+    transfer_order_sort_points_by_cell(&s->order, &s->c.p, s->c.p.list[KIND_MPM], s->c.p.n_of[KIND_MPM], &s->g);
 }
 
 static void scene_free(struct scene *s)
@@ -517,7 +517,7 @@ int main(void)
         cmocka_unit_test(test_rotation), cmocka_unit_test(test_spread),    cmocka_unit_test(test_threads),
         cmocka_unit_test(test_yielding),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -45,14 +45,14 @@ static void scene_make(struct scene *s, int dim, int shape)
         p->kind[i] = cloud_random(&s->seed) < (p->body[i] ? 0.6 : 0.2) ? KIND_PD : KIND_MPM;
         for (int d = 0; d < dim; d++) p->v[d][i] = cloud_between(&s->seed, -3, 5);
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < dim; d++) {
         s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;
         particles_coordinate_range(p, p->n, d, &from[d], &to[d]);
     }
     assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
-    transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
+    transfer_order_sort_points_by_cell(&s->order, p, p->list_free, p->n_free, &s->g);
     rotation_groups_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held);
     s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
     struct partial_stress none = {0};
@@ -205,7 +205,7 @@ static void test_groups(void **state)
     scene_make(&s, 2, SHAPE_LINEAR);
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
     rotation_groups_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];

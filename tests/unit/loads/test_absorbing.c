@@ -88,16 +88,16 @@ static struct left run_text(const char *text)
     struct left m = {0};
     real before = 0;
     assert_ok(bench_engine_make(&e, &s, "absorbing", text, NULL, 0));
-    assert_ok(report_start(&e));
+    assert_ok(report_start_before_first_step(&e));
     while (e.clock.step < e.clock.steps) {
-        assert_ok(engine_step(&e));
+        assert_ok(engine_adapt_refinement_and_step(&e));
         m.back = real_max(m.back, before - e.loads.absorbing.energy);
         before = e.loads.absorbing.energy;
         const struct energy_balance *now = &e.diagnostics->now;
         m.most = real_max(m.most, now->energy.kinetic + now->energy.strain);
         m.balance = real_max(m.balance, fabs(now->balance_error));
     }
-    assert_ok(report_end(&e));
+    assert_ok(report_finish_after_last_step(&e));
     m.start = e.diagnostics->energy_start, m.absorbed = e.diagnostics->now.energy.absorbed;
     m.rest = e.diagnostics->now.energy.kinetic + e.diagnostics->now.energy.strain;
     m.momentum = e.diagnostics->now.momentum_error;

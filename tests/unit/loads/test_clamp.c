@@ -59,13 +59,13 @@ static void body_make(struct body *a, const char *text, const char *const *with)
     }
     memset(a, 0, sizeof *a);
     assert_ok(scene_read_text(&a->s, text, strlen(text), "clamp.yaml", override, n));
-    assert_ok(engine_make(&a->e, &a->s, NULL));
+    assert_ok(engine_set_up_run(&a->e, &a->s, NULL));
     a->e.report->quiet = true;
 }
 
 static void body_free(struct body *a)
 {
-    engine_free(&a->e);
+    engine_free_run(&a->e);
     scene_free(&a->s);
 }
 
@@ -262,10 +262,10 @@ static void test_threads(void **state)
 static real run(struct run *e)
 {
     real most = 0;
-    assert_ok(report_start(e));
+    assert_ok(report_start_before_first_step(e));
     while (e->clock.step < e->clock.steps) {
-        assert_ok(engine_step(e));
-        assert_ok(report_step(e));
+        assert_ok(engine_adapt_refinement_and_step(e));
+        assert_ok(report_finished_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
     }
     assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are included */
@@ -427,7 +427,7 @@ static void test_cantilever(void **state)
         struct body a;
         real tip = 0, grid_coupled = 0;
         body_make(&a, CANTILEVER, model[k].with);
-        assert_ok(engine_run(&a.e));
+        assert_ok(engine_run_to_end(&a.e));
         forces(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             tip = real_max(tip, a.e.part.x[1][i] - a.e.part.X[1][i]);
@@ -448,6 +448,6 @@ int main(void)
         cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),     cmocka_unit_test(test_cantilever),
         cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane), cmocka_unit_test(test_yielded),
     };
-    team_set_threads(0);
+    team_set_thread_count(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

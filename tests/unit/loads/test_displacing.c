@@ -194,7 +194,7 @@ static void test_static(void **state)
                     end;
     struct displaced m;
     by_x(&b.formula[0], true);
-    static_boundaries_make(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
+    static_boundaries_make_from_dynamic(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
     displaced_make(&m, &end);
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
@@ -221,6 +221,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),        cmocka_unit_test(test_turn),
                                        cmocka_unit_test(test_turn_in_space), cmocka_unit_test(test_formula_of_time),
                                        cmocka_unit_test(test_steepest),      cmocka_unit_test(test_static)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

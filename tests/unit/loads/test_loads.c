@@ -29,7 +29,7 @@ static void test_sine(void **state)
     struct particles *p = &c.p;
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
-    loads_clear_forces(&l, p);
+    loads_clear_forces_of_loaded_particles(&l, p);
     loads_apply_to_particle_forces(&l, p, 1 + 0.5 * dt, dt,
                                    dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
@@ -80,14 +80,14 @@ static void check_together(int threads, bool together, real *impulse, real *work
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
     struct particle_cloud c;
     struct loads l;
-    team_set_threads(threads);
+    team_set_thread_count(threads);
     particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
     for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
     impulse[0] = impulse[1] = *work = 0;
     for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
         assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
                              3 * CLOUD_SPACING, 0));
-        if (k == 0) loads_clear_forces(&l, &c.p);
+        if (k == 0) loads_clear_forces_of_loaded_particles(&l, &c.p);
         loads_apply_to_particle_forces(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
@@ -121,7 +121,7 @@ static void test_together(void **state)
         assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
         assert_memory_equal(&work[threads], &work[1], sizeof work[1]);
     }
-    team_set_threads(2);
+    team_set_thread_count(2);
 }
 
 /* Leap-frog integration: half a velocity update, then full ones, each centred at the time of its forces. The impulse of
@@ -147,7 +147,7 @@ static void test_kicks(void **state)
         particle_cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
-            loads_clear_forces(&l, &c.p);
+            loads_clear_forces_of_loaded_particles(&l, &c.p);
             loads_apply_to_particle_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
@@ -291,6 +291,6 @@ int main(void)
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
                                        cmocka_unit_test(test_relief),   cmocka_unit_test(test_mean_displacement),
                                        cmocka_unit_test(test_force_at)};
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

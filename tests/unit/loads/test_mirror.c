@@ -37,7 +37,7 @@ static void deform(struct particles *p, real pd_radius)
         for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] * (1.01 + 0.004 * d + 1e-5 * r2);
         p->kind[i] = r2 < square(pd_radius) ? KIND_PD : KIND_MPM;
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
 }
 
 static void find_twins(struct quarter *q)
@@ -118,9 +118,10 @@ static void check_forces(struct quarter *q)
     for (int s = 0; s < dim; s++) assert_true(deviation(q, q->part.p.stress[s], q->whole.p.stress[s]) <= CLOSE);
     for (int64_t i = 0; i < q->part.p.n; i++) {
         int32_t a = q->part.bonds.row_of[i], b = q->whole.bonds.row_of[q->twin[i]];
-        const bool bonded = a >= 0 && (row_block_lanes_with_intact_bonds(&q->part.bonds, a / LANES) >> a % LANES & 1);
-        assert_int_equal(bonded,
-                         b >= 0 && (row_block_lanes_with_intact_bonds(&q->whole.bonds, b / LANES) >> b % LANES & 1));
+        const bool bonded =
+            a >= 0 && (bond_row_block_lanes_with_intact_bonds(&q->part.bonds, a / LANES) >> a % LANES & 1);
+        assert_int_equal(
+            bonded, b >= 0 && (bond_row_block_lanes_with_intact_bonds(&q->whole.bonds, b / LANES) >> b % LANES & 1));
         if (bonded) assert_true(fabs(q->part.bonds.family_volume[a] / q->whole.bonds.family_volume[b] - 1) <= 1e-6);
     }
 }
@@ -311,7 +312,7 @@ static void points_state(struct particles *p)
         p->stress[p->dim][i] = 1e7 * X[0] * X[1]; /* xy */
         if (p->dim == 3) p->stress[4][i] = 1e7 * X[1], p->stress[5][i] = 1e7 * X[0];
     }
-    particles_update_kind_lists(p);
+    particles_rebuild_lists_by_kind(p);
 }
 
 /* Creates the body. offset: of the planes from a node [node distances]. */
@@ -337,7 +338,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     real work = 0;
     kernels_choose(&k, s->p->dim, PD_BOND, shape, transfer);
     s->t.dt_velocity = step == 0 ? 0.5 * s->t.dt : s->t.dt;
-    transfer_order_sort(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
+    transfer_order_sort_points_by_cell(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
     grid_clear(&s->g);
     k.p2g(&s->g, s->p, &s->t);
     loads_prescribe_grid_velocities(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
@@ -465,6 +466,6 @@ int main(void)
         cmocka_unit_test(test_mirror_convert), cmocka_unit_test(test_mirror_breaks),
         cmocka_unit_test(test_mirror_points),
     };
-    team_set_threads(2);
+    team_set_thread_count(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,7 +28,7 @@ static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
 {
     const struct grid *g = &b->mesh.grid;
     int64_t k[DIM_MAX] = {0};
-    for (int64_t I = 0; I < g->n; I++, grid_indices_advance(g, k)) {
+    for (int64_t I = 0; I < g->n; I++, grid_advance_to_next_node_indices(g, k)) {
         int64_t r[DIM_MAX];
         bool corner = true, arm = bend, foot = bend;
         for (int d = 0; d < DIM_MAX; d++) r[d] = d < g->dim ? k[d] - b->levels.offset[0][d] : 0;
@@ -45,7 +45,7 @@ static void levels_set(struct plate *b, bool bend)
 {
     uint8_t *demand = NEW("test.demand", 2 * b->mesh.grid.n, uint8_t), *level = demand + b->mesh.grid.n;
     demand_mark(b, demand, bend);
-    levels_compute_coarsest_admissible(&b->levels, &b->c.p, demand, NULL, level);
+    levels_compute_coarsest_admissible_levels(&b->levels, &b->c.p, demand, NULL, level);
     levels_change_refinement(&b->levels, &b->c.p, &b->source, level);
     memory_free(demand);
 }
@@ -75,9 +75,9 @@ static void plate_make_of(struct plate *b, enum space space, int levels, int len
         p->mass[i] = p->volume0[i] * density[p->material[i]];
     }
     assert_ok(mesh_make(&b->mesh, p, &like, &b->source));
-    assert_ok(levels_make(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
+    assert_ok(levels_make_over_finest_mesh(&b->levels, levels, &b->mesh, &b->c.p, &b->source, density));
     b->dt = CLOUD_SPACING / b->c.material[0].wave_speed;
-    levels_match_dispersion(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
+    levels_match_wave_dispersion_of_bonds(&b->levels, 2 * CLOUD_SPACING, b->c.material[0].wave_speed, b->dt);
 }
 
 static void plate_make(struct plate *b, enum space space, int levels, int length)
@@ -122,23 +122,23 @@ static void motion_set(struct plate *b, const real A[9], const real *c, real by,
                     mesh->displacement[a][I] = value;
             }
     }
-    if (velocity) levels_compute_momenta(l);
-    for (int level = 1; level <= l->n; level++) levels_update_hanging(l, level);
-    levels_copy_motion_to_ghosts(l);
+    if (velocity) levels_compute_momenta_from_velocities(l);
+    for (int level = 1; level <= l->n; level++) levels_interpolate_motion_of_hanging_nodes(l, level);
+    levels_copy_motion_to_ghost_nodes(l);
 }
 
 static void forces_of(struct plate *b, bool finite, int due)
 {
     mesh_clear(&b->mesh);
     mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
-    levels_compute_forces(&b->levels, &b->c.p, b->elastic, finite, due);
+    levels_compute_forces_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite, due);
 }
 
 static real strain_of(struct plate *b, bool finite)
 {
-    for (int level = 1; level <= b->levels.n; level++) levels_update_hanging(&b->levels, level);
+    for (int level = 1; level <= b->levels.n; level++) levels_interpolate_motion_of_hanging_nodes(&b->levels, level);
     return mesh_strain(&b->mesh, &b->c.p, b->elastic, finite) +
-           levels_strain_energy(&b->levels, &b->c.p, b->elastic, finite);
+           levels_strain_energy_of_coarse_cells(&b->levels, &b->c.p, b->elastic, finite);
 }
 
 /* Returns the force on a component of node I of a level by all cells: of its own level, plus half the doubled one of
@@ -167,7 +167,7 @@ static void gradient_across(enum space space, bool finite)
     for (int level = 0; level <= 2; level++) {
         struct mesh *mesh = level_mesh(&b.levels, level);
         int tried = 0;
-        assert_true(levels_count_cells(&b.levels, level) > 0);
+        assert_true(levels_count_cells_of_level(&b.levels, level) > 0);
         for (int64_t I = 0; I < mesh->grid.n && tried < 60; I += 1 + (dim == 3) * 6) {
             const int d = (int)(I % dim);
             real *u = &mesh->displacement[d][I], W[2];
@@ -258,7 +258,10 @@ static void momentum_of(const struct plate *b, real *sum)
     }
 }
 
-static real kinetic_of(const struct plate *b) { return mesh_kinetic(&b->mesh) + levels_kinetic_energy(&b->levels); }
+static real kinetic_of(const struct plate *b)
+{
+    return mesh_kinetic(&b->mesh) + levels_kinetic_energy_of_coarse_levels(&b->levels);
+}
 
 /* Every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion exactly, and a
  * split never increases the energy of random motion. */
@@ -307,9 +310,9 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
 {
     for (int64_t k = 0; k < n; k++, b->step++) {
         real impulse[DIM_MAX] = {0}, work = 0;
-        const int due = levels_highest_due_in_step(&b->levels, b->step);
+        const int due = levels_highest_level_due_in_step(&b->levels, b->step);
         forces_of(b, finite, due);
-        levels_move_nodes(&b->levels, b->dt, b->dt, due, impulse, &work);
+        levels_move_nodes_return_largest_velocity(&b->levels, b->dt, b->dt, due, impulse, &work);
     }
 }
 
@@ -318,7 +321,7 @@ static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
     forces_of(b, finite, b->levels.n);
-    const real power = levels_power_of_forces(&b->levels);
+    const real power = levels_power_of_coarse_nodal_forces(&b->levels);
     real own = 0;
     for (int d = 0; d < b->mesh.grid.dim; d++)
         for (int64_t I = 0; I < b->mesh.grid.n; I++) own += b->mesh.grid.velocity[d][I] * b->mesh.grid.force[d][I];
@@ -334,7 +337,7 @@ static real energy_growth(enum space space, int levels, real share, int rounds, 
     real first = 0, last = 0, before[DIM_MAX], after[DIM_MAX];
     plate_make_of(&b, space, levels, space == SPACE_LINE ? 200 : 0, parted);
     b.dt *= share;
-    levels_match_dispersion(&b.levels, 2 * CLOUD_SPACING, b.c.material[0].wave_speed, b.dt);
+    levels_match_wave_dispersion_of_bonds(&b.levels, 2 * CLOUD_SPACING, b.c.material[0].wave_speed, b.dt);
     levels_set(&b, false);
     motion_set(&b, none, c, 5, true);
     momentum_of(&b, before);
@@ -398,8 +401,8 @@ static void pulse_set(struct plate *b, real at, real width)
             mesh->grid.velocity[0][I] = own ? 1e-6 * c * early * exp(-0.5 * early * early) : 0;
         }
     }
-    levels_compute_momenta(l);
-    levels_copy_motion_to_ghosts(l);
+    levels_compute_momenta_from_velocities(l);
+    levels_copy_motion_to_ghost_nodes(l);
 }
 
 /* Computes the displacement at the nodes of level 0. */
@@ -463,7 +466,7 @@ static real reflection(int levels, real width)
     const int64_t n = b.mesh.grid.n;
     uint8_t *demand = NEW("test.demand", 2 * n, uint8_t), *level = demand + n;
     for (int64_t I = 0; I < n; I++) demand[I] = I - b.levels.offset[0][0] < LENGTH / 4;
-    levels_compute_coarsest_admissible(&b.levels, &b.c.p, demand, NULL, level);
+    levels_compute_coarsest_admissible_levels(&b.levels, &b.c.p, demand, NULL, level);
     levels_change_refinement(&b.levels, &b.c.p, &b.source, level);
     pulse_set(&b, 0.3 * LENGTH * CLOUD_SPACING, width);
     real *u = NEW("test.u", n, real);

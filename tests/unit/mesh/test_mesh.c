@@ -27,13 +27,13 @@ static void gradient_stencil_apply(enum space space, bool finite, bool cubic, in
             }
             for (int side = 0; side < 2; side++) {
                 *u += side ? -2 * step : step;
-                for (int64_t i = 0; i < b.c.p.n; i++) {
-                    bool near = b.mesh.place[i] >= 0;
+                for (int64_t particle = 0; particle < b.c.p.n; particle++) {
+                    bool near = b.mesh.place[particle] >= 0;
                     for (int c = 0, touches = 0; c < 1 << b.c.p.dim && near; c++) {
-                        touches += (b.mesh.place[i] >> b.c.p.dim) + b.mesh.corner[c] == I;
+                        touches += (b.mesh.place[particle] >> b.c.p.dim) + b.mesh.corner[c] == I;
                         if (c + 1 == 1 << b.c.p.dim) near = touches > 0;
                     }
-                    if (near) W[side] += point_energy(&b, i, finite);
+                    if (near) W[side] += point_energy(&b, particle, finite);
                 }
             }
             *u += step;
@@ -161,11 +161,11 @@ static void test_partial(void **state)
         mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
-        assert_true(dim > 1 ||
-                    !mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cut cell less */
+        assert_true(dim > 1 || !mesh_update_stiffness_of_partial_cells(&b.mesh, &b.c.p, &b.source, changed,
+                                                                       2)); /* one cut cell less */
         mesh_remove_points_and_return_lost_energy(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
-        assert_true(mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 1));
+        assert_true(mesh_update_stiffness_of_partial_cells(&b.mesh, &b.c.p, &b.source, changed, 1));
         shake(&b, 0.2, 23);
         forces(&b, false);
         for (int64_t i = 0; i < p->n; i++) {

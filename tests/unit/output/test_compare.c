@@ -223,7 +223,7 @@ static void runs_are_compared(void **state)
     write_run("a", 0, 2, 0.010);
     write_run("b", 1e-6, 8, 0.013);
     char *words[] = {"compare", "a", "b"};
-    assert_int_equal(run(command_compare, 3, words, printed), OK);
+    assert_int_equal(run(command_compare_main, 3, words, printed), OK);
     /* The last frame of b is shifted by 2e-6; frames are in single precision: 1e-4 of this shift at X of about 1e-2. */
     double apart = number_after(printed, "displacement [m]");
     assert_true(fabs(apart - 2e-6) < 1e-9);
@@ -255,7 +255,7 @@ static void stress_across_is_compared(void **state)
         output_close(&o);
         particles_free(&p);
     }
-    assert_int_equal(run(command_compare, 3, words, printed), OK);
+    assert_int_equal(run(command_compare_main, 3, words, printed), OK);
     assert_true(fabs(number_after(printed, "stress [Pa]") - 0.1 * 3e6) < 1);
 }
 
@@ -267,7 +267,7 @@ static void unequal_runs_are_told_apart(void **state)
     write_run("a", 0, 2, 0.010);
     mkdir("sound", 0777);
     put("sound/summary.json", sound);
-    assert_int_equal(run(command_compare, 3, words, printed), OK);
+    assert_int_equal(run(command_compare_main, 3, words, printed), OK);
     assert_non_null(strstr(printed, "sound has no frames"));
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
@@ -300,13 +300,13 @@ static void damaged_files_are_refused(void **state)
     write_run("a", 0, 2, 0.010);
     write_run("c", 0, 2, 0.010);
     put("c/frames/000002.hdf", "not a frame");
-    assert_int_equal(run(command_compare, 3, compare, printed), FAILED);
+    assert_int_equal(run(command_compare_main, 3, compare, printed), FAILED);
     assert_non_null(strstr(status_message(), "000002.hdf"));
-    assert_int_equal(run(command_plot, 2, plot, printed), FAILED);
+    assert_int_equal(run(command_plot_main, 2, plot, printed), FAILED);
     assert_non_null(strstr(status_message(), "000002.hdf"));
     write_run("c", 0, 2, 0.010);
     put("c/summary.json", "{\"name\": ");
-    assert_int_equal(run(command_compare, 3, compare, printed), FAILED);
+    assert_int_equal(run(command_compare_main, 3, compare, printed), FAILED);
     assert_non_null(strstr(status_message(), "summary.json"));
 }
 
@@ -317,15 +317,15 @@ static void wrong_words_are_refused(void **state)
     char *compare[] = {"compare", "a", "--deep", "b"}, *plot[] = {"plot", "a", "--frames", "0"};
     char *info[] = {"info", "x"}, *nowhere[] = {"compare", "nowhere", "nowhere"}, *none[] = {"plot", "nowhere"};
     write_run("a", 0, 2, 0.010);
-    assert_int_equal(run(command_compare, 4, compare, printed), REFUSED);
-    assert_int_equal(run(command_compare, 2, compare, printed), REFUSED);
-    assert_int_equal(run(command_compare, 3, nowhere, printed), REFUSED);
-    assert_int_equal(run(command_plot, 4, plot, printed), REFUSED);
-    assert_int_equal(run(command_plot, 3, plot, printed), REFUSED);
-    assert_int_equal(run(command_plot, 1, plot, printed), REFUSED);
-    assert_int_equal(run(command_plot, 2, none, printed), REFUSED);
-    assert_int_equal(run(command_info, 2, info, printed), REFUSED);
-    assert_int_equal(run(command_info, 1, info, printed), OK);
+    assert_int_equal(run(command_compare_main, 4, compare, printed), REFUSED);
+    assert_int_equal(run(command_compare_main, 2, compare, printed), REFUSED);
+    assert_int_equal(run(command_compare_main, 3, nowhere, printed), REFUSED);
+    assert_int_equal(run(command_plot_main, 4, plot, printed), REFUSED);
+    assert_int_equal(run(command_plot_main, 3, plot, printed), REFUSED);
+    assert_int_equal(run(command_plot_main, 1, plot, printed), REFUSED);
+    assert_int_equal(run(command_plot_main, 2, none, printed), REFUSED);
+    assert_int_equal(run(command_info_main, 2, info, printed), REFUSED);
+    assert_int_equal(run(command_info_main, 1, info, printed), OK);
     assert_non_null(strstr(printed, CLEAVE_VERSION));
 }
 
@@ -350,7 +350,7 @@ static void pictures_are_drawn(void **state)
     char printed[TEXT], *words[] = {"plot", "it's `here`", "--frames", "all"};
     const char *picture[] = {"damage", "kind", "last", "crack", "energy", "damage_000002", "kind_000000"};
     write_run(words[1], 0, 2, 0.010);
-    assert_int_equal(run(command_plot, 4, words, printed), OK);
+    assert_int_equal(run(command_plot_main, 4, words, printed), OK);
     for (size_t k = 0; k < COUNT_OF(picture); k++) {
         char path[256];
         snprintf(path, sizeof path, "%s/pictures/%s.png", words[1], picture[k]);
@@ -367,7 +367,7 @@ static void missing_gnuplot_is_named(void **state)
     char *path = strdup(getenv("PATH"));
     write_run("a", 0, 2, 0.010);
     setenv("PATH", "/nowhere", 1);
-    status s = run(command_plot, 2, words, printed);
+    status s = run(command_plot_main, 2, words, printed);
     setenv("PATH", path, 1);
     free(path);
     assert_int_equal(s, FAILED);
@@ -395,15 +395,15 @@ static void bodies_are_closed_and_gaps_open(void **state)
     struct plotted_particles c;
     write_run("a", 0, 2, 0.010);
     assert_int_equal(frame_read(&f, "a/frames/000000.hdf"), OK);
-    assert_true(fabs(frame_spacing(&f) - SPACING) < 1e-6 * SPACING); /* single precision */
-    plotted_particles_make(&c, &f, NULL);
+    assert_true(fabs(frame_particle_spacing(&f) - SPACING) < 1e-6 * SPACING); /* single precision */
+    plotted_particles_select_from_frame(&c, &f, NULL);
     assert_true(c.aligned);
     assert_int_equal(c.n, SIDE * SIDE);
     assert_true(covered(&c, 0, SIDE) == 1); /* no gap between neighbours */
     assert_true(covered(&c, SIDE + 1, SIDE + 3) == 0);
     plotted_particles_free(&c);
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = f.X[0][i] > 0.5F * SIDE * 1e-3F ? 2e-3F : 0;
-    plotted_particles_make(&c, &f, NULL);
+    plotted_particles_select_from_frame(&c, &f, NULL);
     assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0); /* two spacings apart */
     plotted_particles_free(&c);
     const double rotation = 0.5; /* radian: a rotated lattice has no gaps either */
@@ -412,7 +412,7 @@ static void bodies_are_closed_and_gaps_open(void **state)
         f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
         f.u[1][i] = (float)(x * sin(rotation) + y * cos(rotation) - y);
     }
-    plotted_particles_make(&c, &f, NULL);
+    plotted_particles_select_from_frame(&c, &f, NULL);
     assert_true(c.aligned); /* at reference positions: its squares turn with it */
     struct colour middle[64];
     struct view v = {.from = {4e-3, 4e-3}, .to = {8e-3, 8e-3}, .top = 0.5};

@@ -37,7 +37,7 @@ static void what_is_there(void **state)
     struct lammps_frame f;
     (void)state;
     write_file(whole, sizeof whole - 1);
-    assert_int_equal(lammps_list_steps(name, &n, &step), OK);
+    assert_int_equal(lammps_list_step_numbers(name, &n, &step), OK);
     assert_int_equal(n, 2);
     assert_int_equal(step[1], 200);
     memory_free(step);
@@ -58,7 +58,7 @@ static void being_written(void **state)
     (void)state;
     for (size_t length = 0; length < sizeof whole - 1; length++) {
         write_file(whole, length);
-        const status s = lammps_list_steps(name, &n, &step);
+        const status s = lammps_list_step_numbers(name, &n, &step);
         assert_int_equal(s, n > 0 ? OK : FAILED);
         assert_true(n == (strstr(whole, "0 \nITEM") + 3 - whole <= (ptrdiff_t)length));
         memory_free(step);
@@ -103,7 +103,7 @@ static void damaged(void **state)
             text[rand_r(&seed) % (sizeof text - 1)] =
                 (char)(rand_r(&seed) % 3 ? ' ' + rand_r(&seed) % 95 : rand_r(&seed));
         write_file(text, 1 + (size_t)rand_r(&seed) % (sizeof text - 1));
-        if (lammps_list_steps(name, &n, &step) == OK && lammps_frame_read(&f, name, step[n - 1]) == OK)
+        if (lammps_list_step_numbers(name, &n, &step) == OK && lammps_frame_read(&f, name, step[n - 1]) == OK)
             lammps_frame_free(&f);
         memory_free(step);
     }

@@ -432,7 +432,7 @@ static void summary_has_the_figures(void **state)
     open_fresh(&o, "summary", false);
     run_parts_make(e);
     e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->timers.spent[TIMER_BONDS] = 7e-4;
-    e->report->began = wall_clock(), e->report->before = (struct run_seconds){3, 0.25, 3e-4};
+    e->report->began = wall_clock_seconds(), e->report->before = (struct run_seconds){3, 0.25, 3e-4};
     e->report->setup_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
     e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->report->particle_steps[KIND_PD] = 1000;

@@ -194,18 +194,18 @@ static void foreign_file_is_left(void **state)
     open_fresh(&o, "left");
     p.X[0][3] -= 1;
     for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
-    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 0);
     assert_int_equal(rename("foreign/frames/particles_000000.h5", "left/frames/particles_000000.h5"), 0);
     output_discard_particle_order(&o);
-    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_non_null(
         strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which is of another run, and 1"));
     assert_int_equal(unlink("left/frames/particles_000000.h5"), 0);
     assert_int_equal(link("left/frames/000000.hdf", "left/frames/particles_000000.h5"), 0);
     o.series[0].particles.number = 0;
-    assert_int_equal(output_index_drop_lost_frames(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(output_remove_lost_frames_from_index(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
     assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
     assert_true(path_is_file("left/frames/particles_000002.h5"));
@@ -221,7 +221,7 @@ static void assert_listed(struct output *o, int n, int lost)
     char message[1000], *text;
     size_t length;
     int found = -1, listed = 0;
-    assert_int_equal(output_index_drop_lost_frames(o, &found, message, sizeof message), OK);
+    assert_int_equal(output_remove_lost_frames_from_index(o, &found, message, sizeof message), OK);
     assert_int_equal(found, lost);
     assert_int_equal(file_read_whole("back/frames.xdmf", &text, &length), OK);
     for (const char *at = text; (at = strstr(at, "<Time ")); at++) listed++;
@@ -267,7 +267,7 @@ static void complete_frames_are_read(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0.5, 7, scene_text), OK);
     output_close(&o);
     hdf_open(&from, "complete/frames/000000.hdf");
-    hdf_create(&to, file_begin_temporary("complete.hdf").text, false);
+    hdf_create(&to, file_begin_writing_temporary("complete.hdf").text, false);
     const hid_t list = H5Pcreate(H5P_OBJECT_COPY);
     assert_true(H5Pset_copy_object(list, H5O_COPY_EXPAND_EXT_LINK_FLAG) >= 0);
     assert_true(H5Ocopy(from.file, "/VTKHDF", to.file, "/VTKHDF", list, H5P_DEFAULT) >= 0);

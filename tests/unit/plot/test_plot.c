@@ -40,7 +40,7 @@ static float value_of(struct output_frame *f, const char *name)
 {
     const struct plot_field *field;
     float *value = NULL;
-    assert_int_equal(plot_field_find(&field, name, f->dim), OK);
+    assert_int_equal(plot_field_find_by_name(&field, name, f->dim), OK);
     assert_int_equal(plot_field_read(&value, field, f, "nowhere"), OK);
     const float first = value[0];
     memory_free(value);
@@ -66,11 +66,11 @@ static void unknown_fields_are_refused(void **state)
 {
     (void)state;
     const struct plot_field *field;
-    assert_int_equal(plot_field_find(&field, "van_mises", 2), REFUSED);
+    assert_int_equal(plot_field_find_by_name(&field, "van_mises", 2), REFUSED);
     assert_non_null(strstr(status_message(), "von_mises"));
-    assert_int_equal(plot_field_find(&field, "velocity_z", 2), REFUSED);
-    assert_int_equal(plot_field_find(&field, "stress_zz", 2), OK);
-    assert_int_equal(plot_field_find(&field, "stress_yy", 1), REFUSED);
+    assert_int_equal(plot_field_find_by_name(&field, "velocity_z", 2), REFUSED);
+    assert_int_equal(plot_field_find_by_name(&field, "stress_zz", 2), OK);
+    assert_int_equal(plot_field_find_by_name(&field, "stress_yy", 1), REFUSED);
 }
 
 /* Index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
@@ -98,7 +98,7 @@ static void fields_name_components(void **state)
                 {"principal_directions_3_x", "principal_directions", 6}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         const struct plot_field *field;
-        assert_int_equal(plot_field_find(&field, want[k].name, 3), OK);
+        assert_int_equal(plot_field_find_by_name(&field, want[k].name, 3), OK);
         assert_string_equal(field->stored, want[k].stored);
         assert_int_equal(field->component, want[k].component);
     }
@@ -113,20 +113,20 @@ static void slices_show_damage(void **state)
     struct plotted_particles c;
     for (int64_t i = 0; i < f.n; i++)
         if (f.X[2][i] > 1e-3F && f.X[0][i] > 0) f.damage[i] = 0.4F;
-    plotted_particles_make(&c, &f, NULL);
+    plotted_particles_select_from_frame(&c, &f, NULL);
     assert_int_equal(c.normal, 2);
     assert_int_equal(c.n, 36);
     assert_float_equal(c.layer, 1.5e-3, 1e-8);
     plotted_particles_free(&c);
     memset(f.damage, 0, (size_t)f.n * sizeof *f.damage);
-    plotted_particles_make(&c, &f, NULL);
+    plotted_particles_select_from_frame(&c, &f, NULL);
     assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
     plotted_particles_free(&c);
     struct projection projection = {.normal = 0, .placed = true, .layer = 1.9e-3};
-    assert_int_equal(projection_complete_slice(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), OK);
     assert_float_equal(projection.layer, 1.5e-3, 1e-8);
     projection.layer = 9e-3;
-    assert_int_equal(projection_complete_slice(&projection, &f), REFUSED);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), REFUSED);
     assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
     frame_free(&f);
 }
@@ -140,11 +140,11 @@ static void slices_are_near_the_middle(void **state)
     struct output_frame f = block_make(9, 9, 8, 3);
     for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
     struct projection projection = {.normal = 2};
-    assert_int_equal(projection_complete_slice(&projection, &f), OK);
+    assert_int_equal(projection_complete_slice_from_particles(&projection, &f), OK);
     assert_float_equal(projection.layer, -1.5e-3, 1e-8);
     f.spacing = NEW("test.spacing", f.n, float);
     for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
-    assert_float_equal(frame_spacing(&f), 0.7e-3, 1e-9);
+    assert_float_equal(frame_particle_spacing(&f), 0.7e-3, 1e-9);
     frame_free(&f);
 }
 
@@ -163,9 +163,9 @@ static void axes_have_prefixes(void **state)
         assert_string_equal(u.name, axis[k].name);
     }
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
-    assert_string_equal(unit_with_allowed_prefix("s", 3e-5).name, "µs");
-    assert_string_equal(unit_with_allowed_prefix("m", 0.02).name, "mm");
-    assert_true(unit_with_allowed_prefix("kg m/s", 3e-5).factor == 1);
+    assert_string_equal(unit_for_largest_value_if_prefixable("s", 3e-5).name, "µs");
+    assert_string_equal(unit_for_largest_value_if_prefixable("m", 0.02).name, "mm");
+    assert_true(unit_for_largest_value_if_prefixable("kg m/s", 3e-5).factor == 1);
 }
 
 /* A single distant particle changes neither the rectangle nor the range of colours, and is counted as outside. */
@@ -178,20 +178,20 @@ static void one_particle_sets_no_scale(void **state)
     for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i % 10);
     f.u[0][17] = 5, value[17] = 1e6F;
     const struct plot_field *field;
-    assert_int_equal(plot_field_find(&field, "speed", 2), OK);
-    plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
+    assert_int_equal(plot_field_find_by_name(&field, "speed", 2), OK);
+    plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
     struct view v = view_make_around_particles(&c, 1);
-    view_set_field(&v, field, &c, 1);
+    view_set_field_and_colour_range(&v, field, &c, 1);
     assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
     assert_int_equal(v.outside, 1);
     assert_true(v.low == 0 && v.high <= 9);
-    assert_int_equal(plot_field_find(&field, "velocity_x", 2), OK);
-    view_set_field(&v, field, &c, 1);
+    assert_int_equal(plot_field_find_by_name(&field, "velocity_x", 2), OK);
+    view_set_field_and_colour_range(&v, field, &c, 1);
     assert_true(v.low == -v.high);
     for (int64_t i = 0; i < f.n; i++) value[i] = -value[i];
     plotted_particles_free(&c);
-    plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
-    view_set_field(&v, field, &c, 1);
+    plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
+    view_set_field_and_colour_range(&v, field, &c, 1);
     assert_true(v.low == -v.high && v.high > 7 && v.high <= 9);
     plotted_particles_free(&c), memory_free(value), frame_free(&f);
 }
@@ -207,7 +207,7 @@ static void solids_are_seen_from_outside(void **state)
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     f.damage[555] = 1; /* inside */
     const struct projection projection = {.outside = true, .camera = camera_along_axis(2, 1), .normal = -1};
-    plotted_particles_make(&c, &f, &projection);
+    plotted_particles_select_from_frame(&c, &f, &projection);
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
     cubes_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
@@ -252,15 +252,15 @@ static void ends_of_colours_are_counted(void **state)
     float *value = NEW("test.value", f.n, float);
     for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i - 500) * 10; /* -5000 .. 4990 */
     r.projection.value = value;
-    assert_int_equal(plot_field_find(&r.projection.field, "stress_xx", 2), OK);
-    plotted_particles_make(&c, &f, &r.projection);
+    assert_int_equal(plot_field_find_by_name(&r.projection.field, "stress_xx", 2), OK);
+    plotted_particles_select_from_frame(&c, &f, &r.projection);
     struct view v;
-    assert_int_equal(view_make(&v, &r, &c, 1), OK);
+    assert_int_equal(view_make_for_request(&v, &r, &c, 1), OK);
     assert_true(v.low == -1000 && v.high == 2000 && v.beyond[0] == 400 && v.beyond[1] == 299);
     r.range[1] = "2 mm";
-    assert_int_equal(view_make(&v, &r, &c, 1), REFUSED);
+    assert_int_equal(view_make_for_request(&v, &r, &c, 1), REFUSED);
     r.range[0] = NULL;
-    assert_int_equal(view_make(&v, &r, &c, 1), OK);
+    assert_int_equal(view_make_for_request(&v, &r, &c, 1), OK);
     assert_int_equal(v.beyond[0] + v.beyond[1], 3); /* 0.2 %, at least 3, of 1000 particles, of either sign */
     plotted_particles_free(&c), memory_free(value), frame_free(&f);
 }
@@ -276,9 +276,9 @@ static double end_of_colours(const char *field, int spots, double spot, int rest
     float *value = NEW("test.value", f.n, float);
     for (int64_t i = 0; i < f.n; i++) value[i] = (float)(i < spots ? spot : i >= f.n - rest ? 0 : 1 + 1e-3 * (double)i);
     of.value = value;
-    assert_int_equal(plot_field_find(&of.field, field, 2), OK);
-    plotted_particles_make(&c, &f, &of);
-    view_set_field(&v, of.field, &c, 1);
+    assert_int_equal(plot_field_find_by_name(&of.field, field, 2), OK);
+    plotted_particles_select_from_frame(&c, &f, &of);
+    view_set_field_and_colour_range(&v, of.field, &c, 1);
     plotted_particles_free(&c), memory_free(value), frame_free(&f);
     return v.high;
 }
@@ -307,7 +307,7 @@ static void stretched_bodies_are_closed(void **state)
         int painted, blank;
         block_deform(&f, H[k % 3], k == 3 ? 3 * SPACING : 0);
         for (int64_t i = 0; i < f.n && k == 3; i++) f.damage[i] = fabsf(f.X[1][i]) < 1.1 * SPACING ? 0.4F : 0;
-        plotted_particles_make(&c, &f, NULL);
+        plotted_particles_select_from_frame(&c, &f, NULL);
         pixels_count(&c, 5 * SPACING, &painted, &blank);
         if (k < 3) assert_int_equal(blank, 0);
         /* the gap is 3 spacings of 10 wide, less the margins of both its faces */
@@ -329,8 +329,8 @@ static void stretched_solids_are_closed(void **state)
     struct plotted_particles c;
     int painted, blank;
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = 0.5F * f.X[0][i];
-    plotted_particles_make(&c, &f,
-                           &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
+    plotted_particles_select_from_frame(
+        &c, &f, &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
     pixels_count(&c, 10 * SPACING, &painted, &blank);
     const double body = 15.0 * 8 / (20 * 20) * PIXELS * PIXELS;
     assert_true(painted >= 0.99 * body && painted < 1.06 * body);
@@ -367,7 +367,7 @@ static void slits_are_lines_of_the_body(void **state)
         int line = 0, blank = 0;
         for (int64_t i = 0; i < f.n && open; i++)
             if (f.X[0][i] < 0 && f.X[1][i] > 0) f.u[1][i] = (float)(-0.3 * f.X[0][i]);
-        plotted_particles_make(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
+        plotted_particles_select_from_frame(&c, &f, &(struct projection){.normal = -1, .scene = &scene});
         const struct view v = {.from = {-15e-3, -15e-3}, .to = {15e-3, 15e-3}, .top = 1, .notches = 1, .notch = &slit};
         raster_paint_particles(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
         for (int q = 0; q < PIXELS * PIXELS; q++) {
@@ -401,13 +401,13 @@ static void rigid_bodies_are_shown(void **state)
         struct plotted_particles c;
         int rigid = 0, beside = 0;
         f.dim = dim;
-        plotted_particles_make(&c, &f,
-                               &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
+        plotted_particles_select_from_frame(
+            &c, &f, &(struct projection){.outside = true, .camera = camera_along_axis(2, 1), .normal = -1});
         struct rigid_shown *r = NEW("test.rigid", 1, struct rigid_shown);
         *r = (struct rigid_shown){
             .shape = &shape,
             .at = {.centre = {2e-3, 1e-3, 0}, .x = {8e-3, 0, 0}, .turn = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}}};
-        r->bounded = region_bounding_box(&shape, dim, r->low, r->high);
+        r->bounded = region_compute_bounding_box_if_finite(&shape, dim, r->low, r->high);
         c.dim = dim, c.rigids = 1, c.rigid = r;
         assert_true(fabs(view_make_around_particles(&c, 1).to[0] - 9e-3) < 1.1 * SPACING);
         const struct view v = {.from = {-10e-3, -10e-3}, .to = {10e-3, 10e-3}, .top = 1};

@@ -139,7 +139,7 @@ static void strain_energy_of_material_points(void **state)
         real expected = whole * (1 - 2.5 / (real)b.p.n);
         assert_near(points_strain_energy(&b.p, &m, &partial), expected, 1e-12 * whole);
         b.p.kind[0] = KIND_PD; /* its energy is in bonds */
-        particles_update_kind_lists(&b.p);
+        particles_rebuild_lists_by_kind(&b.p);
         assert_near(points_strain_energy(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
         memory_free(index);
         body_free(&b);
@@ -153,19 +153,19 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics w;
     body_make(&b, 2, (const int[]){10, 10});
     diagnostics_make(&w);
-    diagnostics_record_breaks(&w, &b.p, 3.015, 0, 1);
+    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
     b.p.flag[0] = FLAG_LOST_BOND; /* of a bond with a driven particle */
-    diagnostics_record_breaks(&w, &b.p, 3.015, 2, 2);
+    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
     b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
-    diagnostics_record_breaks(&w, &b.p, 3.015, 4, 3);
+    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 4, 3);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_near(w.break_position[1], 4, ROUND_OFF);
     b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
-    diagnostics_record_breaks(&w, &b.p, 3.015, 2, 4);
+    diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 4);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_int_equal(w.bonds_broken, 8);
@@ -173,13 +173,13 @@ static void first_break_is_booked_once(void **state)
     assert_int_equal(w.break_ends, 1);
     assert_true(isnan(w.driven_time));
     b.p.flag[0] |= FLAG_DRIVEN;
-    assert_true(diagnostics_record_breaks(&w, &b.p, 3.015, 2, 5));
-    assert_false(diagnostics_record_breaks(&w, &b.p, 3.015, 2, 6));
+    assert_true(diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 5));
+    assert_false(diagnostics_record_broken_bonds(&w, &b.p, 3.015, 2, 6));
     assert_near(w.driven_time, 5, 0);
 
     struct diagnostics other;
     diagnostics_make(&other);
-    assert_false(diagnostics_record_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
+    assert_false(diagnostics_record_broken_bonds(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
     assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
     assert_near(other.break_position[0], 8.5, ROUND_OFF);
 
@@ -289,7 +289,7 @@ static void energies_of_yielded_points(void **state)
         if (i != 3) elastic += volume * (0.5 / E * squares + (1 + nu) / E * xy * xy);
         plastic += 1.2 * volume * work;
     }
-    particles_update_kind_lists(&p);
+    particles_rebuild_lists_by_kind(&p);
     assert_close(points_strain_energy(&p, m, NULL), elastic, 1e-12);
     assert_close(points_plastic_work(&p, m, NULL), plastic, 1e-12);
     particles_free(&p);

@@ -98,8 +98,8 @@ static void step_bar_fronts_and_plateaus(void **state)
         assert_near(f[0].behind, want[k].behind, 1e-12);
         assert_near(exact_solution_at(&e, f[0].position + 1e-6 * f[0].ahead, want[k].t).stress, f[0].before, 1e-12);
         assert_near(exact_solution_at(&e, f[0].position - 1e-6 * f[0].ahead, want[k].t).stress, f[0].behind, 1e-12);
-        assert_int_equal(exact_constant_stress_range(&e, want[k].t, EXACT_PLATEAU, &from, &to), want[k].plateau);
-        assert_false(exact_constant_stress_range(&e, want[k].t, EXACT_PRECURSOR, &(real){0}, &(real){0}));
+        assert_int_equal(exact_find_constant_stress_range(&e, want[k].t, EXACT_PLATEAU, &from, &to), want[k].plateau);
+        assert_false(exact_find_constant_stress_range(&e, want[k].t, EXACT_PRECURSOR, &(real){0}, &(real){0}));
         if (!want[k].plateau) continue;
         assert_near(from, want[k].from, 1e-12);
         assert_near(to, want[k].to, 1e-12);
@@ -141,11 +141,11 @@ static void plastic_bar_jumps(void **state)
             assert_near((exact_solution_at(&e, X, t + h).displacement - exact_solution_at(&e, X, t - h).displacement) /
                             (2 * h),
                         exact_solution_at(&e, X, t).velocity, 1e-12);
-        assert_true(exact_constant_stress_range(&e, t, EXACT_PRECURSOR, &from, &to));
+        assert_true(exact_find_constant_stress_range(&e, t, EXACT_PRECURSOR, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4); /* the windows of the published figures, to a tenth of a
                                                             * spacing */
         assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4); /* of 5e-3 */
-        assert_true(exact_constant_stress_range(&e, t, EXACT_PLATEAU, &from, &to));
+        assert_true(exact_find_constant_stress_range(&e, t, EXACT_PLATEAU, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.55, 5e-4);
         assert_near(side > 0 ? to : 1 - from, 0.9, 5e-4);
         assert_true(isnan(exact_solution_at(&e, 0.5, 0.0101).stress) &&
@@ -253,7 +253,7 @@ static void flux_is_the_force_across(void **state)
     bar.n = 40, bar.order = NEW("order", 40, int32_t), bar.rank = NEW("rank", 40, int32_t);
     for (int i = 0; i < 40; i++) bar.order[i] = bar.rank[i] = i;
     struct observed_run o = {.part = p, .bonds = &c.bonds, .thickness = c.source.family.section};
-    bar_compute_bond_flux_stress(&bar, &o, flux);
+    bar_probe_compute_bond_flux_stress(&bar, &o, flux);
 
     real modulus = family_micro_modulus(&c.source.family, &c.material[0]);
     for (int k = 0; k < 40; k++) {
@@ -346,8 +346,8 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     }
     b->o.t = b->o.t_velocity = t;
     probes_visit_results(&s, &b->o, keep, f);
-    probes_sample_begin(&s, &b->o);
-    assert_int_equal(s.columns, bar_result_count(form));
+    probes_begin_sample_before_step(&s, &b->o);
+    assert_int_equal(s.columns, bar_probe_value_count(form));
     for (int k = 0; k < s.columns; k++) { /* columns are the figures */
         real value = figure(f, strchr(s.column[k].name, '.') + 1);
         assert_true(isnan(value) ? isnan(s.value[k]) : value == s.value[k]);

@@ -69,7 +69,7 @@ static void probes_read_particles_and_regions(void **state)
         {.name = "patch", .kind = PROBE_PATCH},
     };
     assert_ok(probes_make(&s, request, COUNT_OF(request), &o));
-    probes_sample_begin(&s, &o);
+    probes_begin_sample_before_step(&s, &o);
     int64_t i = particle_at(&b, 3.5, 7.5, 0);
     assert_near(s.value[column_named(&s, "gauge.displacement_x")], 0.035, ROUND_OFF);
     assert_near(s.value[column_named(&s, "gauge.velocity_y")], 2, 0);
@@ -149,7 +149,7 @@ static void probe_of_a_support(void **state)
     a.saving = false;
     assert_ok(probes_make(&again, &request, 1, &o));
     assert_ok(probes_save_or_load(&again, &a));
-    probes_sample_begin(&again, &o);
+    probes_begin_sample_before_step(&again, &o);
     assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
     assert_near(again.value[column_named(&again, "reaction.displacement_y")], -0.75, 0);
     probes_visit_results(&again, &o, figure_keep, &l);
@@ -180,7 +180,7 @@ static void probe_of_two_supports(void **state)
     struct probe_request request = {.name = "r", .kind = PROBE_REACTION, .boundary = "grip"};
     assert_ok(probes_make(&s, &request, 1, &o));
     probes_update_every_step(&s, &o);
-    probes_sample_begin(&s, &o);
+    probes_begin_sample_before_step(&s, &o);
     assert_near(s.value[column_named(&s, "r.force_x")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.force_y")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.displacement_x")], (3 * 0.4 - 5 * 0.2) / 8, ROUND_OFF);
@@ -232,15 +232,15 @@ static void probe_of_a_turning_body(void **state)
         b.p.x[0][i] = 1.5 + c * x - n * y, b.p.x[1][i] = 1.5 + n * x + c * y;
         b.p.v[0][i] = -1.1 * (b.p.x[1][i] - 1.5), b.p.v[1][i] = 1.1 * (b.p.x[0][i] - 1.5);
     }
-    probes_sample_begin(&s, &o);
-    probes_sample_end(&s, &o, &(struct velocity_time){0, 1});
+    probes_begin_sample_before_step(&s, &o);
+    probes_complete_sample_after_step(&s, &o, &(struct velocity_time){0, 1});
     assert_near(s.value[column_named(&s, "turn.angle")], 0.3, 1e-12);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 9, ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.shear_max")], sqrt(5), ROUND_OFF);
     assert_near(s.value[column_named(&s, "turn.angular_momentum_error")], 0.1, 1e-12);
     assert_near(s.value[column_named(&s, "turn.kinetic_energy_error")], 0.21, 1e-12);
     b.p.stress[0][4] = -3, b.p.stress[1][4] = -1, b.p.out_of_plane[7] = -4; /* now the largest is in the plane */
-    probes_sample_begin(&s, &o);
+    probes_begin_sample_before_step(&s, &o);
     assert_near(s.value[column_named(&s, "turn.stress_max")], 2 + sqrt(5), ROUND_OFF);
     probes_free(&s);
     body_free(&b);
@@ -261,8 +261,8 @@ static void probe_of_a_tip(void **state)
     assert_ok(probes_make(&s, request, 2, &o));
     for (int k = 0; k < 4; k++) hurt(&b, 10.5 + k, 10.5, 0);
     hurt(&b, 30.5, 5.5, 0), hurt(&b, 31.5, 5.5, 0);
-    tips_update(&t, &b.p, &b.c, 2);
-    probes_sample_begin(&s, &o);
+    tips_update_from_damage(&t, &b.p, &b.c, 2);
+    probes_begin_sample_before_step(&s, &o);
     assert_near(s.value[column_named(&s, "tip.growth")], 3.5, ROUND_OFF);
     assert_near(s.value[column_named(&s, "right.x")], 31.5, ROUND_OFF);
     probes_visit_results(&s, &o, figure_keep, &l);
@@ -289,8 +289,8 @@ static void bar_bond(struct bar *bar)
     bar->stretch = 1;
     struct bond_source source = {
         .cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
-    family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
-    particles_update_kind_lists(&bar->b.p);
+    family_make_on_lattice(&source.family, SPACE_LINE, 1, 3.015, 1);
+    particles_rebuild_lists_by_kind(&bar->b.p);
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
 }
 
@@ -454,7 +454,7 @@ static void probe_of_a_break(void **state)
     for (int64_t i = 0; i < p->n; i++)
         for (int64_t j = 0; j < p->n; j++)
             if (i != j && llabs(i - j) <= 3) half_energy += full * (real)llabs(i - j) / 12; /* 2 (1 + 2 + 3) = 12 */
-    probes_sample_begin(&s, &o);
+    probes_begin_sample_before_step(&s, &o);
     assert_near(s.value[column_named(&s, "energy.strain")], half_energy, 1e-12 * half_energy);
     bar_probes_free(&s, &bar);
 }

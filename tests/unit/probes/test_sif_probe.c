@@ -29,7 +29,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
     p->corner[0][0][0] = -WIDTH, p->corner[0][0][1] = tip[1], p->corner[0][1][0] = tip[0], p->corner[0][1][1] = tip[1];
     p->corner[1][0][0] = tip[0] + 10, p->corner[1][1][0] = tip[0] + 10;
     p->corner[1][0][1] = 10, p->corner[1][1][1] = 50;
-    tips_make(&p->tips, &p->body.p, &p->body.c, p->crack, cracks, 1, 1);
+    tips_make_at_precrack_ends(&p->tips, &p->body.p, &p->body.c, p->crack, cracks, 1, 1);
     p->o = (struct observed_run){.part = &p->body.p,
                                  .cells = &p->body.c,
                                  .tips = &p->tips,
@@ -52,7 +52,7 @@ static void plate_free(struct plate *p)
 static void plate_field(struct plate *k, const real K[MODES], const real *place, real v, bool velocities)
 {
     struct particles *p = &k->body.p;
-    const struct crack_medium m = crack_medium_of(&k->material[0], SPACE_PLANE_STRAIN);
+    const struct crack_medium m = crack_medium_of_material(&k->material[0], SPACE_PLANE_STRAIN);
     for (int64_t i = 0; i < p->n; i++) {
         const real x[2] = {p->X[0][i] - place[0], p->X[1][i] - place[1]};
         real u[2] = {0}, w[2] = {0};
@@ -115,8 +115,8 @@ static void tip_at_rest(void **state)
         assert_ok(probes_make(&s, cracks ? request : request + 2, cracks ? 3 : 1, &p.o));
         assert_string_equal(s.column[s.columns - 4].name, "bare.K_I");
         assert_string_equal(s.column[s.columns - 4].unit, "Pa m^(1/2)");
-        probes_sample_begin(&s, &p.o);
-        probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});
+        probes_begin_sample_before_step(&s, &p.o);
+        probes_complete_sample_after_step(&s, &p.o, &(struct velocity_time){0, 1});
         const char *const names[] = {"bare", "told", "found"};
         for (int k = 0; k < (cracks ? 3 : 1); k++) {
             char name[4][32];
@@ -207,10 +207,10 @@ static void tip_in_motion(void **state)
         struct probes *now = round == 0 ? &s : &again;
         plate_field(&p, K, tip->place, v, false);
         plate_field(&p, K, before, v, true);
-        probes_store_motion(now, &p.o);
+        probes_store_motion_before_step(now, &p.o);
         plate_field(&p, K, after, v, true);
-        probes_sample_end(now, &p.o, &(struct velocity_time){p.o.t + 0.5 * dt, 1});
-        const struct crack_medium m = crack_medium_of(&p.material[0], SPACE_PLANE_STRAIN);
+        probes_complete_sample_after_step(now, &p.o, &(struct velocity_time){p.o.t + 0.5 * dt, 1});
+        const struct crack_medium m = crack_medium_of_material(&p.material[0], SPACE_PLANE_STRAIN);
         const real A[MODES] = {crack_universal_function(&m, MODE_I, v), crack_universal_function(&m, MODE_II, v)};
         assert_near(value_of(now, "sif.K_I"), K[0], 5); /* 0.14 %; a stationary crack would be 5 % off */
         assert_near(value_of(now, "sif.K_II"), K[1], 5);
@@ -224,7 +224,7 @@ static void tip_in_motion(void **state)
     }
     assert_exact(value_of(&again, "sif.K_II"), value_of(&s, "sif.K_II"));
     tip->place[0] = 60; /* 12 from the edge */
-    probes_sample_end(&s, &p.o, &(struct velocity_time){p.o.t, 1});
+    probes_complete_sample_after_step(&s, &p.o, &(struct velocity_time){p.o.t, 1});
     assert_true(isnan(value_of(&s, "sif.K_I")));
     probes_free(&again);
     probes_free(&s);
@@ -243,7 +243,7 @@ static void tip_that_turned(void **state)
     struct crack_tip *tip = &p.tips.tip[0];
     for (int k = 1; k <= 20; k++) {
         tip->place[0] = 30 + 0.6 * k, tip->place[1] = 30 + 0.6 * k, tip->growth = 0.6 * sqrt(2) * k;
-        probes_sample_end(&s, &p.o, &(struct velocity_time){0, 1});
+        probes_complete_sample_after_step(&s, &p.o, &(struct velocity_time){0, 1});
     }
     const real *trail = s.probe[0].memory.trail[0];
     assert_near(atan2(tip->place[1] - trail[1], tip->place[0] - trail[0]), pi / 4, 1e-12);

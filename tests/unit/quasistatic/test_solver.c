@@ -54,9 +54,9 @@ static void solve(struct solution *a, const char *text, ...)
     va_end(list);
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", override, n) != OK) fail_msg("%s", status_message());
-    a->made = engine_make(&a->e, &a->s, NULL);
+    a->made = engine_set_up_run(&a->e, &a->s, NULL);
     a->e.report->quiet = true;
-    a->ran = a->made == OK ? engine_run(&a->e) : a->made;
+    a->ran = a->made == OK ? engine_run_to_end(&a->e) : a->made;
 }
 
 static void solved(const struct solution *a)
@@ -70,7 +70,7 @@ static void solved(const struct solution *a)
 
 static void solution_free(struct solution *a)
 {
-    engine_free(&a->e);
+    engine_free_run(&a->e);
     scene_free(&a->s);
 }
 
@@ -84,7 +84,7 @@ static int64_t at(const struct solution *a, real x, real y)
 {
     const struct particles *p = &a->e.part;
     const real X[2] = {x, y};
-    const int64_t nearest = particles_nearest(p, X);
+    const int64_t nearest = particles_index_nearest_to_position(p, X);
     real least = 0;
     for (int d = 0; d < p->dim; d++) least += square(p->X[d][nearest] - X[d]);
     assert_true(least < square(0.51 * a->s.spacing) * p->dim);

@@ -47,10 +47,10 @@ static void groups_cover_the_body(void **state)
         double area = 0, moment[2] = {0}, wanted[2] = {0};
         int64_t members = 0, busy = 0;
         f.levels = levels;
-        film_set_form_groups(f.set, &f);
+        film_particle_set_form_groups(f.set, &f);
         const struct film_set *s = f.set;
         for (int64_t g = 0; g < s->groups; g++) {
-            const double size = film_group_size(s, &f, g);
+            const double size = film_edge_length_of_group(s, &f, g);
             const int32_t n = s->first[g + 1] - s->first[g];
             members += n;
             area += size * size;
@@ -88,7 +88,7 @@ static void groups_do_not_mix(void **state)
         s->body[i] = i / NX >= 11;
         s->history[i] = (i % NX + i / NX) % 50 > 30;
     }
-    film_set_form_groups(s, &f);
+    film_particle_set_form_groups(s, &f);
     for (int64_t g = 0; g < s->groups; g++)
         for (int32_t k = s->first[g]; k < s->first[g + 1]; k++) {
             const int32_t i = s->member[k], j = s->member[s->first[g]];
@@ -106,7 +106,7 @@ static void budgets_are_kept(void **state)
     for (int64_t budget = 1 << 20; budget > 2000; budget /= 2) {
         struct film f;
         plate_make(&f);
-        film_fit_to_budget(&f, budget);
+        film_select_within_byte_budget(&f, budget);
         assert_true(film_bytes(&f) <= budget);
         assert_true(f.frame[0].used && f.frame[FRAMES - 1].used);
         assert_true(film_bytes(&f) <= before);

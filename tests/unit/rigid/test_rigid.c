@@ -25,11 +25,11 @@ static const struct region shape = {.n = 3, .solid = solids};
 static void check_point(const real *x)
 {
     real normal[DIM_MAX], at[DIM_MAX];
-    const real distance = region_distance(&shape, x, 3, normal);
+    const real distance = region_signed_distance(&shape, x, 3, normal);
     assert_near(dot(normal, normal, 3), 1, 1e-12);
     for (int d = 0; d < 3; d++) at[d] = x[d] - distance * normal[d];
     real other[DIM_MAX];
-    if (distance > 0) assert_near(region_distance(&shape, at, 3, other), 0, 1e-12);
+    if (distance > 0) assert_near(region_signed_distance(&shape, at, 3, other), 0, 1e-12);
     for (int k = 0; k < 500 && distance > 0; k++) {
         const real a = 0.37 * k, b = acos(1 - 2 * (k + 0.5) / 500);
         const real on[] = {x[0] + 0.999 * distance * sin(b) * cos(a), x[1] + 0.999 * distance * sin(b) * sin(a),
@@ -60,7 +60,7 @@ static void test_cavity(void **state)
             const real r = out ? 1.35 : 0.4;
             real X[DIM_MAX], normal[DIM_MAX];
             for (int d = 0; d < DIM_MAX; d++) X[d] = hollow[1].centre[d] + r * way[k][d];
-            assert_near(region_distance(&cavity, X, 3, normal), 1.3 - r, 1e-12);
+            assert_near(region_signed_distance(&cavity, X, 3, normal), 1.3 - r, 1e-12);
             for (int d = 0; d < DIM_MAX; d++) assert_near(normal[d], -way[k][d], 1e-12);
         }
 }
@@ -109,8 +109,9 @@ static void test_surface(void **state)
         const struct region region = {.n = 1, .solid = body[k].solid};
         struct rigid_surface s;
         real a[DIM_MAX], b[DIM_MAX];
-        if (!region_bounding_box(&region, body[k].dim, a, b)) memcpy(a, low, sizeof a), memcpy(b, high, sizeof b);
-        rigid_surface_make(&s, &region, body[k].dim, a, b);
+        if (!region_compute_bounding_box_if_finite(&region, body[k].dim, a, b))
+            memcpy(a, low, sizeof a), memcpy(b, high, sizeof b);
+        rigid_surface_approximate_by_polygons(&s, &region, body[k].dim, a, b);
         const real size = body[k].size * (body[k].solid == &ball ? pi : 1);
         assert_near(enclosed(&s) / size, 1, body[k].within);
         for (int64_t q = 0; q < s.points && body[k].solid == &ball; q++) {
@@ -138,7 +139,7 @@ static void test_surface_of_a_plane_afar(void **state)
         assert_false(rigid_compute_shown_box(&region, 3, low, high));
         if (k > 0) assert_near(low[2], -2.4, 1e-12);
         assert_near(high[1], 3.4, 1e-12);
-        rigid_surface_make(&s, &region, 3, low, high);
+        rigid_surface_approximate_by_polygons(&s, &region, 3, low, high);
         for (int64_t q = 0; q < s.points; q++) on_face += fabs(s.X[q * DIM_MAX + 2] - face) < 1e-3;
         assert_true(on_face > 60); /* of at least 10 x 12 cells, without those at the rim */
         rigid_surface_free(&s);
@@ -178,11 +179,11 @@ static void test_tumbling(void **state)
     struct rigid_body r = {.name = "brick"};
     assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
     memcpy(r.angular, (const real[]){0.01, 8.5, 0.01}, sizeof r.angular);
-    rigid_move(&r, 0, 1e-3, 1e-3);
+    rigid_advance_one_step(&r, 0, 1e-3, 1e-3);
     const real before = rigid_kinetic_energy(&r);
     real least = INFINITY;
     for (int k = 0; k < 30000; k++) {
-        rigid_move(&r, 0, 1e-3, 1e-3);
+        rigid_advance_one_step(&r, 0, 1e-3, 1e-3);
         least = real_min(least, r.turn[1][1]);
         assert_near(rigid_kinetic_energy(&r), before, 1e-5 * before);
     }
@@ -208,16 +209,16 @@ static void test_driven(void **state)
     for (int k = 0; k < 1000; k++) {
         r.force[0] = 4, r.moment[2] = 2;
         driven.force[0] = -5 - 3 * k * 2e-3;
-        rigid_add_drive_work(&driven);
-        rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, k == 0 ? 1e-3 : 2e-3);
-        rigid_move(&driven, (k + 0.5) * 2e-3, 2e-3, 2e-3);
+        rigid_add_work_of_prescribed_motion(&driven);
+        rigid_advance_one_step(&r, (k + 0.5) * 2e-3, 2e-3, k == 0 ? 1e-3 : 2e-3);
+        rigid_advance_one_step(&driven, (k + 0.5) * 2e-3, 2e-3, 2e-3);
     }
     assert_near(r.x[0], 1 + 0.5 * 2 * 4, 1e-9);
     assert_near(atan2(r.turn[1][0], r.turn[0][0]), 0.5 * 2 / r.inertia[2][2] * 4, 1e-9);
     assert_near(driven.x[0], 1 + 3 * 1.5, 1e-9);
     /* Integral of (5 + 3 t) v over 2 s, v = 3 t up to 1 s, then 3; by the trapezoidal rule. */
-    assert_near(rigid_total_work(&driven), 39, 1e-3);
-    assert_near(rigid_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
+    assert_near(rigid_work_of_drive_and_weight(&driven), 39, 1e-3);
+    assert_near(rigid_signed_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
 /* A brick in free 3D motion: the velocity of its points is the rate of their positions; the kinetic energy increases by
@@ -238,13 +239,13 @@ static void test_points_move(void **state)
         if (k == 0)
             for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
         rigid_present_position_of_point(&r, X, before);
-        rigid_move(&r, 0, dt, dt);
+        rigid_advance_one_step(&r, 0, dt, dt);
         rigid_present_position_of_point(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
         for (int d = 0; d < 3 && k > 0; d++) /* the kinetic energy is that before the last step's motion */
             work += (force[d] * r.increment[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
     }
-    rigid_velocity_at_point(
+    rigid_compute_velocity_at_point(
         &r, (const real[]){0.5 * (before[0] + after[0]), 0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])},
         v);
     for (int d = 0; d < 3; d++) assert_near((after[d] - before[d]) / dt, v[d], 3e-3); /* the centre is dt/2 older */
@@ -269,11 +270,11 @@ static void test_kick(void **state)
                            .spin = {0.6, -1.3, 0.9}};
     const real force = 4 * 0.3 + 3 * 0.2 + 2.5 * 0.5, weight = 0.7 * 0.3 - 1.1 * 0.2 - 9 * 0.5;
     const real moment = 2 * 0.6 - 0.4 * 1.3 - 1.7 * 0.9;
-    assert_close(rigid_leapfrog_energy_gap(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
+    assert_close(rigid_half_step_kinetic_energy_change(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
     r.turns = false;
-    assert_close(rigid_leapfrog_energy_gap(&r, 0.03), 0.015 * (force + weight), 1e-14);
+    assert_close(rigid_half_step_kinetic_energy_change(&r, 0.03), 0.015 * (force + weight), 1e-14);
     r.motion = RIGID_DRIVEN;
-    assert_exact(rigid_leapfrog_energy_gap(&r, 0.03), 0);
+    assert_exact(rigid_half_step_kinetic_energy_change(&r, 0.03), 0);
 }
 
 /* ---- in the engine ----------------------------------------------------------------------------------------------- */
@@ -347,8 +348,9 @@ static void test_ramp(void **state)
     assert_ok(rigid_make(&r, &b, 2, 0, (const real[]){3, -1.3, 0}, 1));
     for (int k = 0; k < 1000; k++) {
         real way[DIM_MAX];
-        rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, 2e-3);
-        assert_near(rigid_prescribed_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
+        rigid_advance_one_step(&r, (k + 0.5) * 2e-3, 2e-3, 2e-3);
+        assert_near(rigid_compute_prescribed_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2),
+                    1e-9);
         for (int d = 0; d < 2; d++) assert_near(way[d], r.x[d] - r.centre[d], 1e-9);
     }
 }

@@ -35,10 +35,10 @@ static void lists_of_others_are_read(void **state)
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
         s.body[0].velocity[0] = 1, s.body[0].velocity[1] = 5;
-        assert_ok(particle_list_read_head(&head, name, NULL, 2));
+        assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
         assert_true(head.material && head.mass);
         assert_string_equal(head.note, k == 0 ? "id, z not read" : k == 1 ? "id not read" : "z not read");
-        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 1, 1e-15);
@@ -69,9 +69,9 @@ static void scene_says_unit_and_columns(void **state)
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
         list_written(&s, name, c[k].text);
         s.body[0].form = (struct particle_list_form){1e-3, c[k].columns};
-        assert_ok(particle_list_read_head(&s.body[0].list, name, &s.body[0].form, 2));
+        assert_ok(particle_list_read_column_names(&s.body[0].list, name, &s.body[0].form, 2));
         assert_true(s.body[0].list.material && s.body[0].list.volumes);
-        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 2e-3, 1e-15);
@@ -86,7 +86,7 @@ static void scene_says_unit_and_columns(void **state)
     char name[] = "said.txt", h5[] = "said.h5";
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_written(&s, name, "500 2 3\n");
-    assert_refused(particle_list_read_head(&head, name, &(struct particle_list_form){0, "x,volume"}, 2),
+    assert_refused(particle_list_read_column_names(&head, name, &(struct particle_list_form){0, "x,volume"}, 2),
                    "said.txt: columns: [x,volume] lack y");
     struct particle_list l;
     assert_refused(particle_list_read(&l, name, &(struct particle_list_form){0, "x,y"}, 2),
@@ -115,9 +115,9 @@ static void spacing_of_volumes(void **state)
         snprintf(whole, sizeof whole, text, k ? "1.0005" : "1.0015");
         list_written(&s, name, whole);
         if (k)
-            assert_refused(fill_particles(&p, &s.scene, NULL, 0), "");
+            assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "");
         else
-            assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+            assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         if (!k) particles_free(&p);
         remove(name);
     }
@@ -146,9 +146,9 @@ static void lists_of_programs_are_read(void **state)
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
-        assert_ok(particle_list_read_head(&head, name, NULL, 2));
+        assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
         assert_true(head.material && head.block == (k != 1 && k != 2) && head.unnamed == (k == 4));
-        assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+        assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
         assert_close(p.X[0][0], 0.5, 1e-15);
         assert_close(p.X[1][0], 1, 1e-15);
@@ -170,14 +170,15 @@ static void volumes_have_a_default(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_written(&s, name, "x,y,colour\n0,0,red\n0.5,0,blue\n");
     s.scene.thickness = 0.1;
-    assert_ok(particle_list_read_head(&head, name, NULL, 2));
+    assert_ok(particle_list_read_column_names(&head, name, NULL, 2));
     assert_string_equal(head.note, "colour not read; no volumes: each that of the spacing");
     assert_true(!head.material && !head.mass);
-    assert_ok(fill_particles(&p, &s.scene, NULL, 0));
+    assert_ok(fill_bodies_with_particles(&p, &s.scene, NULL, 0));
     assert_close(p.volume0[1], 0.5 * 0.5 * 0.1, 1e-15);
     particles_free(&p);
     s.scene.spacing = 0;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "has no column volume, and there is no particles.spacing");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0),
+                   "has no column volume, and there is no particles.spacing");
     remove(name);
 }
 

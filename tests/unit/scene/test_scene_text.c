@@ -129,7 +129,7 @@ static char *help_of(const char *key, status expected)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
-    assert_int_equal(scene_print_help(out, key), expected);
+    assert_int_equal(scene_print_help_on_keys(out, key), expected);
     fclose(out);
     return text;
 }
@@ -150,7 +150,7 @@ static void test_help(void **state)
     char *text = NULL;
     size_t length;
     FILE *out = open_memstream(&text, &length);
-    scene_print_manual_keys(out);
+    scene_print_keys_for_manual_page(out);
     fclose(out);
     assert_non_null(strstr(text, ".B particles.horizon\n"));
     free(text);

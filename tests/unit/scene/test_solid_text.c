@@ -142,7 +142,7 @@ static int64_t filled(const char *regions, const char *shape, int dim)
     struct particles p;
     scene_text(text, sizeof text, dim, regions, shape);
     struct scene s = read_ok(text, NULL, 0);
-    if (fill_particles(&p, &s, NULL, 0) != OK) fail_msg("%s in\n%s", status_message(), text);
+    if (fill_bodies_with_particles(&p, &s, NULL, 0) != OK) fail_msg("%s in\n%s", status_message(), text);
     const int64_t n = p.n;
     particles_free(&p);
     scene_free(&s);
@@ -179,7 +179,7 @@ static void test_filled_symmetrically(void **state)
                "[{disc: {centre: [1.1, 0.3], radius: 10}}, {subtract: {box: {from: [7.1, -0.2], to: [12, 0.8]}, "
                "pattern: {ring: {count: 12, centre: [1.1, 0.3]}}}}]");
     struct scene s = read_ok(text, NULL, 0);
-    assert_int_equal(fill_particles(&p, &s, NULL, 0), OK);
+    assert_int_equal(fill_bodies_with_particles(&p, &s, NULL, 0), OK);
     for (int64_t i = 0; i < p.n; i++) quarter[(p.X[0][i] > 1.1) + 2 * (p.X[1][i] > 0.3)]++;
     for (int k = 1; k < 4; k++) assert_int_equal(quarter[k], quarter[0]);
     particles_free(&p);

@@ -28,12 +28,12 @@ static void spacings_divide_lengths(void **state)
     (void)state;
     struct scene s;
     read_sound(&s, PLANE "body: {box: {from: [0, 0], to: [60, 40]}}\ncracks: [{from: [-1, 20], to: [30, 20]}]\n");
-    assert_true(fabs(spacing_that_fits_lattice(&s, 1, false) - 1) < 1e-12);
+    assert_true(fabs(spacing_that_fits_box_edges(&s, 1, false) - 1) < 1e-12);
     /* 60, 40, 30 and 20: a multiple of 10. */
-    assert_true(fabs(spacing_that_fits_lattice(&s, 0.99, false) - 10.0 / 11) < 1e-12);
-    assert_true(fabs(spacing_that_fits_lattice(&s, 3.4, true) - 10.0 / 3) <
+    assert_true(fabs(spacing_that_fits_box_edges(&s, 0.99, false) - 10.0 / 11) < 1e-12);
+    assert_true(fabs(spacing_that_fits_box_edges(&s, 3.4, true) - 10.0 / 3) <
                 1e-12); /* 60 and 40 over 20/3: 9 and 6 pairs */
-    assert_true(fabs(spacing_that_fits_lattice(&s, 1e-3, true) - 1e-3) < 1e-12);
+    assert_true(fabs(spacing_that_fits_box_edges(&s, 1e-3, true) - 1e-3) < 1e-12);
     scene_free(&s);
 }
 
@@ -45,7 +45,7 @@ static void a_disc_has_no_edges(void **state)
     struct scene s;
     read_sound(&s, PLANE "method: pd\nbodies:\n  - {name: a, shape: {disc: {centre: [-1, 0], radius: 0.5}}}\n"
                          "  - {name: b, shape: {box: {from: [0, 0], to: [1, 0.7071]}}}\n");
-    assert_true(spacing_that_fits_lattice(&s, 0.3, false) == 0.3);
+    assert_true(spacing_that_fits_box_edges(&s, 0.3, false) == 0.3);
     scene_free(&s);
 }
 

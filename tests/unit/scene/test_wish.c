@@ -25,7 +25,7 @@ static status wish_of(struct pilot_wish *w, const char *text)
     assert_true(file >= 0);
     assert_int_equal(write(file, text, strlen(text)), strlen(text));
     close(file);
-    const status read = scene_read_or_pilot_wish(&s, w, path, NULL, 0);
+    const status read = scene_read_or_list_pilot_requirements(&s, w, path, NULL, 0);
     assert_int_equal(unlink(path), 0);
     if (read == OK && w->wanted) assert_null(s.path);
     if (read == OK && !w->wanted) scene_free(&s);

@@ -216,7 +216,7 @@ static int solve_with(struct multigrid *m, const struct body *b, const struct ve
     int k = 0;
     for (int c = 0; c < b->dim; c++) memcpy(r.of[c], load->of[c], (size_t)b->a.n * sizeof(real));
     for (; k < MOST && product(b, &r, &r) > 1e-16 * product(b, load, load); k++) {
-        multigrid_apply(m, r.of, z.of);
+        multigrid_apply_v_cycle(m, r.of, z.of);
         const real next = product(b, &r, &z), beta = k > 0 ? next / rz : 0;
         rz = next;
         for (int c = 0; c < b->dim; c++)
@@ -355,8 +355,8 @@ static void operator_is_symmetric_and_positive(void **state)
         struct vectors mx = vectors_make(&b), my = vectors_make(&b);
         for (uint64_t seed = 0; seed < 6; seed += 2) {
             struct vectors x = vectors_mixed(&b, seed), y = vectors_mixed(&b, seed + 1);
-            multigrid_apply(m, x.of, mx.of);
-            multigrid_apply(m, y.of, my.of);
+            multigrid_apply_v_cycle(m, x.of, mx.of);
+            multigrid_apply_v_cycle(m, y.of, my.of);
             const real xx = product(&b, &x, &mx), yy = product(&b, &y, &my);
             assert_true(xx > 0 && yy > 0);
             /* The prolongator and its transpose have the same entries: only double-precision round-off. */
@@ -437,7 +437,7 @@ static void threads_change_no_bit(void **state)
             omp_set_num_threads(t + 1);
             assert_ok(multigrid_make(&m, &b.a, b.place, b.held));
             z[t] = vectors_make(&b);
-            multigrid_apply(m, x.of, z[t].of);
+            multigrid_apply_v_cycle(m, x.of, z[t].of);
             multigrid_free(m);
             for (int d = 0; d < dim; d++) assert_memory_equal(z[t].of[d], z[0].of[d], (size_t)b.a.n * sizeof(real));
         }

@@ -38,7 +38,7 @@ static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
     for (int m = 0; m < CLOUD_MATERIALS; m++)
         modulus[m] = state_based_moduli_of_material(&c.material[m], plan.space, model == PD_MOSPD);
     if (model >= PD_OSPD) c.source.modulus = modulus, c.source.rotates = model == PD_MOSPD, c.source.local = true;
-    family_make(&c.source.family, plan.space, size * CLOUD_SPACING, plan.horizon, 1);
+    family_make_on_lattice(&c.source.family, plan.space, size * CLOUD_SPACING, plan.horizon, 1);
     cloud_bonds(&c);
     struct kernels k;
     kernels_choose(&k, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
@@ -93,15 +93,15 @@ static struct run *run_make(struct scene *s, const char *body, const char *bound
     snprintf(text, sizeof text, "%s%s%s\ntime: {active_set: %s, step: 0.08 us}\n", body, edges, keys,
              rest ? "true" : "false");
     if (scene_read_text(s, text, strlen(text), "active_set.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    assert_ok(engine_make(e, s, NULL));
+    assert_ok(engine_set_up_run(e, s, NULL));
     e->report->quiet = true;
-    assert_ok(report_start(e));
+    assert_ok(report_start_before_first_step(e));
     return e;
 }
 
 static void run_free(struct run *e, struct scene *s)
 {
-    engine_free(e);
+    engine_free_run(e);
     memory_free(e);
     scene_free(s);
 }
@@ -146,8 +146,8 @@ static int64_t check_same(const char *body, const char *boundary, const char *mo
         strstr(keys, "reference") || strstr(keys, "method: pd") ? on->clock.steps / 10 : ACTIVE_POINTS_STEPS + 1;
     for (int64_t step = 1; step <= on->clock.steps; step++) {
         omp_set_num_threads(1 + (int)(step & 1));
-        assert_ok(engine_step(on));
-        assert_ok(engine_step(off));
+        assert_ok(engine_adapt_refinement_and_step(on));
+        assert_ok(engine_adapt_refinement_and_step(off));
         assert_true(sleeping(off) == 0);
         if (step == look && !(sleeping(on) >= early)) fail_msg("%s: only %g sleep", keys, sleeping(on));
         if (step % 10 == 0 || step == on->clock.steps) same_bits(on, off);

@@ -37,9 +37,9 @@ static status run_status(struct finished_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    TRY(engine_make(&a->e, &a->s, NULL));
+    TRY(engine_set_up_run(&a->e, &a->s, NULL));
     a->e.report->quiet = true;
-    return engine_run(&a->e);
+    return engine_run_to_end(&a->e);
 }
 
 static void run(struct finished_run *a, const char *text, ...)
@@ -53,7 +53,7 @@ static void run(struct finished_run *a, const char *text, ...)
 
 static void run_end(struct finished_run *a)
 {
-    engine_free(&a->e);
+    engine_free_run(&a->e);
     scene_free(&a->s);
 }
 
@@ -371,13 +371,13 @@ static void pressure_follows_beside_mirrors(void **state)
         real most = 0, off = 0;
         run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
         run(&b, SQUARE, frames[k][0], frames[k][1], whole, alone, "duration=2 ms", NULL);
-        run_update_particles(&a.e), run_update_particles(&b.e);
+        run_update_particle_motion_and_stress(&a.e), run_update_particle_motion_and_stress(&b.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             const struct particles *p = &a.e.part, *q = &b.e.part;
             real X[DIM_MAX];
             int32_t j = -1;
             particle_reference_position(p, i, X);
-            assert_int_equal(cells_find_near(&b.e.cells, q, X, 1e-4, -1, &j, 1), 1);
+            assert_int_equal(cells_list_particles_near_point(&b.e.cells, q, X, 1e-4, -1, &j, 1), 1);
             for (int d = 0; d < 2; d++) {
                 most = real_max(most, fabs(p->x[d][i] - p->X[d][i]));
                 off = real_max(off, fabs(p->x[d][i] - p->X[d][i] - (q->x[d][j] - q->X[d][j])));
@@ -400,7 +400,7 @@ static void rotation_drives_on_circles(void **state)
         run(&a, SQUARE, frames[k][0], frames[k][1], "duration=10 ms",
             "boundary=[{rotation: {centre: [0, 0], rate: 200 1/s}}]", NULL);
         struct particles *p = &a.e.part;
-        run_update_particles(&a.e);
+        run_update_particle_motion_and_stress(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i], c = cos(2), s = sin(2);
             const real away = hypot(p->x[0][i] - (c * X - s * Y), p->x[1][i] - (s * X + c * Y));
@@ -434,7 +434,7 @@ static void formulas_are_what_they_say(void **state)
         struct finished_run a;
         if (k == 2) continue; /* refused with frame current */
         run(&a, SQUARE, frames[k][0], frames[k][1], "boundary=[{velocity: [x/(1 s), -2*y/(1 s)]}]", NULL);
-        run_update_particles(&a.e);
+        run_update_particle_motion_and_stress(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++)
             assert_true(fabs(a.e.part.x[0][i] - a.e.part.X[0][i] * 1.004) < 1e-9 &&
                         fabs(a.e.part.x[1][i] - a.e.part.X[1][i] * 0.992) < 1e-9);
@@ -456,7 +456,7 @@ static void initial_velocities_are_formulas(void **state)
         real along = 0, squares = 0;
         run(&a, BAR, frames[k][0], frames[k][1], duration, mode, NULL);
         const struct particles *p = &a.e.part;
-        run_update_particles(&a.e);
+        run_update_particle_motion_and_stress(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real shape = cos(acos(-1) * p->X[0][i]);
             along += (p->x[0][i] - p->X[0][i]) * shape, squares += square(shape);

@@ -41,7 +41,7 @@ static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
     TRY(scene_with(&a->s, text, list));
-    const status s = engine_make(&a->e, &a->s, NULL);
+    const status s = engine_set_up_run(&a->e, &a->s, NULL);
     a->e.report->quiet = true;
     return s;
 }
@@ -57,12 +57,12 @@ static void make(struct scene_run *a, const char *text, ...)
 
 static void run_all(struct scene_run *a)
 {
-    if (engine_run(&a->e) != OK) fail_msg("%s", status_message());
+    if (engine_run_to_end(&a->e) != OK) fail_msg("%s", status_message());
 }
 
 static void run_end(struct scene_run *a)
 {
-    engine_free(&a->e);
+    engine_free_run(&a->e);
     scene_free(&a->s);
 }
 
@@ -114,14 +114,14 @@ static void check_places(const char *scene, real from, real size, real duration)
     for (int way = 0; way < WAYS; way++) {
         struct scene_run a;
         make(&a, scene, ways[way][0], ways[way][1], ways[way][2], boundary, NULL);
-        assert_ok(report_start(&a.e));
+        assert_ok(report_start_before_first_step(&a.e));
         const real within = from + 2 * a.s.spacing; /* cells of which all nodes are driven */
         real most = 0, far = 0;
         int64_t steps = 0;
         for (; a.e.clock.t < duration; steps++) {
-            if (engine_step(&a.e) != OK) fail_msg("%s", status_message());
+            if (engine_adapt_refinement_and_step(&a.e) != OK) fail_msg("%s", status_message());
             const real u = size * square(sin(acos(-1) * a.e.clock.t / (1.7 * duration)));
-            run_update_particles(&a.e);
+            run_update_particle_motion_and_stress(&a.e);
             far = real_max(far, fabs(u));
             most = real_max(most, off_place(&a, strstr(ways[way][1], "current") ? from : within, u));
             assert_close(a.e.loads.load[0].displacement[0], u, 1e-12);
@@ -150,7 +150,7 @@ static void formulas_are_in_place(void **state)
         struct scene_run a;
         make(&a, PLATE, ways[way][0], ways[way][1], drive, NULL);
         run_all(&a);
-        run_update_particles(&a.e);
+        run_update_particle_motion_and_stress(&a.e);
         const struct particles *p = &a.e.part;
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i];

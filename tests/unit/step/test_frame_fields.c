@@ -23,11 +23,11 @@ static void run_text(const char *text, bool begins)
     remove_tree("run");
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_open(&o, "run", s.text, OUTPUT_OVERWRITE, false), OK);
-    if (engine_make(&e, &s, &o) != OK) fail_msg("%s", status_message());
+    if (engine_set_up_run(&e, &s, &o) != OK) fail_msg("%s", status_message());
     e.report->quiet = true;
-    if ((begins ? report_start(&e) : engine_run(&e)) != OK) fail_msg("%s", status_message());
+    if ((begins ? report_start_before_first_step(&e) : engine_run_to_end(&e)) != OK) fail_msg("%s", status_message());
     assert_int_equal(output_wait_for_frame(&o), OK);
-    engine_free(&e);
+    engine_free_run(&e);
     output_close(&o);
     scene_free(&s);
 }

@@ -124,7 +124,7 @@ static void test_ramp(void **state)
         solution_run(&a, BLOCK, "boundary=[{velocity: [3 m/s, -0.7 m/s], time: {ramp: {until: 1.3 ms}}}]", frames[k][0],
                      frames[k][1], NULL);
         solution_done(&a);
-        run_update_particles(&a.e);
+        run_update_particle_motion_and_stress(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++)
             for (int d = 0; d < 2; d++) near_to("way", a.e.part.x[d][i] - a.e.part.X[d][i], way[d], 1e-9);
         for (int d = 0; d < 2; d++) /* velocities are those of half a step before the end */
@@ -149,7 +149,7 @@ static void test_ramp_below(void **state)
         struct solution a, b;
         solution_run(&a, BLOCK, ramp, "duration=1 ms", frames[k][0], frames[k][1], NULL), solution_done(&a);
         solution_run(&b, BLOCK, formula, "duration=1 ms", frames[k][0], frames[k][1], NULL), solution_done(&b);
-        run_update_particles(&a.e), run_update_particles(&b.e);
+        run_update_particle_motion_and_stress(&a.e), run_update_particle_motion_and_stress(&b.e);
         assert_true(solution_difference(&a, &b) < 1e-9);
         solution_free(&a), solution_free(&b);
     }
@@ -185,7 +185,7 @@ static void test_shear_beside_clamps(void **state)
         real most = 0, largest = 0;
         solution_run(&a, half, with[k].frame, with[k].origin, with[k].transfer, NULL), solution_done(&a);
         solution_run(&b, whole, with[k].frame, with[k].origin, with[k].transfer, NULL), solution_done(&b);
-        run_update_particles(&a.e), run_update_particles(&b.e);
+        run_update_particle_motion_and_stress(&a.e), run_update_particle_motion_and_stress(&b.e);
         for (int m = 0; m < 8; m++) {
             const real x = (m + 0.5) * 0.5e-3, y = 0.25e-3, own = solution_moved(&a, 1, x, y, 0);
             largest = real_max(largest, fabs(own));

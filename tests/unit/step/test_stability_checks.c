@@ -116,8 +116,8 @@ static void remedy_of(const char *key, const char *value, real tenfold, char *re
     struct run e;
     struct scene s;
     struct bench_overrides o = {0};
-    if (key) bench_override(&o, key, "%s", value);
-    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
+    if (key) bench_overrides_append(&o, key, "%s", value);
+    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_as_array(&o), o.n));
     const struct growth_samples r = rising(tenfold, 200);
     e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
     e.part.v[0][0] = 1; /* not caused by work of loads */
@@ -158,10 +158,10 @@ static const char *stopped(const char *const *method, const char *const *set)
     struct run e;
     struct scene s;
     struct bench_overrides o = {0};
-    for (; *method; method += 2) bench_override(&o, method[0], "%s", method[1]);
-    for (; *set; set += 2) bench_override(&o, set[0], "%s", set[1]);
-    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
-    assert_int_equal(engine_run(&e), FAILED);
+    for (; *method; method += 2) bench_overrides_append(&o, method[0], "%s", method[1]);
+    for (; *set; set += 2) bench_overrides_append(&o, set[0], "%s", set[1]);
+    assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_as_array(&o), o.n));
+    assert_int_equal(engine_run_to_end(&e), FAILED);
     assert_non_null(strstr(status_message(), "unstable at step "));
     bench_engine_free(&e, &s);
     return status_message();

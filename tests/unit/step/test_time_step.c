@@ -24,9 +24,9 @@ static struct run_clock clock_made(struct scene *s)
 {
     static struct run e;
     memset(&e, 0, sizeof e);
-    if (engine_make(&e, s, NULL) != OK) fail_msg("%s", status_message());
+    if (engine_set_up_run(&e, s, NULL) != OK) fail_msg("%s", status_message());
     const struct run_clock clock = e.clock;
-    engine_free(&e);
+    engine_free_run(&e);
     scene_free(s);
     return clock;
 }
@@ -182,9 +182,9 @@ static void frames_are_nearest(void **state)
     struct scene s;
     static struct run e;
     if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
-    if (engine_make(&e, &s, NULL) != OK) fail_msg("%s", status_message());
-    for (int k = 1; k <= 3; k++) assert_int_equal(report_step_of_frame(e.scene, &e.clock, k), nearest[k]);
-    engine_free(&e);
+    if (engine_set_up_run(&e, &s, NULL) != OK) fail_msg("%s", status_message());
+    for (int k = 1; k <= 3; k++) assert_int_equal(report_step_number_of_frame(e.scene, &e.clock, k), nearest[k]);
+    engine_free_run(&e);
     scene_free(&s);
 }
 

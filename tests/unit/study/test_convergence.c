@@ -28,7 +28,7 @@ static bool converge_at(struct convergence *c, double f0, double a, double p, do
             spacing[n] = 1e-3 * pow(2, 0.5 * k);
             value[n] = f0 + a * pow(pow(2, 0.5 * k), p) + noise * part[r];
         }
-    return convergence_evaluate(c, spacing, value, level, n, LEVELS, NULL);
+    return convergence_evaluate_scalar_result(c, spacing, value, level, n, LEVELS, NULL);
 }
 
 /* Order and limit of a power law are found to round-off; the interval of the finest value contains the limit. */
@@ -61,11 +61,11 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_true(c.uncertainty[0] >= 0.5); /* the range of the means */
     const double spacing[] = {1, 1.4, 2}, value[] = {1, 2, 1.5}, lost[] = {1, NAN, 1};
     const int level[] = {0, 1, 2};
-    assert_true(convergence_evaluate(&c, spacing, value, level, 3, 3, NULL));
+    assert_true(convergence_evaluate_scalar_result(&c, spacing, value, level, 3, 3, NULL));
     assert_int_equal(c.verdict, VERDICT_OSCILLATES);
     assert_true(isnan(c.order));
     assert_true(c.uncertainty[0] >= 1); /* the range of the means */
-    assert_false(convergence_evaluate(&c, spacing, lost, level, 3, 3, NULL));
+    assert_false(convergence_evaluate_scalar_result(&c, spacing, lost, level, 3, 3, NULL));
 }
 
 /* Means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
@@ -82,7 +82,7 @@ static void chance_moves_the_order(void **state)
             spacing[k] = (double[]){1, 1.4, 2}[level[k]];
             value[k] = mean[which][level[k]] + 0.1 * (k % RUNS - 2); /* its mean to 0.2 */
         }
-        assert_true(convergence_evaluate(&c, spacing, value, level, LEVELS * RUNS, LEVELS, NULL));
+        assert_true(convergence_evaluate_scalar_result(&c, spacing, value, level, LEVELS * RUNS, LEVELS, NULL));
         assert_int_equal(c.verdict, which == 0 ? VERDICT_CONVERGES : VERDICT_SCATTERS);
         assert_true(which == 0 ? c.order > 2.2 : c.order < 0);
         assert_true(c.order_likely > 0.5 && c.order_likely < 2);
@@ -133,7 +133,7 @@ static void intervals_as_defined(void **state)
         const double *m = mean[which];
         const double range = fmax(m[0], fmax(m[1], m[2])) - fmin(m[0], fmin(m[1], m[2]));
         const double plainly = half_width_plainly(spacing, m, error, hypot(range, 0.15));
-        const double width = convergence_half_width(&c, c.level[0].mean, 0.95);
+        const double width = convergence_interval_half_width(&c, c.level[0].mean, 0.95);
         assert_near(width, plainly, 0.03 * plainly); /* step size of the quadrature */
     }
 }
@@ -159,7 +159,7 @@ static void intervals_hold_what_they_name(void **state)
             const double trend = draw[7] / (pow(2, p) - 1);
             c.level[k] = (struct level_figures){h, 7 + trend * pow(h, p) + noise, 0, 0.03, 5};
         }
-        held += fabs(c.level[0].mean - 7) <= convergence_half_width(&c, c.level[0].mean, 0.95);
+        held += fabs(c.level[0].mean - 7) <= convergence_interval_half_width(&c, c.level[0].mean, 0.95);
     }
     assert_true(held >= 0.9 * CASES && held <= 0.98 * CASES); /* the scale is estimated from the means, which costs 3
                                                                * of 100 */
@@ -188,9 +188,9 @@ static void steps_of_a_figure_are_errors(void **state)
     struct convergence c;
     const double spacing[] = {1, 1, 1.4, 1.4, 2, 2}, value[] = {9, 9, 9.4, 9.4, 8, 8}, half[] = {0.5, 0.7, 1};
     const int level[] = {0, 0, 1, 1, 2, 2};
-    assert_true(convergence_evaluate(&c, spacing, value, level, 6, 3, NULL));
+    assert_true(convergence_evaluate_scalar_result(&c, spacing, value, level, 6, 3, NULL));
     assert_int_equal(c.verdict, VERDICT_OSCILLATES);
-    assert_true(convergence_evaluate(&c, spacing, value, level, 6, 3, half));
+    assert_true(convergence_evaluate_scalar_result(&c, spacing, value, level, 6, 3, half));
     assert_int_equal(c.verdict, VERDICT_SCATTERS);
     assert_near(c.level[0].error, 0.5, 1e-12);
     assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
@@ -202,11 +202,11 @@ static void bias_widens_intervals(void **state)
     (void)state;
     struct convergence c;
     assert_true(converge_at(&c, 3, -0.2, 1, 0, 1));
-    const double at = c.level[0].mean, wide = convergence_half_width(&c, at, 0.95);
-    const double half = convergence_half_width(&c, at, 0.5);
+    const double at = c.level[0].mean, wide = convergence_interval_half_width(&c, at, 0.95);
+    const double half = convergence_interval_half_width(&c, at, 0.5);
     c.bias = 2;
-    assert_near(convergence_half_width(&c, at, 0.95), hypot(wide, 2), 1e-5);
-    assert_near(convergence_half_width(&c, at, 0.5), hypot(half, 2 * 0.67449 / 1.95996), 1e-5);
+    assert_near(convergence_interval_half_width(&c, at, 0.95), hypot(wide, 2), 1e-5);
+    assert_near(convergence_interval_half_width(&c, at, 0.5), hypot(half, 2 * 0.67449 / 1.95996), 1e-5);
 }
 
 static void student_as_published(void **state)
@@ -231,7 +231,7 @@ static void spacings_fit_faces_and_cracks(void **state)
     struct crack crack = {2, corner, 0};
     struct scene s = {.dim = 2, .spacing = 0.5, .bodies = 1, .body = &body, .cracks = 1, .crack = &crack};
     struct spacings to;
-    spacings_choose(&to, &s, 3, s.spacing);
+    spacings_choose_for_convergence_study(&to, &s, 3, s.spacing);
     assert_near(to.at[0][0], 0.5, 0);
     for (int k = 0; k < 3; k++) {
         assert_true(fabs(to.at[k][0] / (0.5 * pow(2, 0.5 * k)) - 1) < 0.12);
@@ -243,7 +243,7 @@ static void spacings_fit_faces_and_cracks(void **state)
         for (int j = 1; j < to.n[k]; j++) assert_true(fabs(to.at[k][j] / to.at[k][0] - 1) > 1e-3);
     }
     corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
-    spacings_choose(&to, &s, 3, s.spacing);
+    spacings_choose_for_convergence_study(&to, &s, 3, s.spacing);
     for (int k = 0; k < 3; k++) {
         if (to.misfit[k] > 0.02) continue; /* reported in this case */
         const double rows = 20.25 / to.at[k][0] - 0.5;
@@ -258,7 +258,7 @@ static void levels_are_apart(void **state)
     struct scene_body list = {.file = "list.csv"};
     const struct scene s = {.dim = 2, .spacing = 0.37, .bodies = 1, .body = &list};
     struct spacings to;
-    spacings_choose(&to, &s, 4, 0.29);
+    spacings_choose_for_convergence_study(&to, &s, 4, 0.29);
     assert_int_equal(to.levels, 4);
     for (int k = 0; k < 4; k++) assert_true(fabs(to.at[k][0] / (0.29 * pow(sqrt(2), k)) - 1) < 1e-12);
 }
@@ -279,7 +279,7 @@ static void intervals_at_hand(void **state)
     assert_non_null(mkdtemp(folder));
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(mkdir("plate_converge", 0777), 0);
-    assert_int_equal(study_write_scene("plate_converge", text, "--runs 3"), OK);
+    assert_int_equal(study_write_scene_and_options("plate_converge", text, "--runs 3"), OK);
     assert_int_equal(file_write_whole("plate_converge/converge.csv", table, strlen(table)), OK);
     static const struct {
         double spacing;
@@ -290,14 +290,14 @@ static void intervals_at_hand(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         struct error_bar bar[4];
         s.spacing = at[k].spacing;
-        assert_int_equal(error_bars_read(bar, 4, &s, "plate"), at[k].bars);
+        assert_int_equal(error_bars_read_from_convergence_study(bar, 4, &s, "plate"), at[k].bars);
         if (at[k].bars == 0) continue;
         assert_string_equal(bar[0].figure, "energy.strain");
         assert_near(bar[0].half_width, at[k].first, 0);
     }
     struct error_bar none;
     s.text = (char[]){"name: \"other\"\n"};
-    assert_int_equal(error_bars_read(&none, 1, &s, "plate"), 0);
+    assert_int_equal(error_bars_read_from_convergence_study(&none, 1, &s, "plate"), 0);
     assert_int_equal(unlink("plate_converge/converge.csv") | unlink("plate_converge/study.yaml"), 0);
     assert_int_equal(rmdir("plate_converge"), 0);
     assert_int_equal(chdir("/") | rmdir(folder), 0);

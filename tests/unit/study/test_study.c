@@ -16,7 +16,7 @@
 static void check_values(const char *text, int n, const char *const *value)
 {
     struct varied_key k;
-    assert_int_equal(varied_key_read(&k, text), OK);
+    assert_int_equal(varied_key_parse_values(&k, text), OK);
     assert_int_equal(k.values, n);
     for (int v = 0; v < n; v++) assert_string_equal(k.value[v], value[v]);
     varied_key_free(&k);
@@ -58,7 +58,7 @@ static void wrong_values_are_refused(void **state)
         {"a=0:1:1e-9", "in fewer than 10000 steps"},
     };
     struct varied_key k;
-    for (size_t b = 0; b < COUNT_OF(bad); b++) assert_refused(varied_key_read(&k, bad[b].text), bad[b].message);
+    for (size_t b = 0; b < COUNT_OF(bad); b++) assert_refused(varied_key_parse_values(&k, bad[b].text), bad[b].message);
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -70,9 +70,9 @@ static void runs_have_names_of_their_own(void **state)
     struct varied_key k[3];
     assert_int_equal(study_make(&s, "inputs/plate_crack.yaml", NULL, "sweep"), OK);
     assert_string_equal(s.folder, "results/plate_crack_sweep"); /* from the name of the scene */
-    assert_int_equal(varied_key_read(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
-    assert_int_equal(varied_key_read(&k[1], "method=pd"), OK);
-    assert_int_equal(varied_key_read(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
+    assert_int_equal(varied_key_parse_values(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
+    assert_int_equal(varied_key_parse_values(&k[1], "method=pd"), OK);
+    assert_int_equal(varied_key_parse_values(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
     assert_int_equal(study_add_combinations(&s, k, 3), OK);
     assert_int_equal(s.n, 6);
     assert_string_equal(s.at[0].name, "spacing=1mm,velocity=10m_s,free");
@@ -101,7 +101,7 @@ static void names_do_not_depend_on_the_order_of_keys(void **state)
         for (int j = 0; j < 2; j++)
             snprintf(longer[j], sizeof longer[j], "%s=1,2%0*d", j ? "particles.seed" : "time.safety",
                      long_ones ? 120 : 1, 3);
-        for (int j = 0; j < 2; j++) assert_int_equal(varied_key_read(&k[j], longer[j]), OK);
+        for (int j = 0; j < 2; j++) assert_int_equal(varied_key_parse_values(&k[j], longer[j]), OK);
         swapped[0] = k[1], swapped[1] = k[0];
         assert_int_equal(study_make(&a, "a.yaml", "a", "sweep"), OK);
         assert_int_equal(study_make(&b, "a.yaml", "a", "sweep"), OK);
@@ -131,7 +131,7 @@ static void values_are_short_in_pictures(void **state)
     for (size_t w = 0; w < COUNT_OF(wanted); w++) {
         struct varied_key k;
         char text[LABEL_ROOM];
-        assert_int_equal(varied_key_read(&k, wanted[w].text), OK);
+        assert_int_equal(varied_key_parse_values(&k, wanted[w].text), OK);
         study_value_label(text, &k, 1);
         assert_string_equal(text, wanted[w].shown);
         varied_key_free(&k);
@@ -171,7 +171,7 @@ static void figures_have_units(void **state)
     };
     for (size_t w = 0; w < COUNT_OF(wanted); w++) {
         char unit[UNIT_ROOM];
-        study_result_unit(unit, sizeof unit, header, wanted[w][0]);
+        study_write_unit_of_result(unit, sizeof unit, header, wanted[w][0]);
         assert_string_equal(unit, wanted[w][1]);
     }
 }
@@ -235,7 +235,7 @@ static void figures_fit_their_scene(void **state)
     for (size_t k = 0; k < COUNT_OF(figure); k++)
         for (int which = 0; which < 2; which++) {
             const char *lacks = which ? figure[k].steps : figure[k].plate;
-            const status s = result_name_check(which ? &steps : &plate, figure[k].name);
+            const status s = result_name_check_is_known(which ? &steps : &plate, figure[k].name);
             if (s != (lacks ? REFUSED : OK) || (lacks && !strstr(status_message(), lacks)))
                 fail_msg("%s, scene %d: %s", figure[k].name, which, s == OK ? "not refused" : status_message());
         }
@@ -248,8 +248,8 @@ static void many_names_are_found_in_time(void **state)
     struct varied_key k[2];
     struct study s;
     const clock_t begin = clock();
-    assert_int_equal(varied_key_read(&k[0], "a=1:1000:1"), OK);
-    assert_int_equal(varied_key_read(&k[1], "b=1:100:1"), OK);
+    assert_int_equal(varied_key_parse_values(&k[0], "a=1:1000:1"), OK);
+    assert_int_equal(varied_key_parse_values(&k[1], "b=1:100:1"), OK);
     assert_int_equal(study_make(&s, "a.yaml", "a", "sweep"), OK);
     assert_int_equal(study_add_combinations(&s, k, 2), OK);
     assert_int_equal(s.n, 100000);
