@@ -117,20 +117,20 @@ extern const struct accuracy_problem accuracy_bar, accuracy_wave, accuracy_squar
  * two coarsest resolutions only. Returns FAILED if a run fails. */
 status accuracy_compute_reference_cracks(bool quick);
 
-/* Computes displacement u [m] and stress components xx, yy, xy [Pa] at X [m] in a plate under tension along y with a
- * hole of radius 1 m around the origin (accuracy_hole.c). */
+/* Computes the displacement [m] and the stress components xx, yy, xy [Pa] at `position` [m] in a plate under tension
+ * along y with a hole of radius 1 m around the origin (accuracy_hole.c). */
 void accuracy_hole_compute_exact_solution(const double position[2], double displacement[2], double stress[3]);
 
-/* Returns true if the material points in the run of point p use the reference frame (mpm.frame: reference). */
+/* Returns true if the material points in the run of `point` use the reference frame (mpm.frame: reference). */
 bool accuracy_point_uses_reference_frame(const struct accuracy_point *point);
 
-/* Returns true if the method of point p can reach equilibrium by relaxation (solver: relaxation). */
+/* Returns true if the method of `point` can reach equilibrium by relaxation (solver: relaxation). */
 bool accuracy_point_can_use_relaxation(const struct accuracy_point *point);
 
 /* Returns true if the method has coarse grid cells besides the finest ones (mpm.levels: 1 or 2). */
 bool accuracy_method_has_coarse_cells(const struct accuracy_method *method);
 
-/* Returns the value of the scene key `solver` with which the method of point p reaches equilibrium: "cg" for
+/* Returns the value of the scene key `solver` with which the method of `point` reaches equilibrium: "cg" for
  * peridynamics, "explicit" in the reference frame, where the load grows slowly, else "relaxation". */
 const char *accuracy_solver_of_point(const struct accuracy_point *point);
 
@@ -211,18 +211,18 @@ struct accuracy_dot {
     double time, error;
 };
 
-/* Finds the Pareto front of dot[n]: the points with no other point that is at least as good in both time and error and
- * better in one of them; of equal points the first. Stores their indices in front[], which has space for n, in the
- * order of ascending time and thus descending error. Returns their number. */
+/* Finds the Pareto front of dot[dot_count]: the points with no other point that is at least as good in both time and
+ * error and better in one of them; of equal points the first. Stores their indices in front[], which has space for
+ * `dot_count` entries, in the order of ascending time and thus descending error. Returns their number. */
 int accuracy_find_pareto_front(const struct accuracy_dot *dot, int dot_count, int *front);
 
-/* Returns the index of the point in dot[n] with the least time among those with an error of at most `largest_error`
- * [1]; -1 if there is none. */
+/* Returns the index of the point in dot[dot_count] with the least time among those with an error of at most
+ * `largest_error` [1]; -1 if there is none. */
 int accuracy_index_of_fastest_point(const struct accuracy_dot *dot, int dot_count, double largest_error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
-/* Writes the label of point p into text[size]: method and resolution, as in `pd bond 100`, followed by `h` and the
+/* Writes the label of `point` into text[capacity]: method and resolution, as in `pd bond 100`, followed by `h` and the
  * horizon, and by `dt` and the fraction of the critical step, unless these are the usual ones. */
 void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity);
 

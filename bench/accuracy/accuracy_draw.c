@@ -13,8 +13,8 @@
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Writes the label of point p, a run of the cost-accuracy table, into text[size]: method and resolution, and horizon
- * and time step if they are not the usual ones. */
+/* Writes the label of `point`, a run of the cost-accuracy table, into text[capacity]: method and resolution, and
+ * horizon and time step if they are not the usual ones. */
 void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity)
 {
     char more[48] = "", *end = more;

@@ -36,9 +36,11 @@ static const double potential[POWERS][2] = {
     {-0.0033372314, -0.00298985703},    {0.000620108693, -0.00403252779},  {-0.000282598929, 0.00225840748},
 };
 
-/* Computes displacement displacement[2] [m] and stress xx, yy, xy [Pa] at position[2] [m] in a plate with a hole under
- * tension along y (Muskhelishvili 1953). With the complex potentials phi and psi at z = x + i y: 2 G (u + i v) = kappa
- * phi - z conj(phi') - conj(psi); sxx + syy = 4 Re phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). */
+/* Computes the displacement (u, v), displacement[2] [m], and the stress components sxx, syy, sxy, stress[3] [Pa], at
+ * the point (x, y), position[2] [m], in a plate with a hole under tension along y (Muskhelishvili 1953). With the
+ * complex potentials phi and psi at z = x + i y: 2 G (u + i v) = kappa phi - z conj(phi') - conj(psi); sxx + syy = 4 Re
+ * phi'; syy - sxx + 2 i sxy = 2 (conj(z) phi'' + psi'). G is the shear modulus; kappa = (3 - nu)/(1 + nu) with
+ * Poisson's ratio nu (plane stress). */
 void accuracy_hole_compute_exact_solution(const double position[2], double displacement[2], double stress[3])
 {
     const double kappa = (3 - poisson) / (1 + poisson), shear = young / (2 * (1 + poisson));

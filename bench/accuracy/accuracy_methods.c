@@ -94,7 +94,7 @@ const char *accuracy_solver_of_point(const struct accuracy_point *point)
                                                       : "relaxation";
 }
 
-/* Returns true if the method of point p can be used with relaxation. With the transfer flip relaxation converges too
+/* Returns true if the method of `point` can be used with relaxation. With the transfer flip relaxation converges too
  * slowly. The couplings pm and pmg have linear shape functions, for which the transfer apic does not exist. */
 bool accuracy_point_can_use_relaxation(const struct accuracy_point *point)
 {

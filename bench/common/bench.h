@@ -58,8 +58,8 @@ status bench_check_files_may_be_replaced(const char *bench_name);
 status bench_prepare_result_files(const char *bench_name);
 
 /* Writes the results of the bench `bench_name` (NAME) to results/bench: NAME.csv for the table named "",
- * NAME_<table>.csv for others and NAME.json with all of table[tables]. Returns REFUSED if files with these names were
- * not written by a bench, FAILED if a file cannot be written. */
+ * NAME_<table>.csv for others and NAME.json with all of table[table_count]. Returns REFUSED if files with these names
+ * were not written by a bench, FAILED if a file cannot be written. */
 status bench_write_result_tables(const char *bench_name, const struct bench_table *table, int table_count);
 
 /* Draws the pictures results/bench/NAME.png and NAME.svg of the bench `bench_name` (NAME), width x height pixels.
@@ -67,7 +67,8 @@ status bench_write_result_tables(const char *bench_name, const struct bench_tabl
 status bench_draw(const char *bench_name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context);
 
-/* Prints a line with the processor, the version of the program, its kernels and the number of threads. */
+/* Prints a line with the processor, the version of the program, its kernels and the number of threads, `thread_count`.
+ */
 void bench_print_machine(int thread_count);
 
 /* ---- bench_results.c: figures in bench/results ------------------------------------------------------------------- */
@@ -93,8 +94,8 @@ status bench_results_copy_table(const char *file_name, const char *text);
 
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 
-/* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with override[overrides], and creates its run
- * e without output. path: with `text`, its name in messages. s: receives the scene and must keep its address until
+/* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with override[override_count], and creates its
+ * run e without output. path: with `text`, its name in messages. s: receives the scene and must keep its address until
  * bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the run cannot be created; both are then
  * already released. */
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
@@ -107,8 +108,8 @@ void bench_engine_free(struct run *e, struct scene *s);
  * function. */
 typedef void bench_field(const void *context, const real *X, real *v);
 
-/* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the field at their reference
- * positions. context: passed to the field. */
+/* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the values of `velocity_field`
+ * at their reference positions. context: passed to `velocity_field`. */
 void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context);
 
 /* Runs e to the end of step `last_step` or, with levels of coarse cells, of the next step at which all levels have the
@@ -131,8 +132,8 @@ struct bench_overrides {
 void bench_overrides_append(struct bench_overrides *o, const char *key, const char *value, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Sets the pointers to the values of the overrides and returns them as an array of o->n entries, as functions that read
- * scenes expect it. The array is part of *list and valid until the next bench_overrides_append. */
+/* Sets the pointers to the values of the overrides in *list and returns them as an array of list->n entries, as
+ * functions that read scenes expect it. The array is part of *list and valid until the next bench_overrides_append. */
 const struct scene_override *bench_overrides_as_array(struct bench_overrides *list);
 
 /* A quantity of a probe. */
@@ -141,22 +142,22 @@ struct bench_figure {
     double value;
 };
 
-/* Stores the current values of those of the n quantities in figure[] that probes of the run e have; other entries keep
- * their value. */
+/* Stores the current values of those quantities in figure[figure_count] that probes of the run e have; other entries
+ * keep their value. */
 void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count);
 
-/* Runs a scene to its end and stores n quantities of its probes in figure[]; NAN if no probe has them. If a pulse probe
- * compares its results with those of material points alone, the scene is also run with material points alone. The scene
- * is `text` or, if `text` is NULL, the file `path`; overrides: overrides of the scene. Returns REFUSED or FAILED if the
- * scene is invalid or a step fails. */
+/* Runs a scene to its end and stores quantities of its probes in figure[figure_count]; NAN if no probe has them. If a
+ * pulse probe compares its results with those of material points alone, the scene is also run with material points
+ * alone. The scene is `text` or, if `text` is NULL, the file `path`; overrides: overrides of the scene. Returns REFUSED
+ * or FAILED if the scene is invalid or a step fails. */
 status bench_run_scene_and_read_figures(const char *path, const char *text, struct bench_overrides *overrides,
                                         struct bench_figure *figure, int figure_count);
 
 /* Returns true if the scene file `path` exists; else prints that it is left out. */
 bool bench_scene_exists(const char *path);
 
-/* Checks that all n scene files path[] exist. bench_name: name of the bench for the message. Returns REFUSED if a file
- * is missing. */
+/* Checks that all scene files path[path_count] exist. bench_name: name of the bench for the message. Returns REFUSED if
+ * a file is missing. */
 status bench_check_scenes_exist(const char *bench_name, const char *const *path, size_t path_count);
 
 /* Removes a folder with its contents. Failures are ignored. */
@@ -170,20 +171,20 @@ struct bench_child {
     double processor; /* processor time of all its threads, after its end [s] */
 };
 
-/* Starts a run of the scene file `path` with override[overrides] on `thread_count` threads as a separate process, whose
- * output goes to a new folder c->folder. Returns FAILED if the folder or the process cannot be created. Release with
- * bench_child_wait_and_remove_output. */
+/* Starts a run of the scene file `path` with override[override_count] on `thread_count` threads as a separate process,
+ * whose output goes to a new folder child->folder. Returns FAILED if the folder or the process cannot be created.
+ * Release with bench_child_wait_and_remove_output. */
 status bench_child_start(struct bench_child *child, const char *path, const struct scene_override *override,
                          int override_count, int thread_count);
 
-/* Waits for the end of the process c and stores its processor time in c->processor. Returns FAILED unless it exited
- * with status 0. */
+/* Waits for the end of the process `child` and stores its processor time in child->processor. Returns FAILED unless it
+ * exited with status 0. */
 status bench_child_wait(struct bench_child *child);
-/* Waits for the process c if it has not ended, and removes its output folder. */
+/* Waits for the process `child` if it has not ended, and removes its output folder. */
 void bench_child_wait_and_remove_output(struct bench_child *child);
-/* Runs the scene file `path` with override[overrides] as a separate process on one thread and reads n numbers of its
- * summary.json into value[]. key[n]: names of the numbers. The output of the run is removed. Returns FAILED if the run
- * fails or a number is missing. */
+/* Runs the scene file `path` with override[override_count] as a separate process on one thread and reads numbers of its
+ * summary.json into value[value_count]. key[value_count]: names of the numbers. The output of the run is removed.
+ * Returns FAILED if the run fails or a number is missing. */
 status bench_child_run_and_read_summary(const char *path, const struct scene_override *override, int override_count,
                                         const char *const *key, double *value, int value_count);
 
@@ -248,10 +249,10 @@ status bench_targets_measure_memory(struct targets *targets);
  * quick: few repetitions. Returns FAILED if a run fails. */
 status bench_targets_measure_speed(struct targets *targets, bool quick);
 
-/* Prints the measured quantities of f beside their targets. */
+/* Prints the measured quantities in `targets` beside their targets. */
 void bench_targets_print(const struct targets *targets);
 
-/* Adds a row per measured quantity of f to the table t. */
+/* Adds a row per measured quantity in `targets` to `table`. */
 void bench_targets_add_to_table(const struct targets *targets, struct bench_table *table);
 
 /* Measures the effect of an interface between material points and bonds on waves and on uniform strain

@@ -13,9 +13,9 @@ struct bench_job {
     status (*take)(void *row, const char *folder);
 };
 
-/* Runs n jobs as separate processes and calls `take` of each after its end, in the order of the jobs. parallel_jobs:
- * number of jobs in parallel, with one thread each; 1: one after another, each with all threads. Returns FAILED if a
- * run fails, else the first status of a `take` that is not OK. */
+/* Runs the jobs job[job_count] as separate processes and calls `take` of each after its end, in the order of the jobs.
+ * parallel_jobs: number of jobs in parallel, with one thread each; 1: one after another, each with all threads. Returns
+ * FAILED if a run fails, else the first status of a `take` that is not OK. */
 status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs);
 
 /* Returns the number `key` of the file summary.json in `folder`; NAN if it has none. */

@@ -21,9 +21,9 @@ struct specimen {
     double energy_release_rate; /* of the material [J/m^2] */
 };
 
-/* Returns the load [N] at which a crack of length a [m] in the specimen has the energy release rate
- * s->energy_release_rate of its material. The error of the formulas is at most 3 % for a/W between 0.2 and 0.8, and 0.5
- * % for those of ASTM. */
+/* Returns the load [N] at which a crack of length `crack_length` [m] in the specimen s has the energy release rate
+ * s->energy_release_rate of its material. The error of the formulas is at most 3 % if the ratio of `crack_length` to
+ * s->width is between 0.2 and 0.8, and 0.5 % for those of ASTM. */
 double specimen_load_at_crack_growth(const struct specimen *s, double crack_length);
 
 /* Returns the angle between the pre-crack and the straight line from its end to the crack tip [degree], for a beam in

@@ -31,8 +31,9 @@ struct manufactured_values {
 /* Returns displacement, velocity, strain and body force of the solution at position[dim] [m] and time t [s]. */
 struct manufactured_values manufactured_at(const struct manufactured *m, const real *position, real t);
 
-/* Writes the body force of the solution as entries of `boundary` in a scene, one per line. It consists of plane waves
- * in all directions (1, +-1, +-1), each with a constant part and a part proportional to sin^2(pi t/T). */
+/* Writes the body force of the solution m to `scene_file` as entries of `boundary` in a scene, one per line. It
+ * consists of plane waves in all directions (1, +-1, +-1), each with a constant part and a part proportional to
+ * sin^2(pi t/T), with the time t and the period T of m. */
 void manufactured_write_body_force(FILE *scene_file, const struct manufactured *m);
 
 #endif

@@ -46,7 +46,7 @@ struct contact_motion {
     double mass, x[DIM_MAX], v[DIM_MAX], spin;
 };
 
-/* Computes the motion of a body from its particles in the run e. body_number: its index. */
+/* Computes the motion of a body from its particles in the run e. body_number: index of the body. */
 struct contact_motion contact_motion_of_body(const struct run *e, int body_number);
 
 /* Runs the collision of two bars of given[0] and given[1] particles with the velocities given[2] and given[3] [wave

@@ -62,8 +62,8 @@ bool efficiency_variant_is_run_for_scene(const struct scene_case *c, int variant
  * all can be run with the same one. Returns REFUSED or FAILED if a run cannot be created. */
 status efficiency_find_common_time_step(const struct scene_case *c, double *time_step);
 
-/* Writes a title of the scene c such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` into text[room], and returns
- * text. */
+/* Writes a title of the scene c such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` into text[capacity], and
+ * returns text. */
 const char *efficiency_title(const struct scene_case *c, char *text, size_t capacity);
 
 /* Writes name, model and spacing of a scene as a quoted label of gnuplot, with one word per line. */

@@ -94,8 +94,8 @@ struct experiment_case {
  * adds its results to x. Returns REFUSED or FAILED if the study does. */
 status experiment_make_convergence_study(struct experiments *x, const struct experiment_case *c);
 
-/* Computes mean, standard deviation and half width of the 95 % confidence interval of the mean of value[n], without
- * values that are not finite. Returns the number of finite values. */
+/* Computes mean, standard deviation and half width of the 95 % confidence interval of the mean of value[value_count],
+ * without values that are not finite. Returns the number of finite values. */
 int experiment_compute_mean_and_interval(const double *value, int value_count, double *mean, double *deviation,
                                          double *interval);
 
@@ -151,7 +151,7 @@ struct surf_figures {
 };
 
 /* Runs a mode I crack under the displacements of a steadily moving crack, prescribed at the edge of the plate. The
- * field has the energy release rate A_I K^2/E = share * G_c with G_c = 40 J/m^2 and moves at `speed_ratio` times the
+ * field has the energy release rate energy_share * G_c with G_c = 40 J/m^2 and moves at `speed_ratio` times the
  * Rayleigh speed. spacing [m]; time_step_fraction: fraction of the critical time step. Stores the results in *measured
  * and the Rayleigh speed [m/s] in *rayleigh_speed. Returns REFUSED or FAILED if the run does. */
 status surf_run_and_measure_crack(double spacing, double energy_share, double speed_ratio, double time_step_fraction,

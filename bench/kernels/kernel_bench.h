@@ -67,10 +67,10 @@ struct kernel_bench {
     struct targets targets;
 };
 
-/* Returns true if the kernel of job j visits bonds. */
+/* Returns true if the kernel of `job` visits bonds. */
 static inline bool job_visits_bonds(const struct job *job) { return job->kind <= BOND_STRESS; }
 
-/* Returns the number of particles that the kernel of job j visits in its body of g; for contact kernels those near a
+/* Returns the number of particles that the kernel of `job` visits in its body of g; for contact kernels those near a
  * face. */
 static inline int64_t job_particle_count(const struct job *job, const struct ground *g)
 {
@@ -78,7 +78,7 @@ static inline int64_t job_particle_count(const struct job *job, const struct gro
     return g->engine[job->kind >= MESH_CLEAR ? MESH : job->kind > PD_MOVE ? POINTS : BONDS].part.n;
 }
 
-/* Returns the number of bonds per particle in the body of job j; NAN if its kernel visits no bonds. g: bodies on which
+/* Returns the number of bonds per particle in the body of `job`; NAN if its kernel visits no bonds. g: bodies on which
  * kernels are timed. */
 static inline double job_bonds_per_particle(const struct job *job, const struct ground *g)
 {

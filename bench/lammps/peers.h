@@ -13,8 +13,8 @@ bool peer_has_bond_style(void);
  * by the table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
 double peer_bond_style_speed_ratio(bool state_based);
 
-/* Runs `lmp` with the arguments "-in", input, "-log", log in a folder. input, log_name: names of files. Returns FAILED
- * if lmp cannot be started or fails. */
+/* Runs `lmp` with the arguments "-in", input_name, "-log", log_name in the folder `folder`. input_name, log_name: names
+ * of files. Returns FAILED if lmp cannot be started or fails. */
 status peer_run_lammps(const char *folder, const char *input_name, const char *log_name);
 
 /* Reads the loop time from the LAMMPS log file `log_path` of a run of `step_count` steps and stores the time of a step

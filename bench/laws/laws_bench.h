@@ -32,7 +32,7 @@ extern const struct laws_case laws_cases[];
 /* Number of cases. */
 extern const int laws_cases_count;
 
-/* Returns true if the measured value `measured` is within the tolerance of asked->expected. */
+/* Returns true if the measured value `measured` is within the tolerance of expected->expected. */
 bool laws_figure_holds(const struct laws_figure *expected, double measured);
 
 /* ---- laws_elements.c: single elements ---------------------------------------------------------------------------- */
@@ -48,18 +48,19 @@ struct law laws_steel(enum flow flow);
  * duration 0, so that the strain rate has no effect. */
 struct law_points laws_points_at_rest(void);
 
-/* Adds the elastic stress of a strain increment to the stress of all points of p, and keeps the previous stress in
- * p->before. strain_increment[SYM_MAX]: tensor components of the increment [1]; normal components out of a plane or
- * across a bar are not used if `space` leaves them free. */
+/* Adds the elastic stress of a strain increment to the stress of all points in `points`, and keeps the previous stress
+ * in points->before. strain_increment[SYM_MAX]: tensor components of the increment [1]; normal components out of a
+ * plane or across a bar are not used if `space` leaves them free. */
 void laws_add_elastic_stress_of_increment(const struct law *law, struct law_points *points,
                                           const real *strain_increment, enum space space);
 
-/* Returns the elastic energy density of the first of the eight points of p with the law m [J/m^3]. */
+/* Returns the elastic energy density of the first of the eight points in `points` with the material law `law` [J/m^3].
+ */
 real laws_elastic_energy_density(const struct law *law, const struct law_points *points);
 
-/* Strains an element with the law m by 500 random increments of up to 0.2 %, with an explicit law update after each.
- * Returns the work of the strains minus elastic energy and plastic work, which should be 0, over the sum of the
- * absolute values of the work of all increments [1]. Returns NAN if the element has hardly yielded. */
+/* Strains an element with the material law `law` by 500 random increments of up to 0.2 %, with an explicit law update
+ * after each. Returns the work of the strains minus elastic energy and plastic work, which should be 0, over the sum of
+ * the absolute values of the work of all increments [1]. Returns NAN if the element has hardly yielded. */
 double laws_energy_error_of_random_strains(const struct law *law, enum space space);
 
 /* Measure the quantities of a case with a single element in tension, cycled or heated, in explicit steps.

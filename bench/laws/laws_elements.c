@@ -62,8 +62,8 @@ void laws_add_elastic_stress_of_increment(const struct law *law, struct law_poin
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the elastic energy density of the first point of p with the law m [J/m^3], ((1 + nu) s:s - nu (tr s)^2)/(2
- * E), where s is the stress. */
+/* Returns the elastic energy density of the first point in `points` with the material law `law` [J/m^3], ((1 + nu) s:s
+ * - nu (tr s)^2)/(2 E), where s is the stress, E Young's modulus and nu Poisson's ratio. */
 real laws_elastic_energy_density(const struct law *law, const struct law_points *points)
 {
     real squares = 0, trace = 0;

@@ -55,21 +55,21 @@ enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
 /* Growth rate that changes the energy by 0.5 % over the steps of the map. */
 #define LASTING_RATE (LASTING_ENERGY / LASTING_STEPS)
 
-/* Runs the case l for `steps` steps on one thread and stores energy, growth rate and angular momentum in *result.
- * Returns FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
+/* Runs the case `drift_case` for `steps` steps on one thread and stores energy, growth rate and angular momentum in
+ * *result. Returns FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
 status drift_run(const struct drift_case *drift_case, int64_t steps, struct lasting *result);
 
-/* Returns true if the result r meets the requirements of the case l. */
+/* Returns true if `result` meets the requirements of the case `drift_case`. */
 bool drift_holds(const struct drift_case *drift_case, const struct lasting *result);
 
-/* Composes the label of the case l in text[size]. */
+/* Composes the label of the case `drift_case` in text[capacity]. */
 void drift_label(const struct drift_case *drift_case, char *text, size_t capacity);
 
 /* A function that drift_call_for_all_cases calls for each case l. context: its argument. A status that is not OK ends
  * the calls. */
 typedef status drift_take(void *context, const struct drift_case *l);
 
-/* Calls take(context, case) for all cases, with `quick` for every fourth (energy_drift_cases.c). Returns the first
+/* Calls callback(context, case) for all cases, with `quick` for every fourth (energy_drift_cases.c). Returns the first
  * status that is not OK. */
 status drift_call_for_all_cases(bool quick, drift_take *callback, void *context);
 
@@ -77,12 +77,13 @@ status drift_call_for_all_cases(bool quick, drift_take *callback, void *context)
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 
-/* Runs all cases, or those whose name contains `case_name_part` if it is not NULL, prints their results, and fills t,
- * the table of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns FAILED if
- * the bench itself fails. */
+/* Runs all cases, or those whose name contains `case_name_part` if it is not NULL, prints their results, and fills
+ * `table`, the table of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns
+ * FAILED if the bench itself fails. */
 status drift_run_all_cases(struct bench_table *table, const char *case_name_part, bool quick);
 
-/* Draws the picture of the table t of these results (energy_drift_draw.c). Returns FAILED if it cannot be drawn. */
+/* Draws the picture of `table`, filled by drift_run_all_cases (energy_drift_draw.c). Returns FAILED if it cannot be
+ * drawn. */
 status drift_draw(const struct bench_table *table);
 
 #endif

@@ -41,7 +41,7 @@ extern const struct limits_scene *const limits_scene[FAILING_SCENES];
  * in measured[]; NAN if the run fails. Returns REFUSED if the scene is invalid. */
 status limits_measure(const struct limits_scene *s, const struct limits_row *r, double measured[FAILING_FIGURES]);
 
-/* Composes the label of row r of a scene, its method and parameter, in text[size]. */
+/* Composes the label of row r of the scene s, its method and parameter, in text[capacity]. */
 void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t capacity);
 
 /* Returns the number of quantities that are measured in a scene. */

@@ -67,9 +67,9 @@ struct stability_shake {
     int steps;
 };
 
-/* Runs the case c with the initial motion `initial_motion` and the time step dt [s], or the automatic one if dt is 0,
- * and sets *is_bounded to true if the motion remains bounded. Returns REFUSED or FAILED if the run cannot be created.
- */
+/* Runs the case c with the initial motion `initial_motion` and the time step `time_step` [s], or the automatic one if
+ * `time_step` is 0, and sets *is_bounded to true if the motion remains bounded. Returns REFUSED or FAILED if the run
+ * cannot be created. */
 status stability_run_and_test_boundedness(const struct stability_case *c, double time_step,
                                           struct stability_shake initial_motion, bool *is_bounded);
 
@@ -78,18 +78,18 @@ status stability_run_and_test_boundedness(const struct stability_case *c, double
  * or the message is incomplete (limits_time_step.c). Returns REFUSED or FAILED if the limit cannot be determined. */
 status stability_find_step_of_automatic_stop(const struct stability_case *c, double time_step_ratio, double *stop_step);
 
-/* Writes the scene of the case c into text[size]: its own text c->text if it has one, else that of a block
+/* Writes the scene of the case c into text[capacity]: its own text c->text if it has one, else that of a block
  * (stability_scene.c). */
 void stability_write_scene_text(const struct stability_case *c, char *text, size_t capacity);
 
-/* Composes the label of the case c in text[size]. */
+/* Composes the label of the case c in text[capacity]. */
 void stability_label(const struct stability_case *c, char *text, size_t capacity);
 
 /* A function that stability_call_for_all_cases calls for each case c. context: its argument. A status that is not OK
  * ends the calls. */
 typedef status stability_take(void *context, const struct stability_case *c);
 
-/* Calls take(context, case) for all cases of the map (stability_cases.c). quick: fewer of them. Returns the first
+/* Calls callback(context, case) for all cases of the map (stability_cases.c). quick: fewer of them. Returns the first
  * status that is not OK. */
 status stability_call_for_all_cases(bool quick, stability_take *callback, void *context);
 
@@ -114,12 +114,12 @@ struct stability_map {
 /* Sends the gnuplot commands of the picture of the map. map: a struct stability_map (stability_draw.c). */
 void stability_write_picture_commands(FILE *gnuplot, const void *map);
 
-/* Measures and prints the scenes in which methods fail (limits.h), and fills the table t with them
- * (stability_scenes.c). Returns REFUSED or FAILED if a scene cannot be run. */
+/* Measures and prints the scenes in which methods fail (limits.h), and fills `table` with them (stability_scenes.c).
+ * Returns REFUSED or FAILED if a scene cannot be run. */
 status stability_measure_failing_scenes(struct bench_table *table);
 
-/* Draws the picture of the table t of the scenes in which methods fail (stability_scenes.c). Returns FAILED if it
- * cannot be drawn. */
+/* Draws the picture of `table`, the results of the scenes in which methods fail (stability_scenes.c). Returns FAILED if
+ * it cannot be drawn. */
 status stability_draw_failing_scenes(const struct bench_table *table);
 
 #endif

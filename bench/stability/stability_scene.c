@@ -235,8 +235,8 @@ void stability_write_scene_text(const struct stability_case *c, char *text, size
 
 /* ---- label ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a label that describes the case into text[size]: dimension, method, model, horizon or points per cell, and its
- * special property. */
+/* Writes a label that describes the case c into text[capacity]: dimension, method, model, horizon or points per cell,
+ * and its special property. */
 void stability_label(const struct stability_case *c, char *text, size_t capacity)
 {
     FILE *to = fmemopen(text, capacity, "w");

@@ -8,10 +8,10 @@
  * describe A. */
 typedef void matrix_product_fn(void *context, const real *x, real *y);
 
-/* Returns the largest eigenvalue of a symmetric n x n matrix A by Lanczos' iteration (Golub & Van Loan, ch. 10) from a
- * fixed vector; 0 if n = 0. apply(context, x, y) computes y = A x. The estimate increases towards the eigenvalue. The
- * iteration ends when eight steps increase it by less than a thousandth, at the latest after n steps; 20 to 40 steps
- * suffice for a bounded spectrum without gaps. */
+/* Returns the largest eigenvalue of a symmetric n x n matrix A, n = matrix_size, by Lanczos' iteration (Golub & Van
+ * Loan, ch. 10) from a fixed vector; 0 if n = 0. multiply_by_matrix(context, x, y) computes y = A x. The estimate
+ * increases towards the eigenvalue. The iteration ends when eight steps increase it by less than a thousandth, at the
+ * latest after n steps; 20 to 40 steps suffice for a bounded spectrum without gaps. */
 real largest_eigenvalue(int64_t matrix_size, matrix_product_fn *multiply_by_matrix, void *context);
 
 /* Returns the largest eigenvalue of the symmetric tridiagonal matrix with diagonal[size] on its diagonal and

@@ -12,10 +12,10 @@ struct machine {
     char model[128];            /* name of the processor */
 };
 
-/* Sets the number of requested_threads: `requested_threads` if > 0, else the value of OMP_NUM_THREADS, else the number
- * of physical cores that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are
- * enough and the user has set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is
- * not bound to it. Returns the number of threads. */
+/* Sets the number of threads: `requested_threads` if > 0, else the value of OMP_NUM_THREADS, else the number of
+ * physical cores that this process may use. Binds helper thread k >= 1 to the k-th of these cores if there are enough
+ * and the user has set neither OMP_PROC_BIND nor OMP_PLACES. The calling thread moves to the first core, but is not
+ * bound to it. Returns the number of threads. */
 int team_set_thread_count(int requested_threads);
 
 /* Returns the number of cores, the sizes of caches and memory, as far as this process may use them, and the name of the
@@ -56,14 +56,14 @@ double thread_cpu_clock_seconds(void);
 /* SUM_BLOCK: number of terms per block of a reproducible sum; TERMS_MAX: largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 
-/* Returns the sum of the terms term(context, i) for i = 0 .. n - 1. Terms are added in blocks of SUM_BLOCK, and the
- * sums of the blocks in order, so that the result has equal bits with any number of threads. `term` is called by
- * several threads at once and must not write. */
+/* Returns the sum of the terms term(context, i) for i = 0 .. term_count - 1. Terms are added in blocks of SUM_BLOCK,
+ * and the sums of the blocks in order, so that the result has equal bits with any number of threads. `term` is called
+ * by several threads at once and must not write. */
 real reproducible_sum(int64_t term_count, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Computes `sum_count` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of
- * threads. block(context, first, end, sum) must add the terms first .. end - 1 of all sums to sum[terms]; threads call
- * it at once for different ranges. sum: receives the results. */
+/* Computes `sum_count` <= TERMS_MAX sums over `term_count` terms in one pass, with bit-identical results for any number
+ * of threads. add_block_of_terms(context, first, end, sum) must add the terms first .. end - 1 of all sums to
+ * sum[sum_count]; threads call it at once for different ranges. sum: receives the results. */
 void reproducible_sums(int64_t term_count, int sum_count,
                        void (*add_block_of_terms)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);

@@ -18,20 +18,18 @@ struct warnings {
  * contains it already. Returns true if it was appended. */
 bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Appends the warnings number `first_warning`, first + 1, ... of the list `source_list` to the list w, except those
- * that w contains already. */
+/* Appends the warnings of the list `source_list`, from number `first_warning` on, to the list w, except those that w
+ * contains already. */
 void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
 
-/* Prints the warnings number `first_warning`, first + 1, ... of the list w to `out`, each as one line `warning: text`.
- */
+/* Prints the warnings of the list w, from number `first_warning` on, to `out`, each as one line `warning: text`. */
 void warnings_print(const struct warnings *w, int first_warning, FILE *out);
 
 /* Appends a warning to the list w while a run is in progress and, if the list did not contain it and is not silent,
  * prints it on standard error. */
 void warnings_add_and_print(struct warnings *w, const char *text);
 
-/* Prints the warnings number `first_warning`, first + 1, ... of the list w on standard error, unless the list is
- * silent. */
+/* Prints the warnings of the list w, from number `first_warning` on, on standard error, unless the list is silent. */
 void warnings_print_to_stderr(const struct warnings *w, int first_warning);
 
 /* Saves the warnings of the list w to the archive `a` if a->saving, else appends those stored in `a` to w. Returns

@@ -344,8 +344,8 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
     __atomic_store_n(&b->soft.at_points, true, __ATOMIC_RELAXED);
 }
 
-/* Recomputes b->common[column], the properties that the eight bonds of a column (one bond of each particle of a row
- * block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
+/* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
+ * row block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
  * inverse_length of a bond; usually called through bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 

@@ -39,7 +39,7 @@ static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bo
 }
 
 /* Returns true if one of the `precrack_count` pre-cracks in the array `precrack` cuts the segment between the reference
- * positions of particles i and j of p. */
+ * positions of the particles `particle` and `other_particle` of p. */
 bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
                                 int64_t particle, int64_t other_particle);
 

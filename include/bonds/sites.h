@@ -22,7 +22,8 @@ struct site_map {
     bool uniform;               /* exact positions, one volume, mass and material: bonds follow from sites */
 };
 
-/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of `map`. */
+/* Returns the index of the lattice site at which the particle with index `particle` is, -1 if its position is not a
+ * lattice site of `map`. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle);
 
 /* Creates the map `map` from lattice sites to the particles and images of p. source: inputs of the bonds (spacing,
@@ -42,13 +43,15 @@ struct site_map *site_map_share_or_make(struct site_map *existing, const struct 
  * NULL. */
 void site_map_release(struct site_map *map);
 
-/* Lists in neighbour[], ascending, the particles and images within the cutoff of particle i that belong to its body, by
- * means of the map `map` from lattice sites to particles. found must have room for map->most entries. Returns their
- * number, or -1 if images are among them: these cannot be listed in ascending order, and the caller must search. */
+/* Lists in neighbour[], ascending, the particles and images within the cutoff of the particle with index `particle`
+ * that belong to its body, by means of the map `map` from lattice sites to particles. `neighbour` must have room for
+ * map->most entries. Returns their number, or -1 if images are among them: these cannot be listed in ascending order,
+ * and the caller must search. */
 int site_map_list_neighbours_of_particle(const struct site_map *map, const struct particles *p, int32_t particle,
                                          int32_t *neighbour);
 
-/* Returns true if a pre-crack of `source` may cut a bond of particle i; false if all are too far away. */
+/* Returns true if a pre-crack of `source` may cut a bond of the particle with index `particle`; false if all are too
+ * far away. */
 bool particle_is_near_precrack(const struct bond_source *source, const struct particles *p, int64_t particle);
 
 /* Returns true if one of the bonds in row block `row_block` (the bonds of eight particles) may be to a mirror image.

@@ -152,8 +152,8 @@ struct contact {
 /* Initialises the contact c of a run, without a search for pairs. between: which bodies can be in contact; law: form,
  * contact distance and friction, of which a copy is kept. The stiffness of contacts is computed here from the elastic
  * constants of the bonds times `stiffness_factor` [1]. source: bond law with spacing and pre-cracks; body_shapes:
- * region of each body; rigid: `rigid_body_count` rigid bodies. shape and rigid are kept by reference and must outlive
- * c. Release with contact_free. */
+ * region of each body; rigid: `rigid_body_count` rigid bodies. `body_shapes` and `rigid` are kept by reference and must
+ * outlive c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count);
@@ -176,9 +176,9 @@ void contact_update_pair_list_if_outdated(struct contact *c, const struct partic
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
 
-/* Requests a search for contact pairs before the next step if one of n listed particles is at the surface of a body,
- * i.e. some of the bonds of a complete family are missing. particle_list: indices of particles that have become
- * peridynamic; family: horizon and lattice. Does nothing if contact is not possible in this run. */
+/* Requests a search for contact pairs before the next step if one of the particles in particle_list[particle_count]
+ * (indices), which have become peridynamic, is at the surface of a body, i.e. some of the bonds of a complete family
+ * are missing. family: horizon and lattice. Does nothing if contact is not possible in this run. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,
                                           const int32_t *particle_list, int64_t particle_count);
 

@@ -41,16 +41,16 @@ struct neighbour_list {
     int n, room;
 };
 
-/* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
- * number in near->n. c: search cells, whose edge must be at least the radius; include_itself: true to include particle
- * i. */
+/* Lists the particles and mirror images within `radius` [m] of the particle with index `particle` in near->at, in
+ * ascending order, and their number in near->n. c: search cells, whose edge must be at least the radius;
+ * include_itself: true to include this particle itself. */
 void particles_list_neighbours_within_radius(struct neighbour_list *near, const struct cells *c,
                                              const struct particles *p, int64_t particle, real radius,
                                              bool include_itself);
 
-/* Lists the particles and mirror images within `radius` [m] of particle i in near->at, and their number in near->n, in
- * the order of the search cells: slightly faster than the ascending order of particles_list_neighbours_within_radius if
- * there are images. include_itself: true to include particle i. */
+/* Lists the particles and mirror images within `radius` [m] of the particle with index `particle` in near->at, and
+ * their number in near->n, in the order of the search cells: slightly faster than the ascending order of
+ * particles_list_neighbours_within_radius if there are images. include_itself: true to include this particle itself. */
 void particles_list_neighbours_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
                                          int64_t particle, real radius, bool include_itself);
 

@@ -59,8 +59,8 @@ struct expression {
     bool in_space, in_time; /* contains x, y or z; contains t */
 };
 
-/* Creates the expression e from copies of its n steps steps[n], in the order of evaluation on a stack, and of the text
- * from which it was compiled. Release with expression_free. */
+/* Creates the expression e from copies of its steps, steps[step_count], in the order of evaluation on a stack, and of
+ * the text from which it was compiled. Release with expression_free. */
 void expression_make(struct expression *e, const struct expression_step *steps, int step_count, const char *text);
 
 /* Creates an expression that is the constant `value` [SI], with a copy of its text. Release with expression_free. */

@@ -238,8 +238,8 @@ static inline real particle_out_of_plane_stress(const struct particles *p, int64
     return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
-/* Allocates n particles without mirror images, with all values 0, in dim dimensions. optional_arrays: arrays that are
- * allocated in addition, sum of WITH_*. Release with particles_free. */
+/* Allocates `particle_count` particles without mirror images, with all values 0, in `dim` dimensions. optional_arrays:
+ * arrays that are allocated in addition, sum of WITH_*. Release with particles_free. */
 void particles_make(struct particles *p, int dim, int64_t particle_count, int optional_arrays);
 
 /* Extends every array of p by `image_count` zeroed entries for mirror images, behind those of the body; pointers to the
@@ -268,7 +268,7 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
  * several; mirror images are not considered. */
 int64_t particles_index_nearest_to_position(const struct particles *p, const real *X);
 
-/* Returns the largest speed of the particles particle_list[n] [m/s], 0 for an empty list. */
+/* Returns the largest speed of the particles particle_list[particle_count] [m/s], 0 for an empty list. */
 real particles_largest_speed_of_list(const struct particles *p, const int32_t *particle_list, int64_t particle_count);
 
 /* Returns the largest speed of all particles, peridynamic and material points [m/s]. */

@@ -108,9 +108,9 @@ struct mirror_plane {
     real at;           /* position along the axis [m] */
 };
 
-/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror_planes[mirrors] and a
- * corner of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip. tolerance:
- * distance from a plane up to which a point is on it [m]. */
+/* Returns true if the end `end` of crack c is on or beyond one of the planes of symmetry mirror_planes[mirror_count]
+ * and a corner of the crack is inside: the mirror image continues the crack there, so that `end` is no crack tip.
+ * tolerance: distance from a plane up to which a point is on it [m]. */
 bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
                                        const struct crack *c, const real *end, real tolerance);
 
@@ -121,9 +121,10 @@ struct crack_list {
     int *of;
 };
 
-/* Computes the parts of the cracks on the body's side of all planes of symmetry mirror[mirrors], and their mirror
- * images within `image_reach` [m] of these planes, so that a bond across a plane and its image are cut alike.
- * tolerance: distance from a plane up to which a point is on it [m]. Release with crack_list_free. */
+/* Computes the parts of the cracks crack[crack_count] on the body's side of all planes of symmetry
+ * mirror[mirror_count], and their mirror images within `image_reach` [m] of these planes, so that a bond across a plane
+ * and its image are cut alike. tolerance: distance from a plane up to which a point is on it [m]. Release with
+ * crack_list_free. */
 void cracks_make_mirror_images(struct crack_list *list, const struct crack *crack, int crack_count,
                                const struct mirror_plane *mirror, int mirror_count, real image_reach, real tolerance);
 

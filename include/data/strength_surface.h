@@ -17,14 +17,16 @@ struct strength_surface {
     real g0, g1; /* [Pa] [1] */
 };
 
-/* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compression >= tension. */
+/* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compressive_strength >=
+ * tensile_strength. */
 struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength);
 
-/* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic > tension/3. */
+/* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic_strength >
+ * tensile_strength/3. */
 struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength);
 
-/* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tension/2 < biaxial <=
- * tension. */
+/* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tensile_strength/2 <
+ * biaxial_strength <= tensile_strength. */
 struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
 /* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. xx, yy, zz: normal

@@ -31,14 +31,14 @@ struct transfer_order {
     int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
-/* Sorts the n particles in `point_list` by the cell of grid g that contains their position, the cells by block (a box
- * of cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this order in o, whose arrays
- * grow as needed. The order depends on positions alone, not on the number of threads. */
+/* Sorts the particles listed in point_list[point_count] by the cell of grid g that contains their position, the cells
+ * by block (a box of cells) and the blocks by colour, where blocks of one colour are not adjacent. Stores this order in
+ * o, whose arrays grow as needed. The order depends on positions alone, not on the number of threads. */
 void transfer_order_sort_points_by_cell(struct transfer_order *o, const struct particles *p, const int32_t *point_list,
                                         int64_t point_count, const struct grid *g);
 
-/* Enlarges the arrays of o, if necessary, for n particles, `block_count` blocks and `cell_count` cells; the contents of
- * an array that grows are lost. Does not change o->n, o->blocks and o->cells. */
+/* Enlarges the arrays of o, if necessary, for `point_count` particles, `block_count` blocks and `cell_count` cells; the
+ * contents of an array that grows are lost. Does not change o->n, o->blocks and o->cells. */
 void transfer_order_reserve_arrays(struct transfer_order *o, int64_t point_count, int64_t block_count,
                                    int32_t cell_count);
 

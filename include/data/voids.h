@@ -38,18 +38,19 @@ bool region_may_have_voids(const struct region *r);
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
 
-/* Returns true if the segment between the points a and b [m] leaves the shape of body number `body_number`, so that a
- * void is between them. Symmetric in a and b. facing: NULL, or receives, if there is a void, whether its two surfaces
- * face each other. Gaps of up to 2e-5 spacings are ignored. */
+/* Returns true if the segment between `point` and `other_point` [m] leaves the shape of body number `body_number`, so
+ * that a void is between them. Symmetric in the two points. facing: NULL, or receives, if there is a void, whether its
+ * two surfaces face each other. Gaps of up to 2e-5 spacings are ignored. */
 bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
                            bool *facing);
 
-/* Returns true if a void separates the particles i and j of one body. v: NULL if no body has voids; the result is then
- * false. Fast for particles without a void nearby. */
+/* Returns true if a void separates the particles `particle` and `other_particle` of one body. v: NULL if no body has
+ * voids; the result is then false. Fast for particles without a void nearby. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 
-/* Returns a lower bound of the distance of particle i from the surface of the shape of its body, in which it is [m]. */
+/* Returns a lower bound of the distance of the particle with index `particle` from the surface of the shape of its
+ * body, in which it is [m]. */
 real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void separates particle i from at least one particle of its body within the distance for which

@@ -49,18 +49,20 @@ struct gradient_stencil {
     int order;
 };
 
-/* Computes the weights by which values at neighbours give the gradient of a field at particle i, and stores them in *s.
- * *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method of the gradient, range and
- * visibility of neighbours; c: neighbour search over the reference positions. If too few neighbours of i are visible,
- * s->order is 0 and there are no weights. Release with gradient_stencil_free. */
+/* Computes the weights by which values at neighbours give the gradient of a field at the particle with index
+ * `particle`, and stores them in *s. *s must be 0 or filled by an earlier call, whose arrays are reused. rule: method
+ * of the gradient, range and visibility of neighbours; c: neighbour search over the reference positions. If too few
+ * neighbours of the particle are visible, s->order is 0 and there are no weights. Release with gradient_stencil_free.
+ */
 void gradient_stencil_compute_weights(struct gradient_stencil *s, const struct gradient_rule *rule,
                                       const struct particles *p, const struct cells *c, int64_t particle);
 
 /* Frees the arrays of a stencil. */
 void gradient_stencil_free(struct gradient_stencil *s);
 
-/* Computes the gradient of a plane vector field at particle particle: gradient[a][b] = d field_a/dX_b. s: stencil of
- * particle i (gradient_stencil_compute_weights); field[a]: component a for every particle, mirror images included. */
+/* Computes the gradient of a plane vector field at the particle with index `particle`: gradient[a][b] = d field_a/dX_b.
+ * s: stencil of this particle (gradient_stencil_compute_weights); field[a]: component a for every particle, mirror
+ * images included. */
 void gradient_stencil_apply(const struct gradient_stencil *s, int64_t particle, const real *const field[2],
                             real gradient[2][2]);
 

@@ -74,7 +74,8 @@ enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 real crack_moving_to_resting_sif_ratio(const struct crack_medium *m, enum speed_factor form, real speed);
 
 /* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_moving_to_resting_sif_ratio) equals
- * `sif_ratio` [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
+ * `sif_ratio` [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if sif_ratio >= 1.
+ */
 real crack_speed_from_sif_ratio(const struct crack_medium *m, real sif_ratio, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund

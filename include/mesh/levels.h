@@ -129,9 +129,9 @@ void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, cons
 /* Forbids coarsening where the present motion would be lost. For each cell that `intended_cell_level` would make
  * coarser than at present, the motion of the nodes inside is compared with the interpolation from its corners. If the
  * energy of the difference (kinetic, and of its strain) exceeds `max_energy` [J/kg], `highest_level` becomes one less
- * than `intended_cell_level` in this cell. level, highest_level: a byte for each cell of level 0, the finest. The
- * motion of the nodes of level 0 must be up to date (levels_prolong_motion_to_fine_nodes). Returns true if an entry of
- * `highest_level` was lowered. */
+ * than `intended_cell_level` in this cell. intended_cell_level, highest_level: a byte for each cell of level 0, the
+ * finest. The motion of the nodes of level 0 must be up to date (levels_prolong_motion_to_fine_nodes). Returns true if
+ * an entry of `highest_level` was lowered. */
 bool levels_forbid_lossy_coarsening(const struct mesh_levels *l, const uint8_t *intended_cell_level, real max_energy,
                                     uint8_t *highest_level);
 

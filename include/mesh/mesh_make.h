@@ -46,27 +46,28 @@ void mesh_free(struct mesh *mesh);
 int64_t mesh_count_connected_parts(const struct particles *p, const struct grid *node_grid,
                                    const struct cells_without_particles *empty_cells);
 
-/* Updates the mesh after n particles have become peridynamic or have changed their partial stress: removes the
- * peridynamic ones from their cells and recomputes these cells. changed_points: indices of the n particles, NULL if
- * they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of its cell, so that
- * nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. */
+/* Updates the mesh after particles have become peridynamic or have changed their partial stress: removes the
+ * peridynamic ones from their cells and recomputes these cells. changed_points[changed_count]: indices of these
+ * particles, NULL if they are unknown. Each particle that leaves takes its share of mass and momentum from the nodes of
+ * its cell, so that nodal velocities are kept. Returns the kinetic energy that is lost by this [J]. */
 real mesh_remove_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                                                const int32_t *changed_points, int64_t changed_count);
 
-/* Recomputes the stiffness of the cells of n points after only their partial stresses have changed; all points remain
- * in the mesh. changed_points: indices of the n points. Possible only for partial cells. These store a stiffness matrix
- * because points are missing, or leave a part of their stress to bonds. Returns false, without any change, if one of
- * the cells was not partial before or would not be afterwards; call mesh_remove_points_and_return_lost_energy then. */
+/* Recomputes the stiffness of the cells of the points in changed_points[changed_count] (indices) after only their
+ * partial stresses have changed; all points remain in the mesh. Possible only for partial cells. These store a
+ * stiffness matrix because points are missing, or leave a part of their stress to bonds. Returns false, without any
+ * change, if one of the cells was not partial before or would not be afterwards; call
+ * mesh_remove_points_and_return_lost_energy then. */
 bool mesh_update_stiffness_of_partial_cells(struct mesh *mesh, const struct particles *p,
                                             const struct mesh_source *source, const int32_t *changed_points,
                                             int64_t changed_count);
 
-/* Adds n listed particles, which have become material points again, to the mesh. Momentum is conserved: the velocity
- * of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N), with shape functions N; the
+/* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
+ * mesh. Momentum is conserved: the velocity of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p
+ * N), with the masses and velocities m_I, v_I of each node I and m_p, v_p of each point p, and shape functions N; the
  * displacement of these nodes is fitted by least squares to all points around them. Call
  * mesh_remove_points_and_return_lost_energy with these particles among the changed ones afterwards, to make their
- * cells. Returns the kinetic energy that is lost [J].
- */
+ * cells. Returns the kinetic energy that is lost [J]. */
 real mesh_insert_points_and_return_lost_energy(struct mesh *mesh, struct particles *p, const int32_t *inserted_points,
                                                int64_t inserted_count);
 

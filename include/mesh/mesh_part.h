@@ -111,8 +111,8 @@ void reference_frame_update_motion_and_stress(struct reference_frame *r, struct 
  * of particles, which `loads` lists. */
 void reference_frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of n material points of the mesh from the nodes, except points in coarse cells,
- * then those of the mirror images of particles, which `loads` lists. point_list: n particle indices. */
+/* Updates positions and velocities of the material points in point_list[point_count] (indices) from the nodes, except
+ * those in coarse cells, then those of the mirror images of particles, which `loads` lists. */
 void reference_frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
                                           const int32_t *point_list, int64_t point_count);
 
@@ -123,8 +123,8 @@ void reference_frame_update_listed_points(struct reference_frame *r, struct part
 bool reference_frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted_count,
                                              const struct partial_stress *partial, real *energy_lost);
 
-/* Adds n listed particles, which have become material points again, to the mesh. inserted_points: n particle indices.
- * Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
+/* Adds the particles in inserted_points[inserted_count] (indices), which have become material points again, to the
+ * mesh. Momentum is conserved; the kinetic energy that is lost is added to *energy_lost [J]. */
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 

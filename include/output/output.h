@@ -89,14 +89,15 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
  * *o. */
 void output_close(struct output *o);
 
-/* Checks that frames of a region can be written to the subfolder frames_NAME of the folder of a run, with NAME = name,
- * the name of the region. Returns REFUSED if a link or a file has that name. Must be called before output_open, which
- * removes the files of an older run. */
+/* Checks that frames of a region can be written to the subfolder frames_NAME of the folder of a run, with NAME =
+ * series_name, the name of the region. Returns REFUSED if a link or a file has that name. Must be called before
+ * output_open, which removes the files of an older run. */
 status output_check_series_folder_is_free(const char *folder, const char *series_name);
 
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
- * NAME.hdf.series and NAME.xdmf, with NAME = name. region: kept by reference until output_close. output_open must have
- * been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
+ * NAME.hdf.series and NAME.xdmf, with NAME = series_name. region: kept by reference until output_close. output_open
+ * must have been called. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be
+ * created. */
 status output_add_frame_series(struct output *o, const char *series_name, const struct region *region);
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
@@ -197,8 +198,8 @@ void output_discard_particle_order(struct output *o);
  * was written or there was no frame in progress. */
 status output_wait_for_frame(struct output *o);
 
-/* Opens history.csv and writes its header `name [unit],...` from column[columns], of which the first two are time and
- * step. If `resume` is true, opens the existing file instead and cuts it to the length that output_save_or_load has
+/* Opens history.csv and writes its header `name [unit],...` from column[column_count], of which the first two are time
+ * and step. If `resume` is true, opens the existing file instead and cuts it to the length that output_save_or_load has
  * restored. Returns FAILED if the file cannot be opened or written. */
 status output_history_open(struct output *o, const struct column *column, int column_count, bool resume);
 
@@ -233,10 +234,11 @@ status frame_read(struct output_frame *f, const char *path);
 /* Releases the arrays of the frame *f. */
 void frame_free(struct output_frame *f);
 
-/* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored
- * in the file, one computed from fields of f (data/derived_fields.h), or contact forces that the frame leaves out
- * because they are 0. Stores the number of its components in *component_count and an allocated array [n][columns] in
- * *value, which the caller releases with memory_free. Returns FAILED if the frame has no such field. */
+/* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored in
+ * the file, one computed from fields of f (data/derived_fields.h), or contact forces that the frame leaves out because
+ * they are 0. Stores the number of its components in *component_count and an allocated array, with that many values for
+ * each of the f->n particles, in *value, which the caller releases with memory_free. Returns FAILED if the frame has no
+ * such field. */
 status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *component_count,
                         float **value);
 

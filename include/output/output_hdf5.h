@@ -69,9 +69,9 @@ struct hdf_source {
 };
 
 /* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
- * dataset of the same name in the files source_files[sources], one after another. type, columns: type of the numbers
- * and numbers per row, equal in all files. From each file source_files[k].rows + extra_rows rows are taken. A failure
- * is stored in f->failed. */
+ * dataset of the same name in the files source_files[source_count], one after another. type, columns: type of the
+ * numbers and numbers per row, equal in all files. From each file source_files[k].rows + extra_rows rows are taken. A
+ * failure is stored in f->failed. */
 void hdf_write_virtual_dataset(struct hdf *f, const char *name, enum hdf_type type, int columns,
                                const struct hdf_source *source_files, int source_count, int extra_rows);
 

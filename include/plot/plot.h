@@ -111,7 +111,7 @@ void run_frames_free(struct run_frames *f);
  * *f, which is released with frames_free. Returns FAILED, with no memory to release, if a frame cannot be read. */
 status frames_read_selected(struct output_frame **f, const char *folder, const struct run_frames *frames);
 
-/* Releases the n frames frames[n] and their array. */
+/* Releases the frames frames[frame_count] and their array. */
 void frames_free(struct output_frame *frames, int frame_count);
 
 /* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a symbolic link has this name. Also
@@ -301,8 +301,8 @@ struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
 };
-/* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[clouds], and stores them in
- * *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
+/* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[frame_count], and stores them
+ * in *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
 void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
                                   const struct plotted_particles *cloud, int frame_count);
 
@@ -329,18 +329,19 @@ struct view {
  * causes damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
-/* Returns a view whose rectangle shows all of cloud[clouds], the particles of several frames: the bounding box of the
- * body with a margin. A few particles that are far from all others may be outside. */
+/* Returns a view whose rectangle shows all of cloud[frame_count], the particles of several frames: the bounding box of
+ * the body with a margin. A few particles that are far from all others may be outside. */
 struct view view_make_around_particles(const struct plotted_particles *cloud, int frame_count);
 
 /* Sets the field that the view v shows, and the values at the ends of its colour scale. These follow from the kind of
- * scale of the field (field->scale) and its values in cloud[clouds]. Extreme values of a few particles are ignored. */
+ * scale of the field (field->scale) and its values in cloud[frame_count]. Extreme values of a few particles are
+ * ignored. */
 void view_set_field_and_colour_range(struct view *v, const struct plot_field *field,
                                      const struct plotted_particles *cloud, int frame_count);
 
-/* Makes the view *v of cloud[clouds] that the request r demands: its rectangle, the ends and the table of the colours
- * of its field, and the pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with a unit
- * of the field, or if they are in the wrong order; FAILED if there are no positions. */
+/* Makes the view *v of cloud[frame_count] that the request r demands: its rectangle, the ends and the table of the
+ * colours of its field, and the pre-cracks of a plane scene. Returns REFUSED if an end of the colours is no number with
+ * a unit of the field, or if they are in the wrong order; FAILED if there are no positions. */
 status view_make_for_request(struct view *v, const struct plot_request *r, const struct plotted_particles *cloud,
                              int frame_count);
 
@@ -398,8 +399,8 @@ struct sheet {
     enum picture_format format;
 };
 
-/* Draws one picture, the file `sheet`, with a panel for each of the frames cloud[clouds], a common colour scale or key,
- * and `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns
+/* Draws one picture, the file `sheet`, with a panel for each of the frames cloud[frame_count], a common colour scale or
+ * key, and `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns
  * FAILED if gnuplot fails. */
 status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
                                   const struct plotted_particles *cloud, int frame_count);

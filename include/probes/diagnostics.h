@@ -41,7 +41,7 @@ struct diagnostics {
 void diagnostics_make(struct diagnostics *w);
 
 /* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates
- * w->now.momentum_error, the largest error so far. nodes[grids]: grids whose nodes carry the mass of their points.
+ * w->now.momentum_error, the largest error so far. nodes[grid_count]: grids whose nodes carry the mass of their points.
  * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
                                  int grid_count, const real *impulse);
@@ -64,9 +64,10 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 real diagnostics_relative_energy_change(const struct diagnostics *w);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
- * are at most `horizon` apart. searched_particles[n]: numbers of the particles that are searched; NULL for particles 0
- * .. n - 1. horizon: length of the longest bond [m]. cluster_centre: receives the reference position of the middle of
- * one cluster, dim components [m]. Returns the number of clusters; if it is 0, `cluster_centre` is unchanged. */
+ * are at most `horizon` apart. searched_particles[particle_count]: numbers of the particles that are searched; NULL for
+ * particles 0 .. particle_count - 1. horizon: length of the longest bond [m]. cluster_centre: receives the reference
+ * position of the middle of one cluster, dim components [m]. Returns the number of clusters; if it is 0,
+ * `cluster_centre` is unchanged. */
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
                                                  int64_t particle_count, real horizon, real *cluster_centre);
 

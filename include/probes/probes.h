@@ -80,11 +80,11 @@ struct velocity_time {
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
 };
 
-/* Initialises the probes *s for the requests requests[n] of the scene: finds the particles that each probe observes,
- * and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED, with nothing
- * left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not exist or has
- * no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip or
- * unsuitable contours. */
+/* Initialises the probes *s for the requests requests[request_count] of the scene: finds the particles that each probe
+ * observes, and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED,
+ * with nothing left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not
+ * exist or has no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip
+ * or unsuitable contours. */
 status probes_make(struct probes *s, const struct probe_request *requests, int request_count,
                    const struct observed_run *o);
 
@@ -126,9 +126,9 @@ void probes_visit_results(const struct probes *s, const struct observed_run *o,
  * probes_write_profiles passes on. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile of each LINE and EXACT probe as CSV text, and calls write(context, `<probe>_<frame>.csv`, text,
- * length) for each. frame_number: number of the frame in these names. Returns FAILED if memory is exhausted, or the
- * status of `write_file` if it is not OK. */
+/* Prints the profile of each LINE and EXACT probe as CSV text, and calls write_file(context, `<probe>_<frame>.csv`,
+ * text, length) for each. frame_number: number of the frame in these names. Returns FAILED if memory is exhausted, or
+ * the status of `write_file` if it is not OK. */
 status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number);
 

@@ -65,14 +65,14 @@ real rigid_signed_distance(const struct rigid_body *r, const real *x, real *norm
 /* Computes the current position x of the point of the body that was at X at t = 0 (DIM_MAX components each [m]). */
 void rigid_present_position_of_point(const struct rigid_body *r, const real *X, real *x);
 
-/* Computes the velocity v of the point of the rigid body at the present position x [m/s], from the velocity of the
- * centre and the angular velocity. */
+/* Computes the velocity of the point of the rigid body at the present position x [m/s], from the velocity of the centre
+ * and the angular velocity. */
 void rigid_compute_velocity_at_point(const struct rigid_body *r, const real *x, real *velocity);
 
-/* Computes the velocity v that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
+/* Computes the velocity that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
 void rigid_compute_prescribed_velocity(const struct rigid_body *r, real t, real *velocity);
 
-/* Computes the displacement u that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
+/* Computes the displacement that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
  * [m]); 0 for other bodies. Returns its length [m]. */
 real rigid_compute_prescribed_displacement(const struct rigid_body *r, real t, real *displacement);
 

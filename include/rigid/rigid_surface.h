@@ -42,7 +42,7 @@ struct rigid_placement {
 };
 
 /* Reads the placements of `rigid_body_count` rigid bodies at frame `frame_number` from the folder of a run into
- * placement[rigids]. Returns false if there is no such file, or if it contains another number of bodies. */
+ * placement[rigid_body_count]. Returns false if there is no such file, or if it contains another number of bodies. */
 bool rigids_read_placements_of_frame(struct rigid_placement *placement, int rigid_body_count, const char *folder,
                                      int frame_number);
 

@@ -26,10 +26,11 @@ struct bond_operator bond_operator_make(struct bonds *b, struct particles *p, bo
  * caller. */
 void bond_operator_free(struct bond_operator *body);
 
-/* Computes y = M^-1/2 K M^-1/2 u [1/s^2] with the mass matrix M and the tangent stiffness K of a body of bonds. K d is
- * the difference of the bond forces at the reference positions X + s d, divided by s; s is chosen such that strains
- * are about 1e-7. bond_body: a struct bond_operator; u, result: dim x n values, component by component. Overwrites the
- * positions p->x and the forces p->f of the particles. */
+/* Computes result = M^-1/2 K M^-1/2 displacement [1/s^2] with the mass matrix M and the tangent stiffness K of a body
+ * of bonds. The product of K with a vector d is the difference of the bond forces at the positions X + s d and at the
+ * reference positions X, divided by -s; s is chosen such that strains are about 1e-7. bond_body: a struct
+ * bond_operator; displacement, result: dim x n values for n particles, component by component. Overwrites the positions
+ * p->x and the forces p->f of the particles. */
 void bond_operator_apply(void *bond_body, const real *displacement, real *result);
 
 /* Returns the critical time step 2/omega_max of the particles p with the bonds b [s], INFINITY if they have no

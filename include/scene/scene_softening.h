@@ -11,8 +11,8 @@ struct softening_model scene_softening_model_of_bonds(const struct scene *s, con
 
 #define FREE_OF_TRAPPING 2 /* kappa above which the lattice hardly impedes cracks; measured */
 
-/* Returns the horizon [m] at which bonds of material m have the ratio kappa = (critical stretch/stretch at which
- * softening begins)^2 [1]. The material must have an energy release rate. */
+/* Returns the horizon [m] at which bonds of material m have the ratio squared_stretch_ratio = (critical stretch/stretch
+ * at which softening begins)^2 [1]. The material must have an energy release rate. */
 real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
                                                real squared_stretch_ratio);
 

@@ -53,8 +53,8 @@ struct newton_solver {
     int64_t worst;     /* node with the largest residual */
 };
 
-/* Allocates all vectors of q for n nodes in dim space dimensions and sets them to 0. Functions and tolerances are set
- * by the caller. Release with newton_solver_free. */
+/* Allocates all vectors of q for `node_count` nodes in `dim` space dimensions and sets them to 0. Functions and
+ * tolerances are set by the caller. Release with newton_solver_free. */
 void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count);
 
 /* Frees the vectors of q. */

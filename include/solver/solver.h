@@ -71,14 +71,14 @@ void static_solver_free(struct static_solver *s);
 typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
 static_solver_step_fn relaxation_step, cg_step;
 
-/* Returns the largest magnitude of a component of the vectors v, in their unit. dim: number of components of a vector;
- * vector_count: number of vectors. */
+/* Returns the largest magnitude of a component of the vectors in `vectors`, in their unit. dim: number of components of
+ * a vector; vector_count: number of vectors. */
 real field_largest_component(const struct field *vectors, int dim, int64_t vector_count);
 
-/* Sets the scale of forces s->scale = max(s->applied, reaction) [N] and the residual s->residual = unbalanced/s->scale
- * [1]. reaction_norm: norm of the forces on constrained components [N]; unbalanced_norm: norm of the forces on free
- * components, which vanish in equilibrium [N]. Without loads, the scale is the largest `unbalanced_norm` so far. The
- * residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
+/* Sets the scale of forces s->scale = max(s->applied, reaction_norm) [N] and the residual s->residual =
+ * unbalanced_norm/s->scale [1]. reaction_norm: norm of the forces on constrained components [N]; unbalanced_norm: norm
+ * of the forces on free components, which vanish in equilibrium [N]. Without loads, the scale is the largest
+ * `unbalanced_norm` so far. The residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
 void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
 
 /* Saves the state of a static iteration to the archive `a` if a->saving, else restores it from it. Returns FAILED if

@@ -37,7 +37,8 @@ void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struc
 
 /* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. rate_times_dt:
  * c dt [1], with the damping rate c and the time step dt. kinetic_energy_before: kinetic energy before that update [J];
- * leapfrog_kinetic_energy: 1/2 m v- . v+, with v- and v+ the velocities before and after it [J]. */
+ * leapfrog_kinetic_energy: sum of 1/2 m v- . v+ over all particles, with the mass m and the velocities v- and v+ before
+ * and after it [J]. */
 real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy);
 
 #endif

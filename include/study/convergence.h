@@ -51,9 +51,9 @@ struct convergence {
 
 /* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from `run_count` runs, and
  * stores them in *c. value[k]: figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k]
- * = 0 .. levels - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is
- * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no
- * value. */
+ * = 0 .. level_count - 1: its spacing level, 0 the finest. resolution[level]: half of the step in which the figure is
+ * quantised at this level; NULL if it is not quantised. Returns false if one of the three finest levels has no value.
+ */
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
                                         const int *level, int run_count, int level_count, const double *resolution);
 

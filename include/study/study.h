@@ -62,20 +62,21 @@ double value_read_number_and_unit(const char *value, const char **unit);
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
 /* Initialises a study without runs and creates no folder. scene: path of the scene file, kept by reference; folder:
- * folder of the study, NULL for results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED if the
- * name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release s with study_free. */
+ * folder of the study, NULL for results/NAME_KIND with the name of the scene and KIND = study_kind. Returns REFUSED if
+ * the name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release s with
+ * study_free. */
 status study_make(struct study *s, const char *scene, const char *folder, const char *study_kind);
 
 /* Initialises a study without runs, whose keys key[keys] vary between runs, and creates no folder. A key with a single
  * value overrides the scene in all runs. Stores the text of the scene without the varied keys in s->text. scene: path
  * of the scene file, kept by reference; folder: folder of the study, NULL for results/NAME_KIND with the name of the
- * scene and KIND = kind. Returns REFUSED if the name of the folder is empty or too long, FAILED or REFUSED if the scene
- * cannot be read. Release s with study_free. */
+ * scene and KIND = study_kind. Returns REFUSED if the name of the folder is empty or too long, FAILED or REFUSED if the
+ * scene cannot be read. Release s with study_free. */
 status study_make_with_keys(struct study *s, const char *scene, const char *folder, const char *study_kind,
                             const struct varied_key *key, int keys);
 
 /* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
- * kind, to folder[capacity]. */
+ * study_kind, to folder[capacity]. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind);
 
 /* Checks that `folder` may be used for a study of the scene with the text `text`. Returns REFUSED if it contains a
@@ -172,7 +173,7 @@ status study_lock_folder(struct study *s, bool overwrite);
 /* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
  * process. options: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
  * appears on standard error, and the study continues. Returns REFUSED if the folder cannot be used (see
- * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if how.stop is set. */
+ * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if options.stop is set. */
 status study_execute_waiting_runs(struct study *s, struct study_options options);
 
 /* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the

@@ -33,10 +33,10 @@ void bond_row_buffer_make(struct row *row, int capacity);
 /* Releases the arrays of `row`. */
 void bond_row_buffer_free(struct row *row);
 
-/* Lists the neighbours of particle or image i within the cutoff in `neighbour`, in ascending order and without those
- * behind a void, whose bond would cross it. capacity: capacity of `neighbour`; map: from lattice sites to particles,
- * used where possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds
- * `capacity`, the list is incomplete. */
+/* Lists the neighbours of the particle or mirror image `particle` within the cutoff in `neighbour`, in ascending order
+ * and without those behind a void, whose bond would cross it. capacity: capacity of `neighbour`; map: from lattice
+ * sites to particles, used where possible instead of a search; NULL: always search. Returns the number of neighbours;
+ * if it exceeds `capacity`, the list is incomplete. */
 int particle_find_neighbours_within_cutoff(const struct site_map *map, const struct bond_source *source,
                                            const struct particles *p, int32_t particle, int32_t *neighbour,
                                            int capacity);
@@ -57,9 +57,9 @@ struct row_maker {
 void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                                     const struct particles *p);
 
-/* Sets the softening state of the bonds in `row`, the row of particle i, whose neighbours have been found: copied from
- * the previous row of the particle in maker->old, or, for bonds that are not in it, that of bonds that have not begun
- * to soften. */
+/* Sets the softening state of the bonds in `row`, the row of the particle with index `particle`, whose neighbours have
+ * been found: copied from the previous row of this particle in maker->old, or, for bonds that are not in it, that of
+ * bonds that have not begun to soften. */
 void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns true if row number `row` (all bonds of one particle) has an intact bond that has not begun to soften. */
@@ -91,12 +91,12 @@ static inline bool bond_row_previous_is_still_valid(const struct row_maker *make
     return before >= 0 && ((maker->old->whole[before] && maker->p->kind[i] == KIND_PD) || !maker->fresh[i]);
 }
 
-/* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
+/* Finds the neighbours of the particle with index `particle` and stores them in row->nbr and row->n. */
 void bond_row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t particle);
 
-/* Computes lengths and weights of the bonds from particle i to the neighbours in row->nbr and stores them in `row`.
- * Bonds that are broken in the previous bonds maker->old are broken in `row`, too; the plastic state of bonds is copied
- * from there. */
+/* Computes lengths and weights of the bonds from the particle with index `particle` to the neighbours in row->nbr and
+ * stores them in `row`. Bonds that are broken in the previous bonds maker->old are broken in `row`, too; the plastic
+ * state of bonds is copied from there. */
 void bond_row_compute_lengths_and_weights(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
@@ -133,11 +133,12 @@ void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker 
  * release them. */
 void bonds_clear_pointers_to_moved_arrays(struct bonds *previous, const struct bonds *b);
 
-/* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
+/* Returns true if a pre-crack or a void may cut a bond of the particle with index `particle`; false if all are too far
+ * away. */
 bool particle_is_near_precrack_or_void(const struct bond_source *source, const struct particles *p, int64_t particle);
 
-/* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
- * breaking: its critical stretch less a tolerance for round-off [1]. */
+/* Returns the stretch above which the vectorised test reports the bond between the particles `particle` and
+ * `other_particle` for the exact test of breaking: its critical stretch less a tolerance for round-off [1]. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle);
 
@@ -166,15 +167,15 @@ void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struc
 /* Releases the arrays of `bonds`. */
 void regular_bonds_free(struct regular_bonds *bonds);
 
-/* Lists the neighbours of the eight particles i to i + 7 in `found_bonds`, by index distance, from the map `map` of
- * lattice sites. Returns false if the map does not contain all sites needed, so that the neighbours must be searched
- * for. */
+/* Lists the neighbours of the eight particles from `first_particle` on in `found_bonds`, by index distance, from the
+ * map `map` of lattice sites. Returns false if the map does not contain all sites needed, so that the neighbours must
+ * be searched for. */
 bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
-/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find_for_eight_particles does, without regard
- * to pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or if a void is
- * near one of them. */
+/* Lists the neighbours of the eight particles from `first_particle` on as regular_bonds_find_for_eight_particles does,
+ * without regard to pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or
+ * if a void is near one of them. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
@@ -186,21 +187,23 @@ struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 /* Releases the cache t. */
 void stencil_cache_free(struct stencil_cache *t);
 
-/* Searches the cache for a row block whose bonds equal the bonds b of particles i to i + 7 bit by bit (lengths, weights
- * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of the row block found; -1 if
- * there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not found are added to the
- * cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are none. */
+/* Searches the cache for a row block whose bonds equal `bonds`, those of the eight particles from `first_particle` on,
+ * bit by bit (lengths, weights and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of
+ * the row block found; -1 if there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not
+ * found are added to the cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are
+ * none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
-/* Computes inverse length `inverse_length` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
- * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
+/* Computes inverse length `inverse_length` [1/m] and weight `weight` [1] of the eight bonds between the particles
+ * first_particle + l and first_neighbour + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by
+ * pair of materials. */
 void regular_bonds_compute_weights(const struct bond_source *source, const struct particles *p,
                                    const struct pair_table *pairs, int64_t first_particle, int64_t first_neighbour,
                                    real *inverse_length, real *weight);
 
-/* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `found_bonds`. Returns false
- * if that is not possible, e.g. because a crack is near. */
+/* Computes the bonds of the eight particles from `first_particle` on from the map of lattice sites into `found_bonds`.
+ * Returns false if that is not possible, e.g. because a crack is near. */
 bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const struct bond_source *source,
                                           const struct particles *p, int64_t first_particle,
                                           struct regular_bonds *found_bonds);
@@ -240,9 +243,9 @@ void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, c
 /* Releases the working memory `buffer`. */
 void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 
-/* Returns the number of columns that the bonds in buffer->row[0] to buffer->row[rows - 1] need. particle: the particles
- * of these rows. *one_offset_per_column: set to true if each column has one index distance, to false if rows are packed
- * without gaps. */
+/* Returns the number of columns that the bonds in buffer->row[0] to buffer->row[row_count - 1] need. particle: the
+ * particles of these rows. *one_offset_per_column: set to true if each column has one index distance, to false if rows
+ * are packed without gaps. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column);
 
@@ -279,15 +282,16 @@ struct stencils *stencils_share_or_make_table(struct stencils *existing);
 /* Removes one user of the table of stencils p; the last user releases it. */
 void stencils_release_table(struct stencils *stencils);
 
-/* Allocates the stencil p for up to `max_columns` columns. Release with stencil_free. */
+/* Allocates `stencil` for up to `max_columns` columns. Release with stencil_free. */
 void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 
-/* Releases the arrays of the stencil p. */
+/* Releases the arrays of `stencil`. */
 void stencil_free(struct stencil *stencil);
 
-/* Appends the column `added_column` (eight bonds) of the row block with the consecutive particles i to i + 7 to the
- * stencil `stencil`. A lane of `added_column` with w = 0 and inverse_length = 0 has no bond. Returns false, and leaves
- * an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ in length or are cut. */
+/* Appends the column `added_column` (eight bonds) of the row block with the eight consecutive particles from
+ * `first_particle` on to the stencil `stencil`. A lane of `added_column` with w = 0 and inverse_length = 0 has no bond.
+ * Returns false, and leaves an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ in
+ * length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 

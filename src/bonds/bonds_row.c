@@ -161,9 +161,9 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* Returns the stretch above which the vector test reports bond i-other_particle: the stretch at which the bond breaks
- * or begins to soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the strain rate, which is
- * measured from there on. */
+/* Returns the stretch above which the vector test reports the bond between `particle` and `other_particle`: the stretch
+ * at which the bond breaks or begins to soften, reduced by TRIGGER_MARGIN; half of it where strengths depend on the
+ * strain rate, which is measured from there on. */
 real bond_stretch_that_triggers_exact_test(const struct bond_source *source, const struct particles *p,
                                            int32_t particle, int32_t other_particle)
 {

@@ -36,7 +36,7 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
 /* Returns the number of columns of a row block (rows of eight particles). Stores in *one_offset_per_column how its
  * bonds are arranged: true if all bonds of a column have one index distance (neighbour minus particle), false if each
  * row has its bonds in the first columns, without gaps. The latter is used off a lattice, where columns by distance
- * would be mostly padding. particle[rows]: particles of the rows. */
+ * would be mostly padding. particle[row_count]: particles of the rows. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column)
 {

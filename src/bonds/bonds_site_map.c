@@ -20,7 +20,8 @@ enum { HALF_MOST = 16 };
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-/* Returns the index in `map` of the lattice site at which particle i is; -1 if its position is not a lattice site. */
+/* Returns the index in `map` of the lattice site at which the particle with index `particle` is; -1 if its position is
+ * not a lattice site. */
 int64_t site_map_lattice_site_of_particle(const struct site_map *map, const struct particles *p, int64_t particle)
 {
     int64_t site = 0;

@@ -158,8 +158,8 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if a void, space without particles, is between particles i and j of one body: the segment that
- * connects them leaves the shape of the body. Returns false if v is NULL. */
+/* Returns true if a void, space without particles, is between the particles `particle` and `other_particle` of one
+ * body: the segment that connects them leaves the shape of the body. Returns false if v is NULL. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle)
 {

@@ -248,8 +248,8 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
-/* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean
- * of |K|, or of J over its mean; NAN if a denominator is 0. result[contours]: stress-intensity factors and J of each
+/* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean of
+ * |K|, or of J over its mean; NAN if a denominator is 0. result[contour_count]: stress-intensity factors and J of each
  * contour. */
 real sif_relative_spread_over_contours(const struct sif *result, int contour_count)
 {

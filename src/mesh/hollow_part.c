@@ -180,7 +180,7 @@ status cells_without_particles_choose_for_scene(struct cells_without_particles *
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if a cell without particles has level 0, the finest, so that the run must be set up again with more
- * particles. new_cell_level[grid.n]: levels of the cells of the mesh. */
+ * particles. new_cell_level[mesh->grid.n]: levels of the cells of the mesh. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)

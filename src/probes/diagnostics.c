@@ -18,7 +18,7 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* Computes the momentum of all particles and of the nodes of the grids nodes[grids], w->now.momentum, and raises
+/* Computes the momentum of all particles and of the nodes of the grids nodes[grid_count], w->now.momentum, and raises
  * w->now.momentum_error to |momentum - initial momentum - impulse| over the largest momentum so far [1]. impulse[dim]:
  * impulse of loads and supports since the start [N s]. */
 void diagnostics_update_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes,
@@ -65,8 +65,9 @@ void diagnostics_update_energy_balance(struct diagnostics *w, real t, const stru
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
 /* Counts the separate groups of bonds that break in this step: clusters of particles with FLAG_CRACKED, linked over
- * distances up to `horizon` [m]. searched_particles[n]: particles to examine; NULL: particles 0 .. n - 1. Stores the
- * middle of one group in cluster_centre[dim] [m]. Returns the number of groups, 0 if no bond breaks. */
+ * distances up to `horizon` [m]. searched_particles[particle_count]: particles to examine; NULL: particles 0 ..
+ * particle_count - 1. Stores the middle of one group in cluster_centre[dim] [m]. Returns the number of groups, 0 if no
+ * bond breaks. */
 int64_t diagnostics_count_clusters_of_new_breaks(const struct particles *p, const int32_t *searched_particles,
                                                  int64_t particle_count, real horizon, real *cluster_centre)
 {

@@ -16,8 +16,8 @@
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
-/* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = kind, into
- * folder[capacity]. */
+/* Writes the path of the default folder of a study, results/NAME_KIND with the name of the scene and KIND = study_kind,
+ * into folder[capacity]. */
 void study_compose_default_folder(char *folder, size_t capacity, const struct scene *scene, const char *study_kind)
 {
     snprintf(folder, capacity, "results/%s_%s", scene->name, study_kind);
