@@ -345,8 +345,8 @@ static inline void softening_mark_point_for_conversion(struct bonds *b, struct p
 }
 
 /* Recomputes b->common[column_number], the properties that the eight bonds of a column (one bond of each particle of a
- * row block) have in common, from their stored weights and lengths. Required after a change of w or of the sign of
- * inverse_length of a bond; usually called through bond_column_update_after_bond_change. */
+ * row block) have in common, from their stored weights and lengths. Required after a change of the weight of a bond or
+ * of the sign of its inverse length; usually called through bond_column_update_after_bond_change. */
 void bond_column_update_common_properties(const struct bonds *b, int64_t column_number);
 
 /* Recomputes the common properties of the column that contains bond `bond` after its weight or the sign of its inverse

@@ -145,7 +145,7 @@ void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, c
  * diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
 void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
 
-/* Changes the refinement level of cells to new_cell_level[fine->grid.n], for each cell of level 0 (the finest) the
+/* Changes the refinement level of cells to new_cell_level[l->fine->grid.n], for each cell of level 0 (the finest) the
  * level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where
  * cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
  * distributed among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces

@@ -30,7 +30,7 @@ void bond_operator_free(struct bond_operator *body);
  * of bonds. The product of K with a vector d is the difference of the bond forces at the positions X + s d and at the
  * reference positions X, divided by -s; s is chosen such that strains are about 1e-7. bond_body: a struct
  * bond_operator; displacement, result: dim x n values for n particles, component by component. Overwrites the positions
- * p->x and the forces p->f of the particles. */
+ * and forces of the particles of the body. */
 void bond_operator_apply(void *bond_body, const real *displacement, real *result);
 
 /* Returns the critical time step 2/omega_max of the particles p with the bonds b [s], INFINITY if they have no

@@ -173,7 +173,7 @@ status study_lock_folder(struct study *s, bool overwrite);
 /* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
  * process. options: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
  * appears on standard error, and the study continues. Returns REFUSED if the folder cannot be used (see
- * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if options.stop is set. */
+ * study_lock_folder), FAILED if a process cannot be started, INTERRUPTED if *options.stop is set. */
 status study_execute_waiting_runs(struct study *s, struct study_options options);
 
 /* Prints to `out` the shell command that executes run c alone. It is valid in any current folder, with quotes where the

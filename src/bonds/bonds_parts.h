@@ -289,9 +289,9 @@ void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 void stencil_free(struct stencil *stencil);
 
 /* Appends the column `added_column` (eight bonds) of the row block with the eight consecutive particles from
- * `first_particle` on to the stencil `stencil`. A lane of `added_column` with w = 0 and inverse_length = 0 has no bond.
- * Returns false, and leaves an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ in
- * length or are cut. */
+ * `first_particle` on to the stencil `stencil`. A lane of `added_column` with weight 0 and inverse length 0 has no
+ * bond. Returns false, and leaves an unusable stencil, if the eight neighbours are not consecutive, or if bonds differ
+ * in length or are cut. */
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
