@@ -167,7 +167,7 @@ done
 
 if command -v gnuplot >/dev/null 2>&1; then
     for run in times partial; do
-        "$cleave" plot "$work/$run" >"$work/out" 2>&1
+        "$cleave" plot "$work/$run" --size 90mmx70mm >"$work/out" 2>&1
         is "plot $run: exit status" $? 0
         holds "profiles.png of $run" test -s "$work/$run/pictures/profiles.png"
     done

@@ -71,7 +71,7 @@ is "below: plastic work" "$(f below energy.plastic)" 0
 
 is "profiles" "$(ls "$work/mpm" | grep -c '^exact_00000[0-3].csv$')" 4
 if command -v gnuplot >/dev/null 2>&1; then
-    "$cleave" plot "$work/mpm" >"$work/out" 2>&1
+    "$cleave" plot "$work/mpm" --size 90mmx70mm >"$work/out" 2>&1
     is "plot: exit status" $? 0
     holds "profiles.png" test -s "$work/mpm/pictures/profiles.png"
 fi

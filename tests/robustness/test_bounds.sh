@@ -134,7 +134,7 @@ cp "$work/block.yaml" "$work/$escape.yaml"
 "$cleave" check "$work/$escape.yaml" >>"$work/out" 2>&1
 "$cleave" compare "$work/$escape" "$work/nowhere$escape" >>"$work/out" 2>&1
 "$cleave" compare "$work/$escape" "$work/$escape" >>"$work/out" 2>&1
-"$cleave" plot "$work/$escape" >>"$work/out" 2>&1
+"$cleave" plot "$work/$escape" --size 90mmx70mm >>"$work/out" 2>&1
 sed -i "1s/kinetic/$escape/" "$work/$escape/history.csv"
 "$cleave" compare "$work/$escape" "$work/block" >>"$work/out" 2>&1
 "$cleave" run -o "$work/r" "$work/$escape.yaml" -s "du$escape=1" >>"$work/out" 2>&1

@@ -83,23 +83,23 @@ refused "a folder of frames that is a symbolic link" "$work/linked" "frames is a
 holds "what it leads to stays" test -e "$work/elsewhere/000000.hdf"
 
 cp -r "$work/once" "$work/|touch PWNED;echo "
-(cd "$work" && "$cleave" plot '|touch PWNED;echo ' >"$work/out" 2>&1)
+(cd "$work" && "$cleave" plot '|touch PWNED;echo ' --size 90mmx70mm >"$work/out" 2>&1)
 is "a folder that looks like a command: exit status" $? 0
 for name in damage energy; do
     echo thesis >"$work/thesis"
     ln -sf "$work/thesis" "$work/once/pictures/$name.png.cleave.tmp" 2>/dev/null ||
         { mkdir "$work/once/pictures"; ln -s "$work/thesis" "$work/once/pictures/$name.png.cleave.tmp"; }
 done
-"$cleave" plot "$work/once" >"$work/out" 2>&1
+"$cleave" plot "$work/once" --size 90mmx70mm >"$work/out" 2>&1
 is "a picture writes through no link" "$(cat "$work/thesis")" thesis
 rm -r "$work/once/pictures"
 ln -s "$work" "$work/once/pictures"
-"$cleave" plot "$work/once" >"$work/out" 2>"$work/err"
+"$cleave" plot "$work/once" --size 90mmx70mm >"$work/out" 2>"$work/err"
 is "a folder of pictures that is a symbolic link" $? 2
 rm "$work/once/pictures"
 tabbed=$(printf '%s/a\tb' "$work")
 cp -r "$work/once" "$tabbed"
-"$cleave" plot "$tabbed" >"$work/out" 2>"$work/err"
+"$cleave" plot "$tabbed" --size 90mmx70mm >"$work/out" 2>"$work/err"
 is "a folder with a tab: exit status" $? 2
 is "a folder with a tab: lines" "$(wc -l <"$work/err")" 1
 rm -r "$tabbed"
@@ -155,7 +155,7 @@ printf 'short' >"$work/part/frames/000003.hdf"
 warned "frames that are lost" "$work/part" "frames/000001.hdf is missing, and 1 frames more are lost" $small -s output.frames=6 --resume
 is "the index leaves them out" "$(grep -c '"time"' "$work/part/frames.hdf.series")" 5
 is "and so does the other" "$(grep -c '<Time ' "$work/part/frames.xdmf")" 5
-holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
+holds "plots go on" "$cleave" plot "$work/part" --frames all --size 90mmx70mm >/dev/null
 holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
@@ -164,7 +164,7 @@ rm -rf "$work/lone"
 interrupted "$work/lone" 30 $small -s output.frames=6
 cp -r "$work/lone" "$work/bent"
 rm "$work/lone/frames/particles_000000.h5"
-"$cleave" plot "$work/lone" >"$work/out" 2>"$work/err"
+"$cleave" plot "$work/lone" --size 90mmx70mm >"$work/out" 2>"$work/err"
 is "frames without what they share: exit status" $? 1
 is "frames without what they share: lines" "$(wc -l <"$work/err")" 1
 holds "frames without what they share: $(cat "$work/err")" grep -q "particles_000000.h5 beside it, to which it links, is missing" "$work/err"
@@ -265,9 +265,9 @@ holds "a modulus of nothing: no number that is none" test -z "$(cut -d, -f3-8 "$
 
 # ---- reactions before and after a stop ---------------------------------------------------------------------------
 
-load="inputs/load_displacement.yaml -s particles.spacing=1mm -s output.samples=800 -s output.checkpoint=10ms"
+load="inputs/load_displacement.yaml -s particles.spacing=1mm -s duration=50us -s output.samples=500 -s output.checkpoint=10ms"
 calm "$work/load" $load
-interrupted "$work/load_stopped" 300 $load
+interrupted "$work/load_stopped" 250 $load
 calm "$work/load_stopped" $load --resume
 same "reactions, interrupted" "$work/load" "$work/load_stopped"
 

@@ -39,7 +39,7 @@ for run in regular irregular sparse; do between "$run: K_II" "$(worst $run)" 0 0
 between "tip of damage" "$(f regular crack.angle_deg)" 68 78
 
 if command -v gnuplot >/dev/null; then
-    "$cleave" plot "$work/regular" >"$work/plot.out" 2>&1 || fail "plot: $(cat "$work/plot.out")"
+    "$cleave" plot "$work/regular" --size 90mmx70mm >"$work/plot.out" 2>&1 || fail "plot: $(cat "$work/plot.out")"
     for picture in sif path; do holds "$picture.png" test -s "$work/regular/pictures/$picture.png"; done
 fi
 finish

@@ -145,13 +145,13 @@ holds "the same bits on two threads" cmp -s "$work/bend1/history.csv" "$work/ben
 # ---- pictures ------------------------------------------------------------------------------------------------------
 
 if command -v gnuplot >/dev/null; then
-    "$cleave" plot "$led" >"$work/out" 2>"$work/err"
+    "$cleave" plot "$led" --size 90mmx70mm >"$work/out" 2>"$work/err"
     is "plot: status" $? 0
     for picture in load_displacement r_curve crack energy damage; do
         holds "$picture.png is made" test -s "$led/pictures/$picture.png"
     done
     "$cleave" run -q -o "$work/blind" $pulled -s 'probes=[]' -s steps.number=1 2>"$work/err"
-    "$cleave" plot "$work/blind" >"$work/out" 2>&1
+    "$cleave" plot "$work/blind" --size 90mmx70mm >"$work/out" 2>&1
     holds "the curve of supports without probes" test -s "$work/blind/pictures/load_displacement.png"
     holds "without growth no R-curve" grep -q 'r_curve.png is not drawn: no crack has grown' "$work/out"
 fi

@@ -129,7 +129,7 @@ between "notch" "$(load notched)" 10.34 11.43
 between "notch, no means" "$(load local)" 9 10
 
 # The share of the surface in the first frame is 0.9 that of the strength, as the strain at the start.
-"$cleave" plot "$work/biaxial" --field strength_share --times 0 -o "$work/share.png" >"$work/said"
+"$cleave" plot "$work/biaxial" --size 90mmx70mm --field strength_share --times 0 -o "$work/share.png" >"$work/said"
 between "share in a picture" "$(sed -n 's/.*colours from -[0-9.]* to \([0-9.]*\).*/\1/p' "$work/said")" 0.89 0.91
 
 # What check prints: the strengths of the table of the suite, means over R = 0.65 l, the horizon below which bonds are started before they
