@@ -153,21 +153,40 @@ static status circle_add(struct circles *c, const struct circle_case *of, double
     return degrees ? body_turn(c, &c->run[k], o) : OK;
 }
 
-#define QUICK_LEAST 0.06 /* smallest spacing that is run with --quick [mm] */
+/* With --quick: smallest spacing, spacing of cubes, shortest notch [mm]. */
+#define QUICK_LEAST 0.06
+#define QUICK_CUBE (1.0 / 13)
+#define QUICK_NOTCH 0.25
 
-/* Adds the runs of all cases whose circle has the text `only` in its name (NULL: of all cases) to c. quick: true for
- * only the coarsest run on each lattice, and none with a spacing of QUICK_LEAST or less. Returns FAILED if a file
- * cannot be written. */
+/* Returns the spacing j of a case [mm], 0 if it has none. quick: with --quick it has at most the first. */
+static double case_spacing(const struct circle_case *of, int j, bool quick)
+{
+    if (!quick || of->spacing[j] == 0) return of->spacing[j];
+    if (j > 0 || of->spacing[0] < QUICK_LEAST || (of->crack > 0 && of->crack < QUICK_NOTCH)) return 0;
+    return of->specimen == CIRCLE_CUBE ? QUICK_CUBE : of->spacing[0];
+}
+
+/* Returns the spacing j of a case on turned lattices [mm], 0 if it has none. quick: with --quick it has at most the
+ * first, and a notch only if it has no other run. */
+static double case_turned_spacing(const struct circle_case *of, int j, bool quick)
+{
+    if (!quick) return of->turned[j];
+    const bool repeats = of->specimen == CIRCLE_NOTCH && of->spacing[0] > 0;
+    return j == 0 && !repeats && of->turned[0] > QUICK_LEAST ? of->turned[0] : 0;
+}
+
+/* Adds the runs of the cases of the name `only` (NULL: all). quick: those of --quick. Returns FAILED if a file cannot
+ * be written. */
 static status circles_add(struct circles *c, const char *only, bool quick, struct bench_table *table)
 {
     for (int k = 0; k < circle_cases_count; k++)
-        for (int j = 0; j < (quick ? 1 : CIRCLE_SPACINGS); j++) {
+        for (int j = 0; j < CIRCLE_SPACINGS; j++) {
             const struct circle_case *of = &circle_cases[k];
             if (!case_is_asked(of, only)) continue;
-            const double least = quick ? QUICK_LEAST : 0;
-            if (of->spacing[j] > least) TRY(circle_add(c, of, of->spacing[j], 0, table));
-            for (int a = 0; a < CIRCLE_LATTICES && of->turned[j] > least && of->degrees[a] > 0; a++)
-                TRY(circle_add(c, of, of->turned[j], of->degrees[a], table));
+            const double spacing = case_spacing(of, j, quick), turned = case_turned_spacing(of, j, quick);
+            if (spacing > 0) TRY(circle_add(c, of, spacing, 0, table));
+            for (int a = 0; a < CIRCLE_LATTICES && turned > 0 && of->degrees[a] > 0; a++)
+                TRY(circle_add(c, of, turned, of->degrees[a], table));
         }
     return OK;
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # `cleave bench`: refusals, the table of efficiency for a coarse plate, and that of couplings. BUILD: folder of the program.
-# Takes 120 s: every bench is run once, on the smallest bodies for which its results are known.
+# Takes 100 s: every bench is run once, on the smallest bodies for which its results are known.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
 cleave=$build/cleave
