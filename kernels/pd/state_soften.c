@@ -15,38 +15,7 @@
 
 #include "bond_last.h"
 #include "kernels/kernels.h"
-#include "state_last.h"
-
-/* Returns the energy per weight [J] that an increase of the damage of `bond` would set free at the present states of
- * both families (the driving force Y over the weight w). i: particle in whose row the bond is. Both rows of a bond get
- * equal bits. */
-static real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
-{
-    const struct state *t = &b->state;
-    const int32_t at[2] = {i, bond->nbr};
-    const int dim = p->dim;
-    const real r = 1 / bond->inverse_length;
-    real y[DIM_MAX], xi[DIM_MAX], y2 = 0, own[2] = {0, 0};
-    for (int d = 0; d < dim; d++) {
-        y[d] = p->x[d][at[1]] - p->x[d][i], xi[d] = p->X[d][at[1]] - p->X[d][i];
-        y2 += square(y[d]);
-    }
-    const real e = sqrt(y2) - r;
-    for (int end = 0; end < 2; end++) {
-        const real g = t->spring[at[end]];
-        if (!t->rotation[0]) own[end] = g * square(e);
-        if (!t->rotation[0] || g == 0) continue;
-        lanes turned[DIM_MAX], arm[DIM_MAX], rotation[ROTATION]; /* eight equal lanes */
-        for (int d = 0; d < dim; d++) turned[d] = lanes_broadcast(0), arm[d] = lanes_broadcast(xi[d]);
-        for (int c = 0; c < ROTATION; c++) rotation[c] = lanes_broadcast(t->rotation[c][at[end]]);
-        if (dim == 2)
-            rotation_subtract_product(turned, rotation, arm, 2);
-        else
-            rotation_subtract_product(turned, rotation, arm, 3);
-        for (int d = 0; d < dim; d++) own[end] += square(g * (y[d] - xi[d]) + turned[d][0]) / g;
-    }
-    return r * e * (t->pressure[at[0]] + t->pressure[at[1]]) + 0.5 * (own[0] + own[1]);
-}
+#include "state_driving.h"
 
 /* Sets the damage of the softening bond q of row `row` to that of its largest stretch so far, `most` [1]. Breaks the
  * bond if this is the end of its softening. Returns 1 if it is broken, else 0. */
@@ -65,8 +34,9 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
 }
 
 /* Increases the damage of the softening bonds of one row to that of their present stretches, where this sets energy
- * free. Sets *changed to true if the damage of a bond has changed. Returns the number of bonds that have broken, at the
- * end of their softening. */
+ * free and both ends are peridynamic: a material point whose bond begins to soften converts in this step. Sets *changed
+ * to true if the damage of a bond has changed. Returns the number of bonds that have broken, at the end of their
+ * softening. */
 static int64_t row_soften(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row,
                           bool *changed)
 {
@@ -81,6 +51,7 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
             if (stretch > b->soft.end[bond.entry]) bond_row_block_request_softening_check(b, row / LANES);
             continue;
         }
+        if (p->kind[i] != KIND_PD || p->kind[bond.nbr] != KIND_PD) continue;
         if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;
         if (isnan(before)) before = state_row_energy(b, p, row, 0.5 * limit->dt);
         ended += bond_damage(b, p, row, bond.entry, stretch);

@@ -62,9 +62,6 @@ void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previou
  * bonds that have not begun to soften. */
 void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle);
 
-/* Returns true if row number `row` (all bonds of one particle) has an intact bond that has not begun to soften. */
-bool bond_row_has_unsoftened_bond(const struct bonds *b, int64_t row);
-
 /* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
  * (bonds_strength.c). */
 #define SURFACE_NEAR 0.8

@@ -176,20 +176,12 @@ real bonds_dissipated_softening_energy(const struct bonds *b)
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
 }
 
-/* Returns true if a row has an intact bond whose softening has begun (`begun` true), or one whose softening has not
- * (`begun` false). */
-static bool row_has_bond(const struct bonds *b, int64_t row, bool begun)
-{
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-        if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry) == begun) return true;
-    return false;
-}
-
-bool bond_row_has_unsoftened_bond(const struct bonds *b, int64_t row) { return row_has_bond(b, row, false); }
-
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row)
 {
-    return row >= 0 && bond_row_block_has_begun_softening(b, row / LANES) && row_has_bond(b, row, true);
+    if (row < 0 || !bond_row_block_has_begun_softening(b, row / LANES)) return false;
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
+        if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry)) return true;
+    return false;
 }
 
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row)

@@ -17,10 +17,12 @@
 
 #include "base/memory.h"
 #include "base/polar.h"
+#include "bonds/strength_surfaces.h"
 #include "bonds_parts.h"
 
 #define LEAST_ONSET 0.3 /* least onset of a started bond over the strain sigma_t/E */
 #define SUDDEN 1e-4     /* relative distance of onset and end of a bond that is started beyond its critical stretch */
+#define NEAR_LEAST 0.5  /* least share of the surface of particles from which the largest one is taken [1] */
 #define SPANS 1e-6      /* least determinant of a moment over that of an isotropic one; below it, directions lack */
 
 /* Working data of one evaluation of the strength surfaces (failure criteria in stress) of all particles. A row holds
@@ -294,39 +296,52 @@ static void evaluation_free(struct evaluation *e)
 /* Returns true if a particle of row block g (the bonds of eight particles) may have reached its strength surface. */
 static bool is_near_surface(const struct bonds *b, int64_t g) { return b->soft.near[g] || b->soft.begun[g]; }
 
-/* Finds the particles of row block g (bonds of eight particles) whose strength surfaces must be evaluated: computes the
- * strains of the rows whose material has such a surface and in which a bond has not begun to soften, and sets
- * e->distance to 1 for those on their strength surface or beyond. Returns true if there is one. */
-static bool row_block_find(struct evaluation *e, int64_t g)
+/* Returns true if a row has an intact bond that can break and has not begun to soften. */
+static bool row_can_start(const struct evaluation *e, int64_t row)
+{
+    const int32_t i = e->b->particle[row];
+    for (struct bond_iterator it = bond_iterator_of_row(e->b, row); bond_next(&it);)
+        if (it.bond.w != 0 && !bond_is_softening(e->b, row / LANES, it.bond.entry) &&
+            isfinite(bond_breaking_stretch(e->p, &e->source->limit, i, it.bond.nbr)))
+            return true;
+    return false;
+}
+
+/* Computes the strains of those rows of row block g (bonds of eight particles) whose material has a strength surface
+ * and in which a bond can still begin to soften. Sets e->distance to 1, and e->share, for those whose stress is at
+ * least the fraction `least` of that on the strength surface [1]. Returns true if there is one. */
+static bool row_block_find(struct evaluation *e, int64_t g, real least)
 {
     const struct bonds *b = e->b;
     bool wanted[LANES] = {false}, any = false;
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++)
-        wanted[row % LANES] = b->whole[row] && row_material(e, row) && bond_row_has_unsoftened_bond(b, row);
+        wanted[row % LANES] = b->whole[row] && row_material(e, row) && row_can_start(e, row);
     row_block_strain(e, g, wanted);
     for (int64_t row = g * LANES; row < b->rows && row < (g + 1) * LANES; row++) {
-        if (!wanted[row % LANES] || !(row_share(e, row) >= row_strength(e, row))) continue;
+        if (!wanted[row % LANES]) continue;
+        e->share[row] = row_share(e, row);
+        if (!(e->share[row] >= least * row_strength(e, row))) continue;
         e->distance[row] = 1;
         any = true;
     }
     return any;
 }
 
-/* Finds the particles whose strength surfaces must be evaluated: sets e->distance to 1 for the rows in which a bond has
- * not begun to soften and whose own strain, not averaged over the family, is on the strength surface or beyond. Returns
- * true if there is one. */
-static bool find_candidates(struct evaluation *e)
+/* Sets e->distance to 1, and e->share, for all rows in which a bond can still begin to soften and whose own strain, not
+ * averaged over the family, is at least the fraction `least` of that on the strength surface [1]. Returns true if there
+ * is one. */
+static bool find_candidates(struct evaluation *e, real least)
 {
     bool any = false;
 #pragma omp parallel for schedule(dynamic, 16) reduction(| : any)
     for (int64_t g = 0; g < e->b->row_blocks; g++)
-        if (is_near_surface(e->b, g)) any |= row_block_find(e, g);
+        if (is_near_surface(e->b, g)) any |= row_block_find(e, g, least);
     return any;
 }
 
-/* Computes e->share, the stress over that on the strength surface, of all rows with e->distance 1. Their strains are
- * first averaged over the families as many times as the material requires, at most e->means times. Strains of all rows
- * at most e->means bonds away are computed for these averages. */
+/* Reduces e->share of all rows with e->distance 1 to the stress of their averaged strain over that on the strength
+ * surface, if this is smaller. Strains are averaged over the families as many times as the material requires, at most
+ * e->means times. Strains of all rows at most e->means bonds away are computed for these averages. */
 static void evaluate_surfaces(struct evaluation *e)
 {
     const struct bonds *b = e->b;
@@ -347,7 +362,8 @@ static void evaluate_surfaces(struct evaluation *e)
         for (int64_t row = 0; row < b->rows; row++) {
             if (e->distance[row] == 0 || e->distance[row] > e->means - mean + 1) continue;
             const struct material *m = row_material(e, row);
-            if (e->distance[row] == 1 && m && m->surface_means == mean) e->share[row] = row_share(e, row);
+            if (e->distance[row] == 1 && m && m->surface_means == mean)
+                e->share[row] = real_min(e->share[row], row_share(e, row));
             if (e->distance[row] <= e->means - mean) row_average(e, row);
         }
         real(*last)[SYM_MAX] = e->strain[0];
@@ -359,7 +375,8 @@ void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct
                                              const struct bond_source *s, real *stress_ratio)
 {
     struct evaluation e = evaluation_make(b, p, s);
-    for (int64_t row = 0; row < b->rows; row++) e.distance[row] = b->whole[row] ? 1 : 0;
+    for (int64_t row = 0; row < b->rows; row++)
+        if (b->whole[row]) e.distance[row] = 1, e.share[row] = row_material(&e, row) ? INFINITY : 0;
     evaluate_surfaces(&e);
 #pragma omp parallel for schedule(static)
     for (int64_t i = 0; i < p->n; i++) {
@@ -398,7 +415,8 @@ static struct bond_softness bond_started(const struct evaluation *e, const struc
     const real onset = real_max(sqrt(length2) * bond->inverse_length - 1, real_min(least, closed));
     const bool sudden = !(onset < critical * (1 - SUDDEN));
     const real end = sudden ? onset * (1 + SUDDEN) : softening_end_stretch(limit->curve, onset, critical);
-    return (struct bond_softness){(float)onset, (float)onset, (float)end, 0};
+    const float most = e->b->soft.settled ? nextafterf((float)onset, INFINITY) : (float)onset;
+    return (struct bond_softness){most, (float)onset, (float)end, 0};
 }
 
 /* Starts the softening of the bonds of row block g (rows of eight particles) that are intact, have not begun to
@@ -420,8 +438,21 @@ static void row_block_start(const struct evaluation *e, struct bonds *b, struct 
     }
 }
 
-/* Marks in touched[row blocks] the row block (rows of eight particles) of a row whose particle is on its strength
- * surface, and those of all neighbours to which its bonds lead. Several threads may mark one row block. */
+real bonds_largest_stress_to_strength_ratio(const struct bonds *b, const struct particles *p,
+                                            const struct bond_source *s)
+{
+    real most = 0;
+    if (!b->soft.near) return 0;
+    struct evaluation e = evaluation_make(b, p, s);
+    if (find_candidates(&e, NEAR_LEAST)) evaluate_surfaces(&e);
+    for (int64_t row = 0; row < b->rows; row++)
+        if (e.distance[row] == 1) most = real_max(most, e.share[row] / row_strength(&e, row));
+    evaluation_free(&e);
+    return most;
+}
+
+/* Marks in touched[row blocks] the row block of a row that is on its strength surface, and those of all neighbours
+ * to which its bonds lead. Several threads may mark one row block. */
 static void mark_touched(const struct evaluation *e, int64_t row, uint8_t *touched)
 {
     __atomic_store_n(&touched[row / LANES], 1, __ATOMIC_RELAXED);
@@ -438,7 +469,7 @@ void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles
     for (int64_t g = 0; g < b->row_blocks && !any; g++) any = is_near_surface(b, g);
     if (!any) return;
     struct evaluation e = evaluation_make(b, p, s);
-    if (find_candidates(&e)) {
+    if (find_candidates(&e, 1)) {
         uint8_t *touched = NEW("bonds.touched", b->row_blocks, uint8_t);
         evaluate_surfaces(&e);
 #pragma omp parallel for schedule(dynamic, 64)

@@ -4,9 +4,12 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "kernels/kernels.h"
 #include "kernels/pd/bond_last.h"
+#include "kernels/pd/state_driving.h"
 
 #define FACTOR_ERROR 1e-10 /* relative error of a factor */
+#define LEAST_WEIGHT 1e-9  /* least weight of a bond of a state-based model over that before it softened [1] */
 enum { BISECTIONS_MOST = 100 };
 
 /* Loop over the intact bonds that have begun to soften: row `row` of all rows, and the iterator `it` over the bonds of
@@ -18,17 +21,37 @@ enum { BISECTIONS_MOST = 100 };
             if (it.bond.w != 0 && bond_is_softening(b, row / LANES, it.bond.entry))
 
 /* ---- a list of bonds --------------------------------------------------------------------------------------------- */
+
+/* Sets the weight of a softening bond, with index q in row `row`, to that of its largest stretch k [1]. It stays above
+ * 0, the weight of broken bonds, until the bond is broken. Does nothing in bond-based models. */
+static void bond_weigh(struct bonds *b, int64_t row, int64_t q, real k)
+{
+    const struct softened *soft = &b->soft;
+    if (!soft->whole) return;
+    b->w[q] =
+        soft->whole[q] *
+        real_max(LEAST_WEIGHT, softening_remaining_stiffness_fraction(soft->curve, soft->onset[q], soft->end[q], k));
+    bond_column_update_after_bond_change(b, row, q);
+}
+
 /* Appends bond `bond` of row `row`, which softens, to the list l. Stores its present stretch divided by `factor` [1],
- * its largest stretch at the last equilibrium, the stretches between which it softens, and its energy scale. */
+ * its largest stretch at the last equilibrium, the stretches between which it softens, and its energy scale. In
+ * state-based models this follows from the energy that its damage sets free; where that is not positive the bond does
+ * not soften further, and its stretch is stored as 0. */
 static void softening_list_add(struct softening_list *l, const struct bonds *b, const struct particles *p, int64_t row,
                                const struct bond *bond, real factor)
 {
     const struct bond_softness soft = bond_softness_load(&b->soft, bond->entry);
-    const real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, b->particle[row], bond->nbr, 0);
+    real stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, b->particle[row], bond->nbr, 0),
+         energy = 0.5 * b->stiffness * bond->w / bond->inverse_length;
+    if (b->soft.whole) {
+        energy = real_max(0, soft.whole * bond_driving_energy(b, p, bond, b->particle[row]) / square(stretch));
+        if (energy == 0) stretch = 0;
+    }
     GROW("softening.bonds", l->bond, l->n + 1);
-    l->bond[l->n++] =
-        (struct softening_bond){bond->entry, stretch / factor, real_max(b->soft.settled[bond->entry], soft.onset),
-                                soft.onset,  soft.end,         0.5 * b->stiffness * bond->w / bond->inverse_length};
+    l->bond[l->n++] = (struct softening_bond){
+        bond->entry, row,   stretch / factor, real_max(b->soft.settled[bond->entry], soft.onset), soft.onset,
+        soft.end,    energy};
 }
 
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
@@ -84,6 +107,7 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
     for (int64_t k = 0; k < l->n; k++) {
         const struct softening_bond *bond = &l->bond[k];
         b->soft.most[bond->entry] = (float)real_max(bond->settled, stretch_factor * bond->stretch);
+        bond_weigh(b, bond->row, bond->entry, b->soft.most[bond->entry]);
     }
 }
 
@@ -115,5 +139,29 @@ void softening_restore_equilibrium_stretches(struct bonds *b)
     {
         const int64_t q = it.bond.entry;
         b->soft.most[q] = fmaxf(b->soft.settled[q], b->soft.onset[q]);
+        bond_weigh(b, row, q, b->soft.most[q]);
     }
+}
+
+/* Weighs the softening bonds of a row by their largest stretches of the last equilibrium if `settled`, else by the
+ * present ones. */
+static void row_weigh_softened(struct bonds *b, int64_t row, bool settled)
+{
+    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
+        const int64_t q = it.bond.entry;
+        if (it.bond.w == 0 || !bond_is_softening(b, row / LANES, q)) continue;
+        bond_weigh(b, row, q, settled ? fmaxf(b->soft.settled[q], b->soft.onset[q]) : b->soft.most[q]);
+    }
+}
+
+void softening_add_family_losses(struct bonds *b, const struct particles *p)
+{
+#pragma omp parallel for schedule(dynamic, 8)
+    for (int64_t g = 0; g < b->row_blocks; g++)
+        for (int64_t row = g * LANES; b->soft.begun[g] && row < b->rows && row < (g + 1) * LANES; row++) {
+            const real after = state_row_energy(b, p, row, 0);
+            row_weigh_softened(b, row, true);
+            b->fracture_energy[row] += state_row_energy(b, p, row, 0) - after;
+            row_weigh_softened(b, row, false);
+        }
 }

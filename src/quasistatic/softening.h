@@ -1,15 +1,16 @@
 /* Bonds that soften in load steps: between two equilibria they are springs of the secant stiffness that belongs to a
- * largest stretch k, which the search for the next equilibrium chooses (softening_step.c). */
+ * largest stretch k, which the search for the next equilibrium chooses (softening_step.c). In state-based models k
+ * gives their weight (kernels/pd/state_soften.c). */
 #ifndef CLEAVE_QUASISTATIC_SOFTENING
 #define CLEAVE_QUASISTATIC_SOFTENING
 
 #include "bonds/bonds.h"
 
 /* A directed bond that softens, or may begin to. settled: largest stretch k of the last equilibrium, at least the
- * onset; onset, end: stretches at which it begins to soften and breaks [1]; energy: 1/2 c V V w r, the share of its row
- * in its energy at stretch 1 [J]. */
+ * onset; onset, end: stretches at which it begins to soften and breaks [1]; energy: the share of its row in its energy
+ * at stretch 1 [J], 1/2 c V V w r, or in state-based models what its whole damage sets free. */
 struct softening_bond {
-    int64_t entry;                    /* in the bond storage */
+    int64_t entry, row;               /* in the bond storage */
     real stretch;                     /* of the body at a factor of 1 [1] */
     real settled, onset, end, energy; /* k of the last equilibrium, at least the onset [1] */
 };
@@ -43,6 +44,11 @@ void softening_list_store_largest_stretches(const struct softening_list *l, stru
  * is examined again. limit: critical stretches and softening of bonds. The first call allocates storage in b->soft;
  * from then on forces are computed from the stored largest stretches. */
 void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
+
+/* Adds to the fracture energy of each row what its family has lost since the last equilibrium as its bonds softened, in
+ * state-based models. p: particles midway between the positions of both equilibria; the balance of energy over the step
+ * then closes to the second order of its size, with the work of the mean forces of both. */
+void softening_add_family_losses(struct bonds *b, const struct particles *p);
 
 /* Resets the largest stretches of all softening bonds to those of the last equilibrium
  * (softening_store_equilibrium_stretches). */

@@ -7,7 +7,11 @@
  * solver of all load steps finds. Under control by energy its displacements are then scaled by the factor at which
  * bonds that follow them dissipate the wanted energy, which fixes new k, and the loads are scaled likewise. Loads may
  * fall, but dissipation grows, so that the path is followed through snap-back (Gutierrez 2004). Under control by loads
- * the factor is that of the loads. The search ends when the forces with k = max(k_0, s) are balanced. */
+ * the factor is that of the loads. The search ends when the forces with k = max(k_0, s) are balanced.
+ *
+ * Where a strength surface starts the softening, an equilibrium ends no later than when the next particle reaches it:
+ * the factor is at most the one at which its stress does. Its bonds then begin from their stretches at this
+ * equilibrium. */
 #include "softening_step.h"
 
 #include <math.h>
@@ -23,6 +27,7 @@
 #include "unknowns.h"
 
 #include "base/memory.h"
+#include "bonds/strength_surfaces.h"
 
 #define FACTOR_ERROR 1e-5  /* largest difference of the last factor from 1 */
 #define RESIDUAL_MOST 1e-5 /* residual of an equilibrium, unless solver_tolerance is larger [1] */
@@ -31,6 +36,7 @@
 #define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
 #define STEP_SPACINGS 0.25 /* crack growth of a load step by default [spacings] */
 #define FIRST_SHARE 1e-3   /* share of the energy of a load step that the first one dissipates */
+#define AT_SURFACE 1.002   /* stress over that on the strength surface at which an equilibrium ends */
 enum { ITERATIONS_MOST = 400, TRIES_MOST = 5, GROWTHS_MOST = 200 };
 
 /* A search for the next equilibrium. Pointers are borrowed. */
@@ -38,7 +44,7 @@ struct search {
     struct newton_solver *q;
     struct bonds *bonds;
     struct particles *part;
-    const struct bond_limit *limit;
+    const struct bond_source *source;
     struct softening_list list;
     real spent;    /* energy to be dissipated, INFINITY: loads are given [J] */
     real end;      /* largest pseudo-time [s] */
@@ -56,26 +62,38 @@ static void body_scale(const struct search *f, real factor)
     q->force(q->context, &q->at, &q->z);
 }
 
-/* Chooses the next displacements of a search for equilibrium with softening bonds: those of the last solution times a
- * factor, which it returns [1]. At this factor the bonds dissipate the energy f->spent, but it is at most `most`, the
- * ratio of the loads at the end of the step to the present ones. If f->spent is INFINITY (the loads are given), the
- * factor is `most`. Sets the largest stretches of the bonds to those at this factor, and f->at_end to true if the
- * factor is limited by `most`. */
-static real secants_choose(struct search *f, real most)
+/* Returns the factor on the present displacements at which the next particle reaches its strength surface [1]; INFINITY
+ * if none is near. Stresses grow in proportion to the displacements. */
+static real factor_at_surface(const struct search *f)
+{
+    const real ratio = bonds_largest_stress_to_strength_ratio(f->bonds, f->part, f->source);
+    return ratio > 0 ? AT_SURFACE / ratio : INFINITY;
+}
+
+/* Returns the factor on the displacements of the last solution at which bonds dissipate the energy f->spent, but at
+ * most `most` and the one at which the next particle reaches its strength surface. Sets the largest stretches of the
+ * bonds to those at this factor. most: ratio of the loads at the end to the present ones; least: that of the loads of
+ * the last equilibrium [1]. If f->spent is INFINITY (the loads are given), the factor is `most`, and a strength surface
+ * does not reduce it below `least`. f->at_end: set to true if the factor is `most`. */
+static real secants_choose(struct search *f, real most, real least)
 {
     const bool given = !isfinite(f->spent);
+    const real end = most;
     real high = given ? most : real_min(1, most), growth = 1.01;
     for (int k = 0;; k++) {
         body_scale(f, high);
-        bonds_open_beyond_onset(f->bonds, f->part, f->limit);
+        bonds_open_beyond_onset(f->bonds, f->part, &f->source->limit);
         softening_list_make(&f->list, f->bonds, f->part, high);
+        most = real_min(most, real_max(high * factor_at_surface(f), given ? least : 0));
+        high = real_min(high, most);
         if (given || high >= most || k == GROWTHS_MOST || softening_list_dissipated_energy(&f->list, high) >= f->spent)
             break;
         high = real_min(most, growth * high);
         growth = real_min(2, square(growth));
     }
-    f->at_end = given || softening_list_dissipated_energy(&f->list, high) < f->spent;
-    const real factor = f->at_end ? high : softening_list_factor_for_energy(&f->list, f->spent, high);
+    const bool enough = !given && softening_list_dissipated_energy(&f->list, high) >= f->spent;
+    const real factor = enough ? softening_list_factor_for_energy(&f->list, f->spent, high) : high;
+    f->at_end = !enough && high >= end;
     softening_list_store_largest_stretches(&f->list, f->bonds, factor);
     return factor;
 }
@@ -97,7 +115,8 @@ static real residual_now(struct newton_solver *q)
 static status search_run(struct run *e, struct search *f)
 {
     struct statics *s = e->statics;
-    const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance);
+    const real lost = s->balance.lost, tolerance = s->balance.tolerance, enough = real_max(RESIDUAL_MOST, tolerance),
+               before = statics_norm_of_prescribed_loads(e, s->t);
     status found = OK;
     for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
         const real size = statics_norm_of_prescribed_loads(e, s->t), last = statics_norm_of_prescribed_loads(e, f->end);
@@ -105,7 +124,7 @@ static status search_run(struct run *e, struct search *f)
              t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
         f->residual = 1;
         if (size > 0 || k > 0) {
-            const real factor = secants_choose(f, size > 0 ? last / size : 1);
+            const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
             t = f->at_end ? f->end : statics_time_of_load_size(e, factor * size);
@@ -125,16 +144,33 @@ static status search_run(struct run *e, struct search *f)
         isfinite(f->spent) ? "a smaller steps.energy" : "steps.control: energy, which follows loads that fall,");
 }
 
-/* Searches for the equilibrium that ends a load step. Either the dissipated energy is given, or the loads. spent:
- * energy that bonds dissipate in the step [J], or INFINITY if the loads are those of pseudo-time t [s]. With given
- * loads the work of loads may exceed the growth of energies; the difference is counted as lost, as energy of a motion
- * that is not resolved. If the search fails, restores the state before it and returns its status. */
+/* Adds to the fracture energy what families of state-based models have lost since the last equilibrium by softening, at
+ * positions midway. before[dim]: positions of the particles at that equilibrium [m]. Does nothing in bond-based models.
+ */
+static void family_losses_add(struct bonds *b, const struct particles *p, const struct loads *loads,
+                              real *const *before)
+{
+    struct particles midway = *p;
+    if (!b->soft.whole) return;
+    for (int d = 0; d < p->dim; d++) {
+        midway.x[d] = BARE("softening.midway", p->n_all, real);
+        for (int64_t i = 0; i < p->n; i++) midway.x[d][i] = 0.5 * (p->x[d][i] + before[d][i]);
+    }
+    loads_update_mirror_images(loads, &midway);
+    softening_add_family_losses(b, &midway);
+    for (int d = 0; d < p->dim; d++) memory_free(midway.x[d]);
+}
+
+/* Searches for the equilibrium that ends a load step. spent: energy that bonds shall dissipate in the step [J];
+ * INFINITY if the loads are those of pseudo-time t [s]. With given loads, work in excess of the growth of energies
+ * counts as lost, in motion that is not resolved. If the search fails, restores the state before it and returns its
+ * status. */
 static status step_try(struct run *e, real t, real spent)
 {
     struct statics *s = e->statics;
     struct memory_archive saved;
     struct account account;
-    struct search f = {&s->balance, &e->bonds, &e->part, &e->source.limit, .spent = spent, .end = t};
+    struct search f = {&s->balance, &e->bonds, &e->part, &e->source, .spent = spent, .end = t};
     trial_equilibrium_begin(e, &saved);
     work_account_start(&account, s, &e->part);
     const real worked = e->loads.work + e->loads.constraint_work,
@@ -148,6 +184,7 @@ static status step_try(struct run *e, real t, real spent)
         return found;
     }
     memory_archive_free(&saved);
+    family_losses_add(&e->bonds, &e->part, &e->loads, account.x);
     work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
                       e->kernels.bond_energy(&e->bonds, &e->part) - bonds_fracture_energy(&e->bonds);
@@ -176,21 +213,25 @@ status softening_make_load_step(struct run *e, real pseudo_time)
     const real toughness = softening_least_toughness(e->scene, &e->source), given = e->scene->steps.energy;
     const real before = bonds_fracture_energy(&e->bonds);
     const bool by_energy = e->scene->steps.control == CONTROL_ENERGY;
+    int64_t ended = 0;
     if (by_energy) pseudo_time = e->scene->duration;
     real spent = !by_energy  ? INFINITY
                  : given > 0 ? given
                              : STEP_SPACINGS * toughness * crack_area_of_growth_by_one_spacing(e);
     if (before == 0) spent *= FIRST_SHARE;
-    softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
-    status tried = step_try(e, pseudo_time, spent);
-    for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
-        tried = step_try(e, pseudo_time, 0.5 * spent);
-    TRY(tried);
-    const int64_t ended = bonds_end_softened(&e->bonds, &e->part);
+    do {
+        bonds_start_softening_at_strength_surface(&e->bonds, &e->part, &e->source);
+        softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
+        status tried = step_try(e, pseudo_time, spent);
+        for (int k = 1; k < TRIES_MOST && tried == FAILED && by_energy; k++, spent *= 0.5)
+            tried = step_try(e, pseudo_time, 0.5 * spent);
+        TRY(tried);
+        ended += bonds_end_softened(&e->bonds, &e->part);
+        s->precondition_stale = true, s->fragments_stale |= ended > 0;
+        reactions_compute_and_store(s, &e->part, &e->loads);
+        s->solutions++;
+    } while (!by_energy && s->t < pseudo_time);
     s->record.broken += (bonds_fracture_energy(&e->bonds) - before) / toughness;
-    s->precondition_stale = true, s->fragments_stale |= ended > 0;
-    reactions_compute_and_store(s, &e->part, &e->loads);
-    s->solutions++;
     s->stretch_ratio = bonds_largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     const real size = statics_norm_of_prescribed_loads(e, s->t);
     s->record.load_most = real_max(s->record.load_most, size);

@@ -18,9 +18,8 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
     KEY("material.tensile_strength", KEY_REAL, UNIT_PRESSURE, AT(material, tensile_strength), ABOVE(0), NONE,
         "sigma_t: bonds soften from the stretch on that gives the material this strength, and spend G_c in all; "
-        "explicit steps, methods pd and adaptive, and load steps of method pd, model bond; explicit steps of method "
-        "pd, "
-        "models ospd and mospd; without it a bond breaks at its critical stretch"),
+        "explicit steps of methods pd and adaptive, and load steps of method pd; without it a bond breaks at its "
+        "critical stretch"),
     KEY("material.softening", KEY_CHOICE, UNIT_NONE, AT(material, softening), ANY, "linear",
         "with tensile_strength: how the force of a bond falls from its peak to 0; bilinear: concrete, its kink at a "
         "third of the strength",
@@ -34,7 +33,7 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         .words = "list of pairs [strain rate, factor]"),
     KEY("material.compressive_strength", KEY_REAL, UNIT_PRESSURE, AT(material, compressive_strength), ABOVE(0), NONE,
         "with tensile_strength: a strength surface (Drucker and Prager) starts the softening of bonds; at most one of "
-        "these three gives its second point; explicit steps, model bond, not in a line"),
+        "these three gives its second point; model bond, not in a line"),
     KEY("material.hydrostatic_strength", KEY_REAL, UNIT_PRESSURE, AT(material, hydrostatic_strength), ABOVE(0), NONE,
         "the same by the strength in equal tension in three directions; above a third of tensile_strength"),
     KEY("material.biaxial_strength", KEY_REAL, UNIT_PRESSURE, AT(material, biaxial_strength), ABOVE(0), NONE,

@@ -28,7 +28,7 @@ static const struct {
     {METHOD_PD, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY | HAS_INTERFACES},
     {METHOD_ADAPTIVE, MODEL_BOND, HAS_RIGID | HAS_YIELD | HAS_SOFTENING | HAS_VISCOSITY},
     {METHOD_PD, MODEL_OSPD, HAS_RIGID | HAS_RATIO | HAS_SOFTENING | HAS_INTERFACES},
-    {METHOD_ADAPTIVE, MODEL_OSPD, HAS_RIGID | HAS_RATIO},
+    {METHOD_ADAPTIVE, MODEL_OSPD, HAS_RIGID | HAS_RATIO | HAS_SOFTENING},
     {METHOD_MPM, MODEL_BOND, HAS_RATIO | HAS_YIELD | HAS_FLOW | HAS_VISCOSITY | HAS_INTERFACES},
 };
 
@@ -194,10 +194,6 @@ status refuse_unsupported_softening(struct reader *r, const struct yaml_node *st
 {
     const unsigned has = scene_has(r);
     const char *change = changes_that_allow(r, has);
-    if (r->scene->method == METHOD_PD)
-        return fault(r, strength_node,
-                     "is of bonds that soften: those of ospd and mospd do in explicit steps alone; `solver: explicit` "
-                     "is expected; without this key, and softening, bonds are brittle");
     if (change) return fault(r, strength_node, "is of bonds that soften; %s is expected", change);
     return fault(r, strength_node,
                  "is of bonds that soften and do not have %s; without this key, and softening, bonds are brittle",

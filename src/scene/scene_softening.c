@@ -143,14 +143,6 @@ static status check_no_surface(struct reader *r, const struct yaml_node *n)
     return OK;
 }
 
-/* Returns true if the solver with load steps supports the softening of a material: the method is pd, and the
- * material has no strength surface. n: node of the material. */
-static bool steps_can_soften(const struct scene *s, const struct yaml_node *n)
-{
-    return s->method == METHOD_PD && !yaml_node_find(n, "compressive_strength") &&
-           !yaml_node_find(n, "hydrostatic_strength") && !yaml_node_find(n, "biaxial_strength");
-}
-
 status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material)
 {
     const struct scene *s = r->scene;
@@ -160,14 +152,12 @@ status read_softening_onset(struct reader *r, const struct yaml_node *material_n
     material->onset_stretch = material->critical_stretch;
     if (law && !strength) return fault(r, law, "says how bonds lose their tensile_strength, which is expected with it");
     if (!strength) return check_no_surface(r, material_node);
-    const bool states = s->model != MODEL_BOND && (s->method != METHOD_PD || s->solver != SOLVER_EXPLICIT);
-    if (!material_yields(material) && (s->method == METHOD_MPM || states))
-        return refuse_unsupported_softening(r, strength);
+    if (!material_yields(material) && s->method == METHOD_MPM) return refuse_unsupported_softening(r, strength);
     const char *why = material_yields(material)
                           ? "is of bonds that do not yield; one of yield_stress and tensile_strength is "
                             "expected"
                       : scene_is_single_equilibrium(s)
-                          ? steps_can_soften(s, material_node)
+                          ? s->method == METHOD_PD
                                 ? "is of bonds that break, and none does in a single equilibrium; solver: explicit or "
                                   "static is expected"
                                 : "is of bonds that break, and none does in a single equilibrium; solver: explicit is "

@@ -118,10 +118,6 @@ status read_strength_surface(struct reader *r, const struct yaml_node *material_
     if (s->space == SPACE_LINE)
         return fault(r, given,
                      "is of a strength surface, which a line does not have; tensile_strength alone is expected");
-    if (s->solver != SOLVER_EXPLICIT)
-        return fault(r, given,
-                     "a strength surface starts bonds in explicit steps alone; tensile_strength without it, or solver: "
-                     "explicit, is expected");
     TRY(surface_from(r, given, key, material));
     const real share = s->space == SPACE_PLANE_STRESS ? RADIUS_PLANE_STRESS : RADIUS_ELSE;
     const real reach = radius ? material->strength_radius : share * characteristic_length(s, material);

@@ -120,20 +120,15 @@ remedied -s solver=explicit
 refused 'is of bonds that soften; `method: pd` or `method: adaptive` is expected' "$plate" $soft -s method=mpm
 remedied -s method=pd
 remedied -s method=adaptive
-refused 'is of bonds that soften; `model: bond` is expected' "$plate" $soft -s model=ospd -s method=adaptive
-remedied -s model=bond
-refused 'is of bonds that soften; `method: pd` is expected' "$plate" $soft -s model=ospd -s material.poisson=0.2 -s method=adaptive
-remedied -s method=pd
-refused 'explicit steps alone; `solver: explicit` is expected' "$plate" $soft -s model=ospd $steps
-remedied -s model=ospd -s solver=explicit
-remedied -s material.tensile_strength=
 refused 'solver: explicit or static is expected' "$plate" $soft -s solver=cg
 remedied -s solver=explicit
 remedied $steps
-refused 'single equilibrium; solver: explicit is expected' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
+refused 'solver: explicit or static is expected' "$plate" $soft -s material.compressive_strength=300MPa -s solver=cg
 remedied -s solver=explicit
+remedied $steps
 refused 'method: pd, which is expected' "$plate" $soft $steps -s method=adaptive
 remedied -s method=pd
+remedied -s method=pd -s model=ospd
 refused 'one of yield_stress and tensile_strength is expected' "$plate" $soft $yields
 remedied -s material.yield_stress=
 remedied -s material.tensile_strength=

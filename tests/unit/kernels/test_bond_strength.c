@@ -2,6 +2,7 @@
  * turned, means compared with plain sums, the start itself. */
 #include <omp.h>
 
+#include "bonds/strength_surfaces.h"
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -206,10 +207,12 @@ static void test_start(void **state)
         }
         cloud_strain(&s.c, STRAIN(1.001 * at));
         soft_forces(&s);
+        assert_close(bonds_largest_stress_to_strength_ratio(b, p, &s.c.source), 1.001, 1e-9);
         real *before = NEW("test.force", p->n, real);
         for (int64_t i = 0; i < p->n; i++) before[i] = p->f[0][i];
         bonds_start_softening_at_strength_surface(b, p, &s.c.source);
         assert_exact(started(b), 1);
+        assert_exact(bonds_largest_stress_to_strength_ratio(b, p, &s.c.source), 0); /* none is left to start */
         assert_exact(bonds_fracture_energy(b), 0);
         soft_forces(&s);
         for (int64_t i = 0; i < p->n; i++)
