@@ -69,12 +69,27 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Ends the softening of bond q of a row: adds the energy that its whole softening dissipates to the fracture energy of
+/* Returns half the energy that bond q of row `row` has dissipated in all when it passes the end of its softening in
+ * this step [J]. In the leap-frog step from the stretch s_0, with the stiffness 1 - d, to s_1 it loses s_0 s_1 (1 -
+ * d)/2 over stiffness, weight and length. dt: time step [s]. */
+static real half_energy_of_softening_to_end(const struct bonds *b, const struct particles *p, int64_t row, int64_t q,
+                                            real dt)
+{
+    const int32_t i = b->particle[row], j = b->nbr[q];
+    const real before = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, dt),
+               now = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
+    const real onset = b->soft.onset[q], end = b->soft.end[q], most = real_min(real_max(before, onset), end);
+    const real kept = before > 0 ? softening_remaining_stiffness_fraction(b->soft.curve, onset, end, most) : 1;
+    return 0.5 * b->stiffness * b->w[q] / fabs(b->inverse_length[q]) *
+           (softening_normalised_dissipated_energy(b->soft.curve, onset, end, most) + 0.5 * kept * before * now);
+}
+
+/* Ends the softening of bond q of a row: adds `energy`, half of what it has dissipated [J], to the fracture energy of
  * the row, and marks the bond as broken. The bond must be at the end of its softening, where it has no force. */
-static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q)
+static void bond_finish(struct bonds *b, struct particles *p, int64_t row, int64_t q, real energy)
 {
     b->soft.most[q] = b->soft.end[q];
-    b->fracture_energy[row] += bond_half_softening_energy(b, row / LANES, q);
+    b->fracture_energy[row] += energy;
     bond_end(b, p, row, q);
 }
 
@@ -86,10 +101,25 @@ int64_t bonds_end_softened(struct bonds *b, struct particles *p)
              k++) {
             const int64_t q = (b->column[row / LANES] + k) * LANES + row % LANES;
             if (b->w[q] == 0 || !bond_is_softening(b, row / LANES, q) || b->soft.most[q] < b->soft.end[q]) continue;
-            bond_finish(b, p, row, q);
+            b->soft.most[q] = b->soft.end[q];
+            bond_finish(b, p, row, q, bond_half_softening_energy(b, row / LANES, q));
             ended++;
         }
     return ended;
+}
+
+/* Returns the stretch of bond q, from particle i to j, whose energy is lost when it breaks in this step [1]: the one at
+ * which it passed its limit. Where bonds soften it has no force after this step: a leap-frog step from the stretch s_0
+ * to s_1 then takes s_0 s_1/2 of its energy over stiffness, weight and length. */
+static real stretch_at_break(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                             int64_t q, int32_t i, int32_t j)
+{
+    const real inverse = b->inverse_length[q];
+    const real lag = bond_break_moment_of_stored(b, p, limit, q, i, j).lag;
+    if (!limit->softening || limit->last_force != LAST_FORCE_MOMENT)
+        return bond_stretch_at_earlier_time(p, inverse, i, j, lag);
+    return sqrt(real_max(0, bond_stretch_at_earlier_time(p, inverse, i, j, limit->dt) *
+                                bond_stretch_at_earlier_time(p, inverse, i, j, 0)));
 }
 
 /* Breaks bond q of row `row` and marks it as broken. Replaces its contribution to the force on the row's particle by
@@ -103,8 +133,7 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
     const bool state = b->state.modulus != NULL;
     last_force(b, p, &bond, i, last.share);
     b->fracture_energy[row] +=
-        state ? state_row_energy(b, p, row, last.lag)
-              : half_energy(b, row, q, bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, last.lag));
+        state ? state_row_energy(b, p, row, last.lag) : half_energy(b, row, q, stretch_at_break(b, p, limit, q, i, j));
     if (b->plastic_path) b->plastic_work[row] += 0.5 * bond_plastic_work_of(b, &bond);
     bond_end(b, p, row, q);
     row_changed(b, row);
@@ -180,7 +209,7 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
         const int32_t j = b->nbr[q];
         if (!is_past(b, p, limit, row, q, i, j)) continue;
         if (bond_is_softening(b, row / LANES, q))
-            bond_finish(b, p, row, q);
+            bond_finish(b, p, row, q, half_energy_of_softening_to_end(b, p, row, q, limit->dt));
         else
             bond_break(b, p, limit, row, q);
         broken++;

@@ -32,8 +32,8 @@ struct bond_break_moment {
 /* Computes when the bond between particles i and j exceeded its breaking stretch, and which share of its force acts in
  * this step, by the rule limit->last_force. inverse_length: 1/|xi| [1/m]; plastic: plastic stretch s_p of the bond [1].
  * Returns the time before the present positions at which the bond exceeded the limit (lag [s]; 0 for all rules but
- * MOMENT) and the share [1]. Both are 0 for rule MOMENT if the bond was above its limit already one step before; where
- * bonds soften and begin a step late, the lag is half a step, as its force was whole in the step before.
+ * MOMENT) and the share [1]. Both are 0 for rule MOMENT if the bond was above its limit already one step before, and
+ * where bonds soften: what the step takes of their energy is then known exactly (stretch_at_break in bond_break.c).
  * Results are bitwise equal for i-j and j-i.
  *
  * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The velocity
@@ -66,8 +66,8 @@ static inline struct bond_break_moment bond_break_moment_of(const struct particl
     case LAST_FORCE_MOMENT:
         break;
     }
-    if (!(before <= most && most < now)) /* already beyond the limit when first evaluated */
-        return (struct bond_break_moment){limit->softening ? 0.5 * limit->dt : 0, 0};
+    if (limit->softening || !(before <= most && most < now)) /* or already beyond the limit when first evaluated */
+        return (struct bond_break_moment){0, 0};
     const real lag = (now - most) / (now - before), part = most > plastic ? (most - plastic) / (now - plastic) : 0;
     return (struct bond_break_moment){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }

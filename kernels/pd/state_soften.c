@@ -9,8 +9,9 @@
  *     Y = - dW/dd = w [r e (P_i + P_j) + (g_i |e_i|^2 + g_j |e_j|^2)/2] > 0,   P = A S share,  g = B share
  *
  * e_i the extension, or the effective displacement Y - R_i xi: a family under pressure would give energy otherwise.
- * What a row loses in a step, at positions half a step back, is fracture energy at once: a leap-frog step from weights
- * w_0 at x_0 to w_1 at x_1 loses x_0 x_1 (w_0 - w_1)/2 of a spring's energy, so that the balance is of second order. */
+ * What a row loses in a step is fracture energy at once: a leap-frog step from weights w_0 at x_0 to w_1 at x_1 loses
+ * x_0 x_1 (w_0 - w_1)/2 of a spring's energy. A quadratic energy W has this product in 2 W((x_0 + x_1)/2) - (W(x_0) +
+ * W(x_1))/2. */
 #include <math.h>
 
 #include "bond_last.h"
@@ -33,6 +34,14 @@ static int64_t bond_damage(struct bonds *b, struct particles *p, int64_t row, in
     return 0;
 }
 
+/* Returns the energy of the family of a row for the product of its displacements before and after the last step in
+ * place of their squares [J]. dt: time step [s]. */
+static real row_energy_of_step(const struct bonds *b, const struct particles *p, int64_t row, real dt)
+{
+    return 2 * state_row_energy(b, p, row, 0.5 * dt) -
+           0.5 * (state_row_energy(b, p, row, dt) + state_row_energy(b, p, row, 0));
+}
+
 /* Increases the damage of the softening bonds of one row to that of their present stretches, where this sets energy
  * free and both ends are peridynamic: a material point whose bond begins to soften converts in this step. Sets *changed
  * to true if the damage of a bond has changed. Returns the number of bonds that have broken, at the end of their
@@ -53,11 +62,11 @@ static int64_t row_soften(struct bonds *b, struct particles *p, const struct bon
         }
         if (p->kind[i] != KIND_PD || p->kind[bond.nbr] != KIND_PD) continue;
         if (!(stretch > b->soft.most[bond.entry]) || !(bond_driving_energy(b, p, &bond, i) > 0)) continue;
-        if (isnan(before)) before = state_row_energy(b, p, row, 0.5 * limit->dt);
+        if (isnan(before)) before = row_energy_of_step(b, p, row, limit->dt);
         ended += bond_damage(b, p, row, bond.entry, stretch);
     }
     if (isnan(before)) return 0;
-    b->fracture_energy[row] += before - state_row_energy(b, p, row, 0.5 * limit->dt);
+    b->fracture_energy[row] += before - row_energy_of_step(b, p, row, limit->dt);
     *changed = true;
     return ended;
 }

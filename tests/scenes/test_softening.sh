@@ -14,6 +14,8 @@ start one "$work/strip.yaml"
 wait
 start coarse "$work/strip.yaml" -s particles.spacing=0.2mm
 start half "$work/strip.yaml" -s time.safety=0.25; wait
+start near "$work/strip.yaml" -s time.safety=0.9
+start near_coarse "$work/strip.yaml" -s time.safety=0.9 -s particles.spacing=0.2mm; wait
 start bilinear "$work/strip.yaml" -s 'materials.0.softening=bilinear'
 start exponential "$work/strip.yaml" -s 'materials.0.softening=exponential'; wait
 start scatter "$work/strip.yaml" -s 'materials.0.scatter={modulus: 20, seed: 3}'
@@ -26,11 +28,13 @@ strength() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.for
 for run in one coarse bilinear exponential; do between "$run: strength" "$(strength $run)" 0.96 1.04; done
 between "scatter: strength" "$(strength scatter)" 0.75 0.98
 
-# The body is torn apart: the balance closes to 3e-3 at half the critical step and with the square of the step.
+# The body is torn apart: the balance closes to 3e-3 near the critical step, and to 3e-4 at half of it and at kappa 1.1: what a bond loses
+# in a step as it begins or ends is that of the leap-frog scheme. A bond that passes its largest stretch again is not: 2e-4.
 error() { figure "$work/$1" energy.balance_error; }
-between "energy" "$(error one)" -3e-3 3e-3
-between "energy at half the step" "$(error half)" -7.5e-4 7.5e-4
-between "energy, kappa 1.1" "$(error coarse)" -5e-3 5e-3
+between "energy" "$(error one)" -3e-4 3e-4
+between "energy at half the step" "$(error half)" -7.5e-5 7.5e-5
+between "energy, kappa 1.1" "$(error coarse)" -5e-4 5e-4
+for run in near near_coarse; do between "energy near the critical step: $run" "$(error $run)" -3e-3 3e-3; done
 between "it breaks" "$(last one fracture)" 1e-4 1
 
 # Equal bits.
