@@ -41,12 +41,13 @@ void work_account_free(struct account *account)
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work)
 {
-    real range[2] = {0};
+    real range[2] = {0}, moved = 0;
     loads->work += curved_path_work;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
             const real shift = s->balance.u.of[d][k] - account->u.of[d][k], now = s->balance.f.of[d][k],
                        initial = account->f.of[d][k];
+            moved += square(shift);
             if (!(s->balance.held[k] >> d & 1)) continue;
             loads->constraint_work -= 0.5 * (initial + now) * shift;
             range[0] += 0.5 * (now - initial) * shift;
@@ -58,5 +59,5 @@ real work_account_end_and_estimate_error(struct account *account, const struct s
         }
     }
     work_account_free(account);
-    return fabs(range[0]) + fabs(range[1]);
+    return fabs(range[0]) + fabs(range[1]) + s->balance.noise * sqrt(moved);
 }

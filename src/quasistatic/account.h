@@ -23,7 +23,8 @@ void work_account_start(struct account *account, const struct statics *s, const 
 /* Adds the work of supports and of applied forces since work_account_start to that of the loads: the mean of the
  * initial and final force times the displacement (trapezoidal rule), and `curved_path_work`, the work of loads beyond
  * that mean along the curved path of the solver [J]. Frees the storage of *account. Returns an estimate of the error of
- * the work [J], its difference from the work with the initial or the final force alone. */
+ * the work [J]: its difference from the work with the initial or the final force alone, plus the largest work of the
+ * round-off of forces, without which a body that a rigid one carries along without load seems to gain energy. */
 real work_account_end_and_estimate_error(struct account *account, const struct statics *s, const struct particles *p,
                                          struct loads *loads, real curved_path_work);
 

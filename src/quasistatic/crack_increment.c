@@ -130,11 +130,11 @@ static bool pre_crack_unbroken(const struct crack_tips *t, const struct statics 
     return any && statics->behind.cost == 0;
 }
 
-/* Finds the bonds of the next crack increment and the load size s->due at which it is made, from the equilibrium at the
- * present loads. SIF-driven tips (growth direction from stress-intensity factors) determine it, if there are any.
- * Otherwise, or if bonds elsewhere exceed their critical stretch, bonds break in a trial, which is undone. Returns
- * FAILED, with a message, if a trial equilibrium is not found. */
-static status increment_find_now(struct run *e)
+/* Determines the next crack increment under the present loads. SIF-driven tips (growth direction from stress-intensity
+ * factors) determine it, if there are any. Otherwise, or if bonds elsewhere exceed their critical stretch, it is found
+ * by a trial in which bonds break and which is undone. stressed: stretch ratio below which there is no trial [1].
+ * Returns FAILED, with a message, if a trial equilibrium is not found. */
+static status increment_find_now(struct run *e, real stressed)
 {
     struct statics *s = e->statics;
     struct memory_archive saved;
@@ -143,7 +143,7 @@ static status increment_find_now(struct run *e)
         TRY(sif_increment_find(e));
         if (s->next.n > 0 || s->stretch_ratio <= 1) return OK; /* else bonds break away from the tips */
     }
-    if (s->next.n > 0 || s->stretch_ratio < (s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED)) return OK;
+    if (s->next.n > 0 || s->stretch_ratio < stressed) return OK;
     trial_equilibrium_begin(e, &saved);
     s->next.n = 0;
     status tried = increment_break_try(e, &s->ahead);
@@ -158,11 +158,15 @@ static status increment_find_now(struct run *e)
     return tried;
 }
 
-/* Finds the next crack increment from an equilibrium at the load size at which it is made, instead of the present one,
- * by the secant method. With contact these differ: the energy release grows with the square of the strain, and the
- * strain is not proportional to the load size if supports or rigid bodies move before anything is in contact.
- * Afterwards restores the present equilibrium; if material points have been converted, which cannot be undone, finds it
- * again. Returns FAILED, with a message, if an equilibrium is not found. */
+/* Returns the stretch ratio below which no increment is looked for under the present loads [1]. */
+static real stretch_ratio_of_trial(const struct statics *s) { return s->behind.cost > 0 ? STRESSED_FURTHER : STRESSED; }
+
+/* Determines the next crack increment at the load size at which it is due, by the secant method. The energy release
+ * grows with the square of the strain, and the strain is not proportional to the load size if supports or rigid bodies
+ * move before anything is in contact. Bonds may be stretched less there than a trial under the present loads requires.
+ * Then restores the present equilibrium or, if material points have been converted, finds the equilibrium of the
+ * initial pseudo-time again. If the load size is so small that no bond would break, the increment is that of the
+ * present loads. Returns FAILED, with a message, if an equilibrium is not found. */
 static status increment_find_at_due(struct run *e)
 {
     struct statics *s = e->statics;
@@ -179,14 +183,15 @@ static status increment_find_at_due(struct run *e)
         found = equilibrium_find_at_time(e, statics_time_of_load_size(e, secant > 0 ? secant : s->due));
         previous = size, previous_share = share;
         s->next.n = 0;
-        if (found == OK) found = increment_find_now(e);
+        if (found == OK) found = increment_find_now(e, 0);
     }
-    if (s->particles == particles) {
+    if (s->particles == particles)
         trial_equilibrium_undo(e, &saved, NULL);
-        return found;
+    else {
+        memory_archive_free(&saved); /* converted points cannot be restored */
+        if (found == OK) found = equilibrium_find_at_time(e, from);
     }
-    memory_archive_free(&saved); /* converted points cannot be restored */
-    return found == OK ? equilibrium_find_at_time(e, from) : found;
+    return found == OK && s->next.n == 0 ? increment_find_now(e, stretch_ratio_of_trial(s)) : found;
 }
 
 /* Finds the bonds of the next crack increment and the load size (norm of prescribed displacements or forces) at which
@@ -195,8 +200,8 @@ static status increment_find_at_due(struct run *e)
  * not found. */
 status crack_increment_find(struct run *e)
 {
-    TRY(increment_find_now(e));
-    return e->statics->in_contact ? increment_find_at_due(e) : OK;
+    TRY(increment_find_now(e, stretch_ratio_of_trial(e->statics)));
+    return e->statics->in_contact && e->statics->next.n > 0 ? increment_find_at_due(e) : OK;
 }
 
 status crack_increment_apply_at_energy_balance(struct run *e)

@@ -490,7 +490,7 @@ static real applied_sum(const struct particles *part, const struct statics *stat
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {
-    real most = 0, nodes = 0;
+    real most = 0, nodes = 0, applied = applied_sum(p, s, f->n);
     for (int a = 0; a < f->motions; a++) {
         real sum = 0;
         for (int64_t k = 0; k < f->n; k++)
@@ -502,7 +502,7 @@ static real unbalanced_share_of_nodes(const struct statics *s, const struct part
             }
         most = real_max(most, fabs(sum));
     }
-    return nodes > 0 && most > 0 ? most / applied_sum(p, s, f->n) : 0;
+    return nodes > 0 && applied > 0 ? most / applied : 0;
 }
 
 status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool balanced, int64_t step)
