@@ -16,6 +16,13 @@ for kind in $kinds; do
     holds "$kind: runs" "$cleave" run "a_$kind.yaml" -q $coarse -s duration=1us -o "$work/results_$kind" 2>/dev/null
 done
 
+# The kind of load steps, coarser: the plate between its grips parts, with the energy release rate of its material (300 J/m^2; bonds of this
+# horizon within 2 %), and its load has a peak before it falls to nothing.
+holds "slow: runs to the end" "$cleave" run a_slow.yaml -q -s variables.h=W/40 -o "$work/slow" 2>/dev/null
+near "slow: energy release rate" "$(figure "$work/slow" load_steps.release_rate)" 300 5e-2
+is "slow: load over displacement" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^reaction.force_y/) at = k; next }
+    { last = $at; if (last > most) most = last } END { print (most > 100) (last < 1e-3 * most) }' "$work/slow/history.csv")" 11
+
 holds "a kind is a name, too" "$cleave" new bar >/dev/null
 is "of a scene of that kind" "$(grep -c '^space: line' bar.yaml)" 1
 
