@@ -11,6 +11,7 @@
 #include "fracture/fracture_part.h"
 #include "probes/probes_part.h"
 #include "rigid/rigid_part.h"
+#include "loads/mirrors.h"
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 #include "contact/contact.h"
@@ -338,6 +339,8 @@ static status make_forces(struct run *e, struct predecessor *before)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(scene_prepend_location(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries,
                                              &e->part, s->spacing, e->source.family.cutoff, e->optional)));
+    if (has_peridynamics(s))
+        TRY(scene_prepend_location(s, loads_check_bonds_between_mirrors(&e->loads, e->source.family.cutoff)));
     e->tables.impedance = absorbing_boundary_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)

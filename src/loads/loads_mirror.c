@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "loads/loads.h"
+#include "loads/mirrors.h"
 #include "base/memory.h"
 
 /* Returns the step to which the coordinates along `axis` of particles with mirror images are rounded [m], so that
@@ -107,36 +107,50 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide or are closer than `reach`, the length of
- * the longest bonds [m]. A particle between such mirrors would have bonds to images of images on both sides, of which
- * only one exists. The forces would have no potential, and no time step would be stable. b[n]: boundaries of the scene;
- * spacing: lattice spacing [m]. */
-static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
+/* Finds two parallel mirrors of one body that are at most `most` apart [m]. b[n]: boundaries of the scene. Returns the
+ * number of the later one and stores that of the earlier one in *other, or returns -1. */
+static int close_mirrors(const struct boundary *b, int n, real most, int *other)
 {
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) {
             if (b[k].kind != BOUNDARY_MIRROR || b[m].kind != BOUNDARY_MIRROR || b[k].axis != b[m].axis) continue;
             if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
-            const real apart = fabs(b[k].at - b[m].at);
-            if (apart <= 1e-6 * spacing)
-                return status_prepend_location(
-                    b[k].place,
-                    status_set(REFUSED, "boundary %s: its mirror plane is also that of %s; remove one of the two",
-                               b[k].name, b[m].name));
-            if (apart + spacing <= reach)
-                return status_prepend_location(
-                    b[k].place, status_set(REFUSED,
-                                           "boundary %s: the mirror is %.6g m from that of %s; with bonds "
-                                           "of %.6g m they must be farther apart than %.6g m",
-                                           b[k].name, apart, b[m].name, reach, reach - spacing));
+            if (fabs(b[k].at - b[m].at) > most) continue;
+            *other = m;
+            return k;
         }
-    return OK;
+    return -1;
+}
+
+/* Returns REFUSED, with a message, if two parallel mirrors of a body coincide. b[n]: boundaries of the scene; spacing:
+ * lattice spacing [m]. */
+static status mirrors_differ(const struct boundary *b, int n, real spacing)
+{
+    int m;
+    const int k = close_mirrors(b, n, 1e-6 * spacing, &m);
+    if (k < 0) return OK;
+    return status_prepend_location(
+        b[k].place, status_set(REFUSED, "boundary %s: its mirror plane is also that of %s; remove one of the two",
+                               b[k].name, b[m].name));
+}
+
+status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length)
+{
+    const struct boundary *b = l->n ? l->load[0].boundary : NULL;
+    int m;
+    const int k = close_mirrors(b, l->n, bond_length - l->spacing, &m);
+    if (k < 0) return OK;
+    return status_prepend_location(
+        b[k].place, status_set(REFUSED,
+                               "boundary %s: the mirror is %.6g m from that of %s; with bonds of %.6g m "
+                               "they must be farther apart than %.6g m",
+                               b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
 }
 
 status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays)
 {
     const struct boundary *boundary = l->n ? l->load[0].boundary : NULL;
-    TRY(mirrors_apart(boundary, l->n, mirror_reach, l->spacing));
+    TRY(mirrors_differ(boundary, l->n, l->spacing));
     for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, mirror_reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;

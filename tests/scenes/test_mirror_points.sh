@@ -1,0 +1,34 @@
+#!/bin/sh
+# Material points and planes of symmetry: the distance from which on a plane acts on the grid, gaps between a body and a plane, close planes.
+test_name=test_mirror_points
+. tests/support/summary.sh
+. tests/support/trust.sh
+. tests/support/scenes.sh
+seed=3
+
+# Material points between mirrors one, two and four spacings apart carry the same wave, to the last bit; bonds would need more (test_stability).
+cat >"$work/strip.yaml" <<'END'
+space: plane strain
+thickness: 10 mm
+duration: 10 us
+method: mpm
+mpm: {frame: current}
+material: {young: 200 GPa, poisson: 0.25, density: 7850}
+variables: {w: 4 mm}
+body: {box: {from: [0, 0], to: [20 mm, w]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {mirror: {axis: y, at: 0}}
+  - {mirror: {axis: y, at: w}}
+  - {mirror: {axis: x, at: 0}}
+  - {face: x+, traction: [100 MPa, 0]}
+output: {frames: 0}
+probes: [{point: {name: inside, at: [15.5 mm, 0.5 mm]}}]
+END
+for w in 1 2 4; do calm "$work/strip$w" "$work/strip.yaml" -s variables.w=${w}mm; done
+for w in 1 2; do
+    is "mirrors $w spacings apart" "$(column "$work/strip$w" inside.stress_xx 1)" "$(column "$work/strip4" inside.stress_xx 1)"
+    refused "mirrors $w spacings apart, with bonds" "$work/no" "with bonds of" "$work/strip.yaml" -s variables.w=${w}mm -s method=pd
+done
+
+finish
