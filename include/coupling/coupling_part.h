@@ -73,9 +73,10 @@ void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `warning_list` for voids that are too narrow, so that the run treats them as closed: voids whose two
- * sides share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or
- * images, whose surfaces are not known. */
-void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *warning_list);
+ * sides share nodes of the background grid, such gaps between a body and a plane of symmetry, and gaps of one or two
+ * particles in bodies made from particle lists or images, whose surfaces are not known. reference_possible: true if the
+ * body can be in the reference frame, which is then named as a remedy. */
+void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list);
 
 /* Adds warnings to `warning_list` for bodies that will pass through each other or stick together, and for voids that
  * are too narrow to stay open (warn_of_voids_treated_as_closed). */

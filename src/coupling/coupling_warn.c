@@ -127,7 +127,11 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
 
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list)
 {
-    warn_of_contact(e->scene, e->frame, e->coupling->approaches, warning_list);
+    const struct scene *s = e->scene;
+    const bool reference_possible = e->source.voids && s->method != METHOD_PD && s->bodies == 1 &&
+                                    !scene_why_reference_frame_unsupported(s, 0) &&
+                                    reference_frame_is_possible(e->frame, &e->part, s, e->grid);
+    warn_of_contact(s, e->frame, e->coupling->approaches, warning_list);
     warn_of_touch(e, warning_list);
-    warn_of_voids_treated_as_closed(e, warning_list);
+    warn_of_voids_treated_as_closed(e, reference_possible, warning_list);
 }

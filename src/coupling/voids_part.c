@@ -33,16 +33,40 @@ static void closed_add(struct closed *to, int64_t i)
     if (to->n++ == 0) to->first = i;
 }
 
-/* Counts the material points beside voids that are so narrow that the grid connects their two sides, and returns their
- * number with the first of them. v: voids of the bodies whose surface is known. uncut: false if voids divide the mesh
- * of the reference frame; points of this mesh then do not count. */
-static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
+/* Returns true if a void, whose sides face each other, is between particle i and another particle of its body among the
+ * neighbours `near`. Mirror images are no such particles: the gap between a body and a plane of symmetry is no void of
+ * the body. */
+static bool void_is_within_body(const struct voids *v, const struct particles *p, int64_t i,
+                                const struct neighbour_list *near)
 {
-    struct closed found = {0};
-    for (int64_t i = 0; i < p->n && v; i++)
-        if (v->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
-            closed_add(&found, i);
-    return found;
+    real a[DIM_MAX] = {0};
+    bool within = false;
+    particle_reference_position(p, i, a);
+    for (int k = 0; k < near->n && !within; k++) {
+        const int32_t j = near->at[k];
+        real b[DIM_MAX] = {0};
+        bool across = false;
+        if (j >= p->n || p->body[j] != p->body[i]) continue;
+        particle_reference_position(p, j, b);
+        within = void_separates_points(v, p->body[i], a, b, &across) && across;
+    }
+    return within;
+}
+
+/* Counts the material points beside narrow gaps that the grid closes, in bodies whose surface is known: with their
+ * number and the first one, beside voids of a body in *inside, and beside gaps between a body and a plane of symmetry
+ * in *at_plane. reach: largest width of such a gap [m]; uncut: true if voids do not divide the mesh of the reference
+ * frame; if false, points of this mesh are left out. */
+static void closed_on_grid(const struct particles *p, const struct voids *v, const struct cells *cells, real reach,
+                           bool uncut, struct closed *inside, struct closed *at_plane)
+{
+    struct neighbour_list near = {0};
+    for (int64_t i = 0; i < p->n && v; i++) {
+        if (!(v->near[i] & VOID_ACROSS) || p->kind[i] != KIND_MPM || (!uncut && p->flag[i] & FLAG_MESHED)) continue;
+        particles_list_neighbours_within_radius(&near, cells, p, i, reach, false);
+        closed_add(void_is_within_body(v, p, i, &near) ? inside : at_plane, i);
+    }
+    memory_free(near.at);
 }
 
 /* Computes next[2 dim] [m], the distances from particle i to its nearest neighbours along each axis, first in negative,
@@ -86,11 +110,13 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
     return 2 * regular > all ? found : (struct closed){0};
 }
 
-void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *warning_list)
+void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possible, struct warnings *warning_list)
 {
     const struct scene *s = e->scene;
     const bool uncut = mesh_cannot_double_nodes_at_voids(&e->grid->field[0].grid, s);
-    const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
+    struct closed grid = {0}, plane = {0};
+    const real reach = voids_interaction_distance(s, e->source.family.cutoff);
+    closed_on_grid(&e->part, e->source.voids, &e->cells, reach, uncut, &grid, &plane);
     if (grid.n > 0)
         warnings_add_if_new(
             warning_list,
@@ -98,11 +124,18 @@ void warn_of_voids_treated_as_closed(const struct run *e, struct warnings *warni
             "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
             "smaller particles.spacing",
             s->body[e->part.body[grid.first]].name, particle_position_text(&e->part, grid.first, 4).text,
-            (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
+            (long long)grid.n, reference_possible && !uncut ? "mpm.frame: reference, " : "");
+    if (plane.n > 0)
+        warnings_add_if_new(
+            warning_list,
+            "body %s: between it and a plane of symmetry is a gap too narrow for its grid, at (%s) m: the plane "
+            "holds %lld material points that do not touch it; use method: pd, method: adaptive or a smaller "
+            "particles.spacing",
+            s->body[e->part.body[plane.first]].name, particle_position_text(&e->part, plane.first, 4).text,
+            (long long)plane.n);
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || joined_bodies_are_all_defined_by_solids(s, b)) continue;
-        const struct closed gap =
-            closed_in_lattice(s, &e->part, &e->cells, b, voids_interaction_distance(s, e->source.family.cutoff));
+        const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, reach);
         if (gap.n == 0) continue;
         warnings_add_if_new(
             warning_list,

@@ -6,6 +6,25 @@ test_name=test_mirror_points
 . tests/support/scenes.sh
 seed=3
 
+# A ball below a cylinder has no void beside a plane of symmetry: the gap is between them and the plane, and the reference frame, which is
+# refused, is no remedy.
+cat >"$work/ball.yaml" <<'END'
+space: solid
+duration: 20 us
+method: mpm
+material: {young: 200 GPa, poisson: 0.25, density: 7850}
+bodies:
+  - name: bolt
+    shape: [{ball: {centre: [0, 0, 5.1 mm], radius: 5 mm}}, {cylinder: {from: [0, 0, 5.1 mm], to: [0, 0, 15 mm], radius: 5 mm}}]
+    velocity: [0, 0, -50 m/s]
+particles: {spacing: 0.5 mm}
+boundary: [{name: wall, mirror: {axis: z, at: 0}}]
+output: {frames: 0}
+END
+"$cleave" check --no-trial "$work/ball.yaml" >"$work/ball.txt" 2>&1
+is "a ball at a plane: voids" "$(grep -c 'has a void' "$work/ball.txt")" 0
+is "a ball at a plane: gap" "$(grep -c 'between it and a plane of symmetry is a gap too narrow for its grid.*use method: pd, method: adaptive or' "$work/ball.txt")" 1
+
 # Material points between mirrors one, two and four spacings apart carry the same wave, to the last bit; bonds would need more (test_stability).
 cat >"$work/strip.yaml" <<'END'
 space: plane strain
