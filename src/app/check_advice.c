@@ -496,6 +496,7 @@ void print_accuracy_advice(const struct run *e, FILE *out)
     advise_formulas(e, out);
     advise_levels(e, out);
     advise_separation(e->scene, &e->loads, &e->part, out);
+    print_wall_advice(e, out);
 }
 
 void cost_hints_add_to_warnings(const struct run *e, struct warnings *warning_list)

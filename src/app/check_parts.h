@@ -128,6 +128,10 @@ void print_coarse_cells_saving(const struct run *e, const struct cost *cost);
  * particles make it too wide or too narrow. The line states the nearest spacings that divide the width. */
 void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
 
+/* Writes a line to `out` for each body of material points in the current frame that starts apart from a plane of
+ * symmetry, with the distance at which the grid stops it there [m] (check_walls.c). */
+void print_wall_advice(const struct run *e, FILE *out);
+
 /* Text of a length, returned by value. */
 struct length_text {
     char text[32];
