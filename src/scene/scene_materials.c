@@ -78,7 +78,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
 }
 
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
- * REFUSED for a material whose bonds do not break, and if the parameter of the distribution is missing. */
+ * REFUSED for a material whose bonds do not break, for material points that yield, and if the parameter of the
+ * distribution is missing. */
 static status read_scatter(struct reader *r, const struct yaml_node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
@@ -94,6 +95,10 @@ static status read_scatter(struct reader *r, const struct yaml_node *n, struct m
         return fault(r, other, "is the parameter of the other distribution of strength; this one has %s", own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
         return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
+    if (material_yields(m) && r->scene->method == METHOD_MPM)
+        return fault(r, n,
+                     "material points of method mpm do not break, and the yield stress does not scatter; method: pd is "
+                     "expected, or no scatter");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
         return fault(r, n,
                      "where it yields, stress does not say how far a bond is from its limit; method: pd is "
