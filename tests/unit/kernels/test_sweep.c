@@ -1,6 +1,5 @@
 /* Motion fused with the force sweep, compared with all forces followed by all motion: bitwise equal for every law and
- * number of threads, with particles that wait for loads, are inactive, or are moved by the grid. Takes 25 s: each law
- * in each space on several numbers of threads. */
+ * number of threads, with particles that wait for loads, are inactive, or are moved by the grid. */
 #include <omp.h>
 #include <stdlib.h>
 
