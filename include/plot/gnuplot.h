@@ -28,8 +28,13 @@ struct gnuplot {
 enum { CURVE_COLOURS = 7 };
 extern const char *const curve_colour[CURVE_COLOURS];
 
-/* Size of all pictures that this process draws. */
+/* Finds the format of pictures with the file name ending `ending`, such as png, and stores it in *format. Returns false
+ * if there is none. */
+bool picture_format_named(enum picture_format *format, const char *ending);
+
+/* Size of all pictures that this process draws, and the format of those of studies. */
 struct picture_size {
+    enum picture_format format; /* of pictures of studies; those of runs have their own */
     int width, height; /* [pixel]; 0: the usual size of each picture; height 0 beside a width: what each needs */
     double dpi;        /* pixels of a PNG per inch, at PICTURE_DPI pixels of its size */
 };

@@ -88,8 +88,10 @@ status option_read_picture_size_or_dpi(struct picture_size *size, const char *op
                                        const char *usage)
 {
     TRY(option_check_has_value(option, option_value != NULL, usage));
-    return strcmp(option, "--dpi") ? option_read_picture_size(size, option, option_value)
-                                   : option_read_dpi(size, option, option_value);
+    if (strcmp(option, "--size") == 0) return option_read_picture_size(size, option, option_value);
+    if (strcmp(option, "--dpi") == 0) return option_read_dpi(size, option, option_value);
+    if (picture_format_named(&size->format, option_value) && !picture_is_film(size->format)) return OK;
+    return status_set(REFUSED, "%s %s: png, svg or pdf is expected", option, printable_name(option_value).text);
 }
 
 status arguments_refuse_second_scene(const char *scene, const char *word)

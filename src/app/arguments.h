@@ -29,8 +29,8 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
  * message, unless it is a number above 0, up to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
-/* Reads the value of the option --size or --dpi of a study. option_value: NULL if the option has none; usage: usage
- * line. Returns REFUSED, with a message, if it is missing or no size or resolution. */
+/* Reads the value of the option --size, --dpi or --format of a study. option_value: NULL if the option has none; usage:
+ * usage line. Returns REFUSED, with a message, if it is missing or no size, resolution or format of a picture. */
 status option_read_picture_size_or_dpi(struct picture_size *size, const char *option, const char *option_value,
                                        const char *usage);
 

@@ -21,11 +21,12 @@ extern const int commands_count;
 #define RUN_WORDS "SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [--report] [-q]"
 #define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
-    "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [--of FIGURE]... [--size WxH|WmmxHmm] [--dpi N] [-o DIR] [-j RUNS] "       \
+    "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [--of FIGURE]... [--size WxH|WmmxHmm] [--dpi N] [--format png|svg|pdf] "   \
+    "[-o DIR] [-j RUNS] "                                                                                              \
     "[-t THREADS] [--list] [--collect] [--overwrite] [-q]"
 #define CONVERGE_WORDS                                                                                                 \
     "SCENE [--of FIGURE]... [--budget TIME] [--levels COUNT] [--runs COUNT] [--horizon] [-s KEY=VALUE]... [-o DIR] "   \
-    "[-j RUNS] [-t THREADS] [--size WxH|WmmxHmm] [--dpi N] [--overwrite] [-q]"
+    "[-j RUNS] [-t THREADS] [--size WxH|WmmxHmm] [--dpi N] [--format png|svg|pdf] [--overwrite] [-q]"
 #define PLOT_WORDS                                                                                                     \
     "DIR [--field NAME] [--times T,...|all|last] [--frames all|last|N] [--slice z=4mm] [--view iso|x+|x-|...|z-] "     \
     "[--range LOW:HIGH] [--colours NAME] [--magnify N] [--crop X:X,Y:Y] [--title TEXT] [--size WxH|WmmxHmm] "          \

@@ -20,7 +20,7 @@ struct converge_arguments {
     struct varied_key *key; /* overrides, each with one value */
     const char **wanted;
     int keys, wanteds;
-    struct picture_size size;                      /* of pictures */
+    struct picture_size size;                      /* of pictures, and their format */
     char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* name of the folder without -o */
 };
 
@@ -66,7 +66,7 @@ static status converge_option(struct converge_arguments *a, const char *word, co
         return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
-    else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
+    else if (!strcmp(word, "--size") || !strcmp(word, "--dpi") || !strcmp(word, "--format"))
         return option_read_picture_size_or_dpi(&a->size, word, value, usage);
     else
         a->wanted[a->wanteds++] = value;
@@ -75,8 +75,8 @@ static status converge_option(struct converge_arguments *a, const char *word, co
 
 static status converge_words(struct converge_arguments *a, int argc, char **argv)
 {
-    static const char *const taking[] = {"-o",       "-s",       "-j",   "-t",     "--runs",
-                                         "--levels", "--budget", "--of", "--size", "--dpi"};
+    static const char *const taking[] = {"-o",       "-s",   "-j",     "-t",    "--runs",  "--levels",
+                                         "--budget", "--of", "--size", "--dpi", "--format"};
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         bool takes = false;

@@ -85,8 +85,8 @@ static const struct entry options[] = {
     {"--dpi N", "sets the pixels per inch of a size in millimetres.", NULL},
     {"--fps N", "sets how many frames of a film are shown in a second.", NULL},
     {"--format png",
-     "sets the format: png, svg, pdf, or mp4 and gif (films of all frames, made by ffmpeg). The ending of the file of "
-     "-o sets it, too.",
+     "sets the format: png, svg, pdf; plot also has mp4 and gif (films of all frames, made by ffmpeg), and there the "
+     "ending of the file of -o sets it, too.",
      NULL},
     {"--scene SCENE", "draws a scene before it runs: particles, cracks, loads, supports, probes.", NULL},
     {"--no-trial", "leaves out the trial steps from which run time and memory are estimated.", NULL},

@@ -88,13 +88,6 @@ static status read_view(struct plot_words *w, const char *text)
     return OK;
 }
 
-static bool picture_format_named(enum picture_format *format, const char *ending)
-{
-    for (int k = 0; k < PICTURE_FORMATS; k++)
-        if (strcmp(ending, picture_ending[k]) == 0) return *format = (enum picture_format)k, true;
-    return false;
-}
-
 static status read_format(struct plot_words *w, const char *text)
 {
     w->format = text;

@@ -20,7 +20,7 @@ struct sweep_arguments {
     bool list, collect;
     const char *of[FIGURES_MOST]; /* figures of the pictures */
     int asked;
-    struct picture_size size; /* of pictures */
+    struct picture_size size; /* of pictures, and their format */
     char *words;              /* text of study_options_compose_from_arguments */
 };
 
@@ -64,7 +64,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
             TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--of"))
             TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
-        else if (!strcmp(word, "--size") || !strcmp(word, "--dpi"))
+        else if (!strcmp(word, "--size") || !strcmp(word, "--dpi") || !strcmp(word, "--format"))
             TRY(option_read_picture_size_or_dpi(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
         else if (!strcmp(word, "--list"))
             a->list = true;

@@ -24,6 +24,13 @@ const char *const curve_colour[CURVE_COLOURS] = {
 
 const char *const picture_ending[PICTURE_FORMATS] = {"png", "svg", "pdf", "mp4", "gif"};
 
+bool picture_format_named(enum picture_format *format, const char *ending)
+{
+    for (int k = 0; k < PICTURE_FORMATS; k++)
+        if (strcmp(ending, picture_ending[k]) == 0) return *format = (enum picture_format)k, true;
+    return false;
+}
+
 void gnuplot_write_quoted_string(FILE *file, const char *text)
 {
     putc('\'', file);
@@ -93,7 +100,7 @@ static void set_style(FILE *to)
         fprintf(to, "set linetype %d lc rgb '%s' lw 2.2 pt 7 ps 0.6\n", k + 1, curve_colour[k]);
 }
 
-static struct picture_size usual = {0, 0, PICTURE_DPI};
+static struct picture_size usual = {.dpi = PICTURE_DPI};
 enum { NARROW = 760 }; /* pictures narrower than this have no room beside their panel [pixel] */
 
 void picture_size_set(struct picture_size size) { usual = size; }

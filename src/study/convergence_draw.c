@@ -18,8 +18,11 @@
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
-static struct path convergence_picture(const char *folder, const char *name)
+/* Returns the path of picture `key` of the study in `folder`, with the ending of the format that was chosen. */
+static struct path convergence_picture(const char *folder, const char *key)
 {
+    char name[PICTURE_NAME_ROOM];
+    study_picture_name(name, key);
     return path_join(path_join(folder, "pictures").text, name);
 }
 
@@ -28,8 +31,8 @@ status scalar_results_check_replaceable(const char *folder)
     static const char *const begin[] = {"figure,unit,"};
     if (study_folder_check_is_usable(folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_is_from_cleave(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
-    TRY(picture_check_replaceable(convergence_picture(folder, "convergence.png").text));
-    return picture_check_replaceable(convergence_picture(folder, "path.png").text);
+    TRY(picture_check_replaceable(convergence_picture(folder, "convergence").text));
+    return picture_check_replaceable(convergence_picture(folder, "path").text);
 }
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
@@ -154,9 +157,9 @@ static status draw_figures(const struct convergence_study *s, const struct scala
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST;
     const struct figures_layout usual = figures_layout_make(shown, NULL);
     struct gnuplot g;
-    const struct path picture = convergence_picture(s->study.folder, "convergence.png");
+    const struct path picture = convergence_picture(s->study.folder, "convergence");
     const double coarsest = 1e3 * s->spacings.at[s->spacings.levels - 1][0]; /* [mm] */
-    TRY(gnuplot_open(&g, picture.text, PICTURE_PNG, usual.width, usual.height));
+    TRY(gnuplot_open(&g, picture.text, picture_size_get().format, usual.width, usual.height));
     const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
@@ -326,7 +329,7 @@ static void paths_write_axes(FILE *to, const struct extent *e, double wide, doub
  * extent determines its height. Returns FAILED without memory or if gnuplot fails. */
 static status draw_paths(const struct convergence_study *s)
 {
-    const struct path picture = convergence_picture(s->study.folder, "path.png");
+    const struct path picture = convergence_picture(s->study.folder, "path");
     struct gnuplot g;
     struct extent e = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     struct path_plots plots = {.used = 0};
@@ -338,7 +341,7 @@ static status draw_paths(const struct convergence_study *s)
     if (fclose(to) != 0) return status_set(FAILED, "%s: out of memory", picture.text);
     if (plots.drawn > 0) extent_widen(&e);
     const int height = paths_height(&e);
-    status done = gnuplot_open(&g, picture.text, PICTURE_PNG, PATHS_WIDE, height);
+    status done = gnuplot_open(&g, picture.text, picture_size_get().format, PATHS_WIDE, height);
     if (done == OK) {
         const bool narrow = picture_is_too_narrow_for_key();
         const double left = narrow ? PATHS_LEFT_NARROW : PATHS_LEFT, above = narrow ? PATHS_ABOVE_NARROW : PATHS_ABOVE;

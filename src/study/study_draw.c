@@ -233,7 +233,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
 {
     const struct path folder = path_join(p->study->folder, "pictures");
     TRY(folder_make(folder.text));
-    TRY(gnuplot_open(g, path_join(folder.text, name).text, PICTURE_PNG, p->width, p->height));
+    TRY(gnuplot_open(g, path_join(folder.text, name).text, picture_size_get().format, p->width, p->height));
     fputs("set multiplot\nset format y '%.4g'\nset format x '%.4g'\nset format cb '%.4g'\nset autoscale fix\n"
           "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
           g->to);
@@ -379,7 +379,9 @@ static status draw_study_map(struct study_picture *p, int up)
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
     room_find(p, key_up);
     p->unit = "";
-    TRY(picture_open(&g, p, "map.png"));
+    char picture[PICTURE_NAME_ROOM];
+    study_picture_name(picture, "map");
+    TRY(picture_open(&g, p, picture));
     send_tics(g.to, "x", across, words_touch(p, across));
     send_tics(g.to, "y", key_up, false);
     fputs("unset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset offsets\n", g.to);

@@ -51,7 +51,8 @@ int study_longest_label_length(const struct varied_key *key);
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 
-/* Writes the file name of the picture of a key, KEY.png, to name[PICTURE_NAME_ROOM]. */
+/* Writes the file name of the picture of a key, KEY.png, or with the ending of another format that was chosen
+ * (picture_size_set), to name[PICTURE_NAME_ROOM]. */
 void study_picture_name(char *name, const char *key);
 
 /* Returns a distance between tics, 1, 2 or 5 times a power of ten, that divides an axis of length `range` > 0 into at

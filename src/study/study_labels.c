@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "plot/gnuplot.h"
 #include "study_internal.h"
 
 /* Longest value that a label shows in full; characters that remain of a value cut to fit; least number of common
@@ -84,7 +85,7 @@ double axis_tick_distance(double range, int max_intervals)
 
 void study_picture_name(char *name, const char *key)
 {
-    snprintf(name, PICTURE_NAME_ROOM, "%.*s.png", CASE_NAME_ROOM, key);
+    snprintf(name, PICTURE_NAME_ROOM, "%.*s.%s", CASE_NAME_ROOM, key, picture_ending[picture_size_get().format]);
     for (char *c = name; *c; c++)
         if (*c == '/') *c = '_';
 }

@@ -45,8 +45,8 @@ static void line_to_text(char *line)
 char *study_options_compose_from_arguments(int argc, char *const *argv, const char *scene)
 {
     static const char *const silent[] = {"-q", "--overwrite", "--list", "--collect", NULL};
-    static const char *const taking[] = {"-s",       "-j",       "-t",     "--of",  "--runs",
-                                         "--levels", "--budget", "--size", "--dpi", NULL};
+    static const char *const taking[] = {"-s",       "-j",     "-t",    "--of",     "--runs", "--levels",
+                                         "--budget", "--size", "--dpi", "--format", NULL};
     char *text = NULL;
     size_t length = 0;
     int printed = 0;

@@ -166,9 +166,10 @@ status study_check_output_files_replaceable(const struct study *s, const struct 
     const struct path pictures = path_join(s->folder, "pictures");
     if (study_folder_check_is_usable(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
     TRY(file_check_is_from_cleave(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
-    TRY(picture_check_replaceable(path_join(pictures.text, "map.png").text));
+    char name[PICTURE_NAME_ROOM];
+    study_picture_name(name, "map");
+    TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     for (int k = 0; k < keys; k++) {
-        char name[PICTURE_NAME_ROOM];
         study_picture_name(name, key[k].key);
         if (key[k].values > 1) TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     }

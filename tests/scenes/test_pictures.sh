@@ -312,6 +312,21 @@ END
         is "$picture: its size" "$("$margins" $picture | cut -d ' ' -f 5-)" "481 340"
         uncut $picture
     done
+    # Also as a PDF of that size; films are no pictures of studies.
+    : >all
+    "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --size 85mmx60mm --format pdf -o finer >out 2>err
+    is "converge --format pdf: $(cat err)" $? 0
+    "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of energy.kinetic --size 85mmx60mm --format pdf -o sized >out 2>err
+    is "sweep --format pdf: $(cat err)" $? 0
+    for picture in finer/pictures/convergence.pdf sized/pictures/particles.spacing.pdf; do
+        holds "$picture is a PDF" sh -c "head -c 5 $picture | grep -q %PDF-"
+    done
+    is "they are 85 x 60 mm" "$(grep -a -c 'terminal pdfcairo size 3.34[0-9]*in,2.36[0-9]*in' all)" 2
+    for study in "sweep strip.yaml -s particles.spacing=1mm,2mm" "converge strip.yaml"; do
+        "$cleave" $study --format mp4 -o none >out 2>err
+        is "$study --format mp4: exit status" $? 2
+        is "$study --format mp4" "$(cat err)" "--format mp4: png, svg or pdf is expected"
+    done
     # In a column of a journal the panel takes most of the width: colour bar or names are below it, and the height is what they need.
     "$cleave" run block.yaml -q -o halves -s duration=0.1us -s output.frames=1 -s body= -s 'bodies=[{name: lower, shape: {box: {from: [0, 0, 0], to: [12 mm, 8 mm, 3 mm]}}},
         {name: upper, shape: {box: {from: [0, 0, 3 mm], to: [12 mm, 8 mm, 6 mm]}}}]' >out 2>err
