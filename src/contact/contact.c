@@ -13,8 +13,8 @@
 
 /* Initialises the contact of a run; no pairs are searched yet. between: what may come into contact; law: form, contact
  * distance and friction. The stiffness k of a contact follows from the materials of `source` times `stiffness_factor`
- * [1]. body_shapes: array of the shapes of the bodies, which give the surface above their particles. `body_shapes` and
- * rigid[rigid_body_count] are kept by reference and must outlive c. Release with contact_free. */
+ * [1]. body_shapes: shape of each body, which gives the surface above its particles; rigid[rigid_body_count]: rigid
+ * bodies. `body_shapes` and `rigid` are kept by reference and must outlive c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness_factor,
                   const struct bond_source *source, const struct region *const *body_shapes, struct rigid_body *rigid,
                   int rigid_body_count)

@@ -215,8 +215,8 @@ struct contact_weight {
 };
 
 /* Computes the contribution of entry `other` of the contact list to the density of the face at entry `entry`, at the
- * positions x - lag v. time_before_present: time [s]. The energy derivative in the result is that at the present
- * positions. */
+ * positions x - v t, where x and v are the present positions and velocities and t is `time_before_present` [s]. The
+ * energy derivative in the result is that at the present positions. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
                                                         int64_t entry, int64_t other, real time_before_present);
 

@@ -312,7 +312,7 @@ static bool has_come_far(const struct contact *c)
     return !(c->moved < far) || contact_rigid_has_moved_by_distance(c, far);
 }
 
-/* Requests a search for contact if one of the particles particle_list[particle_count], which have just become
+/* Requests a search for contact if one of the particles particle_list[0 .. particle_count - 1], which have just become
  * peridynamic, is in the first layer at a face. A particle elsewhere with a few broken bonds does not require a search
  * at once; the next search lists it. With the contact distance of LAMMPS, any particle requests a search. */
 void contact_request_search_if_at_surface(struct contact *c, const struct bonds *b, const struct family *family,

@@ -7,8 +7,9 @@
 #include "bonds/sites.h"
 #include "data/cells.h"
 
-/* Lists the particles and mirror images within the cutoff of bonds around particle i, without i, in near->at and their
- * number in near->n. map: map of the lattice sites of the bonds, which makes this faster; NULL: a search is done. */
+/* Lists the particles and mirror images within the cutoff of bonds around `particle`, without `particle` itself, in
+ * near->at and their number in near->n. map: map of the lattice sites of the bonds, which makes this faster; NULL: a
+ * search is done. */
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
                                   const struct site_map *map, const struct particles *p, int64_t particle);
 
@@ -24,8 +25,8 @@ struct reflection {
     int64_t root;
 };
 
-/* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image i, an entry
- * of the particle arrays. It is the identity if i itself is a particle of the body. */
+/* Returns the reflection, by one or several mirrors, that maps a particle of the body to its mirror image `image`, an
+ * entry of the particle arrays. It is the identity if `image` itself is a particle of the body. */
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image);
 
 /* Derivative of the force F of a bond by a uniform strain eps, times the length of the bond [N m]. With the unit vector
@@ -48,17 +49,17 @@ struct response bond_force_derivative_by_strain(const struct particles *p, const
 void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
                                           const real *centre, real half_edge, struct response response, int dim);
 
-/* Reduces the tensor `tensor` of material point i [J], by which state-based bonds reduce the stiffness of its cell, as
- * far as needed for a positive elastic energy of the point (partial_positive.c). mean_strain_derivative: receives the
- * derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the point has no
- * bonds. Returns true if it has bonds. */
+/* Reduces the tensor `tensor` of the material point `point` [J], by which state-based bonds reduce the stiffness of its
+ * cell, as far as needed for a positive elastic energy of the point (partial_positive.c). mean_strain_derivative:
+ * receives the derivative of the point's mean strain by the strain of its cell, in symmetric components [1]; 0 if the
+ * point has no bonds. Returns true if it has bonds. */
 bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
-/* Reduces the tensor `tensor` of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its
- * cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and elastic tensor of the point.
- * A cell with a negative eigenvalue would be unstable with any time step. This has an effect only if particles are not
- * on a lattice or bonds are stiffer than the material. */
+/* Reduces the tensor `tensor` of the material point `point` [J], by which bond-based PD-MPM bonds reduce the stiffness
+ * of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and elastic tensor of the
+ * point. A cell with a negative eigenvalue would be unstable with any time step. This has an effect only if particles
+ * are not on a lattice or bonds are stiffer than the material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 
@@ -85,17 +86,17 @@ bool partial_table_is_filled(const struct partial_table *t);
 /* Returns true if the table t can be used for every particle, because all have the volume of a lattice cell. */
 bool partial_table_covers_all_particles(const struct partial_table *t);
 
-/* Returns true if particle i has the volume of a lattice cell, so that the table can be used for it. */
+/* Returns true if `particle` has the volume of a lattice cell, so that the table can be used for it. */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
-/* Recomputes the stored strain responses (struct response) of the bonds of the n material points `point_list`, or of
- * all material points if `point_list` is NULL. Responses of other points are kept. */
+/* Recomputes the stored strain responses (struct response) of the bonds of the material points point_list[point_count],
+ * or of all material points if `point_list` is NULL. Responses of other points are kept. */
 void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);
 
-/* Computes the tensor `tensor` of material point i [J], by which bonds reduce the stiffness of its cell, from the table
- * and the stored strain responses of the bonds of the material points around it. near: working memory. */
+/* Computes the tensor `tensor` of the material point `point` [J], by which bonds reduce the stiffness of its cell, from
+ * the table and the stored strain responses of the bonds of the material points around it. near: working memory. */
 void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                                         const struct bond_source *source, int64_t point, struct neighbour_list *near,
                                         real *tensor);

@@ -29,7 +29,7 @@ struct axis_place {
  * outward unit normal at the nearest point, two components. */
 real polygon_signed_distance(const struct polygon *p, const real *X, real *normal);
 
-/* Returns the largest scalar product X . along over the points X of a polygon (support function). direction: two
+/* Returns the largest scalar product X . direction over the points X of a polygon (support function). direction: two
  * components, of any length. */
 real polygon_support_function(const struct polygon *p, const real *direction);
 

@@ -77,12 +77,12 @@ void engine_warn_of_conflicting_supports(const struct scene *s, const struct loa
                                          struct warnings *warnings);
 
 /* Adds warnings to *warnings about bodies of a few rows of particles, whose stiffness the correction pd.surface:
- * moments cannot correct. Also warns if the solver for the weights w of bonds near faces has given up. */
+ * moments cannot correct. Also warns if the solver for `weights`, the weights of bonds near faces, has given up. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 
-/* Computes the bounding box of the particles of body b and of all bodies that are joined to it, and stores its corners
- * in box_low[dim] and box_high[dim] [m]. Returns false if there are no such particles. */
+/* Computes the bounding box of the particles of body number `body_number` and of all bodies that are joined to it, and
+ * stores its corners in box_low[dim] and box_high[dim] [m]. Returns false if there are no such particles. */
 bool engine_compute_box_of_joined_bodies(const struct scene *s, const struct particles *p, int body_number,
                                          real *box_low, real *box_high);
 

@@ -41,8 +41,8 @@ void export_mesh_free(struct export_mesh *m);
  * otherwise. */
 status export_check_file_may_be_written(const char *path, const char *format_signature, bool overwrite);
 
-/* Writes the file `path`: calls write(to, context) with a file of a temporary name, synchronises it with the disk and
- * renames it. Returns FAILED, and leaves no file, if it cannot be written. */
+/* Writes the file `path`: calls `write_contents` with a file `to` of a temporary name and with `context`, synchronises
+ * the file with the disk and renames it. Returns FAILED, and leaves no file, if it cannot be written. */
 status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context);
 
 #endif

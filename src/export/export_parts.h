@@ -61,9 +61,9 @@ void touched_particles_free(struct touched *touched);
 int particle_colours_assign_and_count(int32_t *colour, const struct touched *touched);
 
 /* Finds for each pair of colours (a, b) whether neighbouring particles with these colours are bonded or cut.
- * colour[touched->n]: colours of the listed particles. Returns an allocated array state[a * colours + b] of
- * PAIR_BONDED, PAIR_CUT or PAIR_UNKNOWN (no such neighbours), which the caller releases with memory_free. Returns NULL
- * if a pair of colours has both bonded and cut neighbours. */
+ * colour[touched->n]: colours of the listed particles. Returns an allocated array with the entry PAIR_BONDED, PAIR_CUT
+ * or PAIR_UNKNOWN (no such neighbours) at index a * colour_count + b, which the caller releases with memory_free.
+ * Returns NULL if a pair of colours has both bonded and cut neighbours. */
 uint8_t *particle_colours_find_bonded_pairs(const int32_t *colour, int colour_count, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
@@ -108,7 +108,7 @@ struct lammps_types {
 
 /* Assigns a LAMMPS type to each particle. Particles of one type have the same material and loads. Where bonds must be
  * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Returns REFUSED if too
- * many types are needed. Release t with lammps_types_free. */
+ * many types are needed. Release `types` with lammps_types_free. */
 status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
 /* Releases the arrays of *types. */
@@ -121,12 +121,12 @@ void lammps_types_free(struct lammps_types *types);
  * not enough groups for all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
-/* Computes the velocity velocity[] with which particle i starts in LAMMPS [m/s]. In components that a boundary drives
+/* Computes the velocity velocity[] with which `particle` starts in LAMMPS [m/s]. In components that a boundary drives
  * it is the prescribed velocity at half a time step, in others the initial velocity of the scene. */
 void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
-/* Writes the names of all per-particle columns x->column to the file `file`, as arguments of the LAMMPS command `fix
- * property/atom`. exported: the export x. */
+/* Writes the names of all per-particle columns exported->column to the file `file`, as arguments of the LAMMPS command
+ * `fix property/atom`. */
 void lammps_write_column_names(FILE *file, const struct exported *exported);
 
 /* Writes one LAMMPS command `compute property/atom` for each per-particle column of the export to the file `file`.

@@ -51,8 +51,8 @@ struct netcdf_writer {
 int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_suffix, int64_t length);
 
 /* Defines an array of numbers of type `type`. It is called `name` followed by `name_suffix`, or only `name` if
- * `name_suffix` is 0. dimension[ranks]: indices of its dimensions; attribute, attribute_text: name and text of its only
- * attribute, kept by reference, or NULL for none. */
+ * `name_suffix` is 0. dimension[dimension_count]: indices of its dimensions; attribute_name, attribute_text: name and
+ * text of its only attribute, kept by reference, or NULL for none. */
 void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type,
                          int dimension_count, const int *dimension, const char *attribute_name,
                          const char *attribute_text);

@@ -249,8 +249,8 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
 /* Returns the largest relative difference between the results of several contours [1]: of K_I or K_II over the mean of
- * |K|, or of J over its mean; NAN if a denominator is 0. result[contour_count]: stress-intensity factors and J of each
- * contour. */
+ * |K| = sqrt(K_I^2 + K_II^2), or of J over its mean; NAN if a denominator is 0. result[contour_count]: stress-intensity
+ * factors and J of each contour. */
 real sif_relative_spread_over_contours(const struct sif *result, int contour_count)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];

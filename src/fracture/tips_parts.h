@@ -15,15 +15,15 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
 enum { TIP_PIECE = 64 };
 
 /* Returns the index after the last entry of a piece of the list of peridynamic particles of p, which is tested at once:
- * first + TIP_PIECE, or the length of the list if that is smaller. piece_start: index of the first entry of the piece.
- */
+ * piece_start + TIP_PIECE, or the length of the list if that is smaller. piece_start: index of the first entry of the
+ * piece. */
 static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, int64_t piece_start)
 {
     return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
 }
 
-/* Returns true if the n >= 1 particle numbers particle_number[0 .. n - 1], which must be strictly ascending, are
- * consecutive. Flags of consecutive particles are tested eight at a time. */
+/* Returns true if the particle numbers particle_number[0 .. count - 1], which must be strictly ascending, at least one,
+ * are consecutive. Flags of consecutive particles are tested eight at a time. */
 static inline bool particles_have_consecutive_numbers(const int32_t *particle_number, int64_t count)
 {
     return particle_number[count - 1] - particle_number[0] == count - 1;
@@ -49,12 +49,12 @@ struct tip_search {
     int room;
 };
 
-/* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. The indices are written to
- * s->found, which grows as needed and which the caller frees after the last search. Returns the number of particles
- * found. */
+/* Finds the particles, mirror images included, within `radius` [m] of the position `position` [m]. The indices are
+ * written to s->found, which grows as needed and which the caller frees after the last search. Returns the number of
+ * particles found. */
 int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius);
 
-/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m];
+/* Computes the vector from the nearest point of a segment to the point `point` [m]. centre: middle of the segment [m];
  * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
  * vector [m]. */
 real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,

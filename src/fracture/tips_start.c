@@ -9,9 +9,9 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the particles, mirror images included, within `radius` of the position X [m]; the radius is reduced to the edge
- * of the search cells if it is larger. Writes their indices to s->found, which grows as needed and is freed by the
- * caller. Returns their number. */
+/* Finds the particles, mirror images included, within `radius` of the position `position` [m]; the radius is reduced to
+ * the edge of the search cells if it is larger. Writes their indices to s->found, which grows as needed and is freed by
+ * the caller. Returns their number. */
 int tip_search_find_particles_near(struct tip_search *s, const real *position, real radius)
 {
     radius = real_min(radius, s->c->edge);
@@ -25,7 +25,7 @@ int tip_search_find_particles_near(struct tip_search *s, const real *position, r
 
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
-/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m];
+/* Computes the vector from the nearest point of a segment to the point `point` [m]. centre: middle of the segment [m];
  * half_vector: vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the
  * vector [m]. */
 real segment_distance_and_offset_to_point(const real *centre, const real *half_vector, const real *point, int dim,

@@ -47,7 +47,8 @@ struct element_edges {
 };
 extern const struct element_edges element_edges[ELEMENT_KINDS];
 
-/* Returns the index of the edge between corners i and j of an element of this kind; -1 if there is no such edge. */
+/* Returns the index of the edge between the corners `corner` and `other_corner` of an element of this kind; -1 if there
+ * is no such edge. */
 int element_edge_index_between_corners(enum element_kind kind, int corner, int other_corner);
 
 /* A named set of nodes or elements. */
@@ -78,12 +79,12 @@ struct element_mesh {
 
 enum { ELEMENT_SETS_MAX = 1000 };
 
-/* Appends a node at X (three coordinates [unit of the file]) to the mesh m. label: its number in the file; file: for
- * the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
+/* Appends a node with the three coordinates `coordinates` [unit of the file] to the mesh m. label: its number in the
+ * file; file: for the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
 status element_mesh_add_node(struct element_mesh *m, const struct source *file, const real *coordinates, int64_t label);
 
-/* Appends a node at X (three coordinates [unit of the file]) to the mesh m and returns its index. label: its number in
- * the file, -1 for nodes that are not in the file. The number of nodes is not checked. */
+/* Appends a node with the three coordinates `coordinates` [unit of the file] to the mesh m and returns its index.
+ * label: its number in the file, -1 for nodes that are not in the file. The number of nodes is not checked. */
 int32_t element_mesh_add_node_unchecked(struct element_mesh *m, const real *coordinates, int64_t label);
 
 /* Appends an element of the kind `kind` to the mesh m. corner_node: its corners, as indices of nodes or, in Abaqus
@@ -119,7 +120,7 @@ struct label_entry {
 };
 
 /* Creates *map, which maps the numbers that nodes or elements have in a file (labels) to indices: label[k] is mapped to
- * first + k, k = 0 .. n - 1. Release it with label_map_free. */
+ * first_index + k, k = 0 .. label_count - 1. Release it with label_map_free. */
 void label_map_make(struct label_map *map, const int64_t *label, int64_t first_index, int64_t label_count);
 
 /* Releases the entries of `map`. */
@@ -183,13 +184,13 @@ struct surface_builder {
     struct label_map edges; /* edges of elements with triangular sides, which may be diagonals of quadrilateral ones */
 };
 
-/* Appends to the faces of surface b a face with the nodes i, j and, in 3D, k (indices); in 2D it is a segment and k is
- * ignored. */
+/* Appends to the faces of surface b a face with the nodes `first_node`, `second_node` and, in 3D, `third_node`
+ * (indices); in 2D it is a segment and `third_node` is ignored. */
 void surface_builder_add_face(struct surface_builder *b, int32_t first_node, int32_t second_node, int32_t third_node);
 
-/* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[n]: its corners, n
- * = 3 or 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on its other
- * side, if these have triangular sides. */
+/* Appends the side of an element to the faces of the surface b, as one or two triangles. corner_node[corner_count]: its
+ * corners, 3 or 4 node indices. A quadrilateral is divided such that its triangles are also those of the elements on
+ * its other side, if these have triangular sides. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count);
 
 /* Appends a copy of *side, a side of an element with middle nodes, to the surface b.

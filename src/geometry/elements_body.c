@@ -44,10 +44,11 @@ static void builder_list_edges(struct surface_builder *b)
     memory_free(label);
 }
 
-/* Adds a side of an element to the faces. corner_node[n]: its corners, n = 3 or 4. A quadrilateral is divided into two
- * triangles by the diagonal from the corner that is first by position: two elements that share the side but not its
- * nodes then have the same diagonal. The other diagonal is used if it alone is an edge of an element, as where two
- * tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a side that is not plane. */
+/* Adds a side of an element to the faces. corner_node[corner_count]: its corners, 3 or 4 node indices. A quadrilateral
+ * is divided into two triangles by the diagonal from the corner that is first by position: two elements that share the
+ * side but not its nodes then have the same diagonal. The other diagonal is used if it alone is an edge of an element,
+ * as where two tetrahedra adjoin the side; otherwise there would be a gap between the tetrahedra and a side that is not
+ * plane. */
 void surface_builder_add_side(struct surface_builder *b, const int32_t *corner_node, int corner_count)
 {
     int low = 0;

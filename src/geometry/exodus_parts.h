@@ -46,8 +46,8 @@ static inline void exodus_text_make_printable(char *text)
  * file is shorter than its arrays. */
 status exodus_classic_open(struct exodus_file *f);
 
-/* Copies n numbers of the array `array` of a classic file to real_value[n], or to whole_value[n] if real_value is NULL.
- */
+/* Copies `count` numbers of the array `array` of a classic file to real_value[count], or to whole_value[count] if
+ * real_value is NULL. */
 void exodus_classic_read_array(const struct exodus_file *f, const struct exodus_array *array, int64_t count,
                                real *real_value, int64_t *whole_value);
 

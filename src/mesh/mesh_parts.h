@@ -68,13 +68,13 @@ void mesh_slits_free(struct mesh_slits *s);
 void mesh_fit_nodal_values(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                            real *const *nodal_value);
 
-/* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for n listed nodes only; the iteration
- * starts from their present values, and all other nodes are unchanged. node_list: node indices. */
+/* Computes nodal values of a vector field as mesh_fit_nodal_values does, but for the listed nodes only; the iteration
+ * starts from their present values, and all other nodes are unchanged. node_list[node_count]: node indices. */
 void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct particles *p, real *const *point_value,
                                      real *const *nodal_value, const int32_t *node_list, int64_t node_count);
 
-/* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
- * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
+/* Returns the cell of `particle` and its number in this cell as (cell << dim) + number, from its reference position, or
+ * -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
 /* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */

@@ -39,8 +39,8 @@ extern const struct frame_field frame_fields[FRAME_FIELDS];
 enum { CELLS_CONNECTIVITY, CELLS_OFFSETS, CELLS_TYPES, CELL_LISTS };
 extern const struct frame_field frame_cells[CELL_LISTS];
 
-/* Returns the set of fields that a frame from the source s contains, as bits in the order of the table frame_fields:
- * the basic ones, plastic strain if a material yields, contact force if the scene has contact, fragments if bodies can
+/* Returns the set of fields that a frame from `source` contains, as bits in the order of the table frame_fields: the
+ * basic ones, plastic strain if a material yields, contact force if the scene has contact, fragments if bodies can
  * break, and those that the scene requests. */
 unsigned frame_field_bits_of_source(const struct frame_source *source);
 
@@ -50,8 +50,8 @@ unsigned frame_field_bits_of_source(const struct frame_source *source);
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *row_order, char *rows);
 
-/* Writes a field as a dataset with its unit to the file h. rows: stored numbers of the field at n points, as
- * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in h->failed. */
+/* Writes a field as a dataset with its unit to `file`. rows: stored numbers of the field at `row_count` points, as
+ * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in file->failed. */
 void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
 /* Writes one line `field [unit]` for every field with a unit to text[capacity]. field_bits: set of fields, one bit per

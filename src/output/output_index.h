@@ -16,8 +16,8 @@ struct frame_indices {
  * with frame_index_files_free_texts in any case. */
 status frame_index_files_compose(struct frame_indices *index, const char *folder, const struct frame_series *series);
 
-/* Writes the composed texts in *index as the index files of the series s to the folder of the run. Returns FAILED if
- * one cannot be written. */
+/* Writes the composed texts in *index as the index files of `series` to `folder`, the folder of the run. Returns FAILED
+ * if one cannot be written. */
 status frame_index_files_write(const struct frame_indices *index, const char *folder,
                                const struct frame_series *series);
 

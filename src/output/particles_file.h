@@ -28,8 +28,8 @@ struct particles_file {
 void particles_file_name(const struct frame_series *series, char *name, size_t capacity, int file_number);
 
 /* Initialises *f with the contents of a particles file, the data that do not change from frame to frame: copies the
- * fields in the set `field_bits` (one bit per entry of frame_fields) from *source for the rows that the series s shows,
- * and computes a hash of the contents. scene_text: text of the scene, which the file contains. Release f with
+ * fields in the set `field_bits` (one bit per entry of frame_fields) from *source for the rows that `series` shows, and
+ * computes a hash of the contents. scene_text: text of the scene, which the file contains. Release f with
  * particles_file_free. */
 void particles_file_collect_contents(struct particles_file *f, const struct frame_series *series,
                                      const struct frame_source *source, unsigned field_bits, const char *scene_text);
@@ -54,8 +54,8 @@ bool particles_file_read_content_hash(const char *path, int64_t *content_hash);
  * complete and unchanged, else a static text that completes "PATH ..." in a message. */
 const char *particles_file_describe_damage(const char *path, int64_t *content_hash);
 
-/* Checks the particles file to which the frame h, the open file `path`, links. Returns OK if it is complete and belongs
- * to the frame, or if the frame needs none, as frames of earlier versions; else FAILED. */
+/* Checks the particles file to which `frame`, the open file `path`, links. Returns OK if it is complete and belongs to
+ * the frame, or if the frame needs none, as frames of earlier versions; else FAILED. */
 status particles_file_check_file_linked_by_frame(struct hdf *frame, const char *path);
 
 #endif

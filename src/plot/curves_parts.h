@@ -14,7 +14,7 @@ struct series {
     bool bar;             /* the run has one dimension */
 };
 
-/* Returns the largest absolute value in the column with index `column_index` of the history h; 0 if the column has no
+/* Returns the largest absolute value in the column with index `column_index` of `history`; 0 if the column has no
  * values. */
 double history_largest_magnitude(const struct history *history, int column_index);
 
@@ -23,13 +23,13 @@ struct value_range {
     double low, high;
 };
 
-/* Returns the smallest and the largest finite value in the columns of the history h whose indices are
- * column_index[columns]. */
+/* Returns the smallest and the largest finite value in the columns of `history` whose indices are
+ * column_index[column_count]. */
 struct value_range history_value_range(const struct history *history, const int *column_index, int column_count);
 
-/* Writes the time and the columns with the indices column_index[columns] of the history s->h to gnuplot (the stream
- * `gnuplot`) as the data block $data. Values of column_index[k] are divided by factor[k]. Long histories are reduced to
- * a few thousand rows, the last one included. */
+/* Writes the time and the columns with the indices column_index[column_count] of the history series->h to gnuplot (the
+ * stream `gnuplot`) as the data block $data. Values of column_index[k] are divided by factor[k]. Long histories are
+ * reduced to a few thousand rows, the last one included. */
 void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
                        int column_count);
 
@@ -42,17 +42,17 @@ struct curves_layout {
     bool key_below;
 };
 
-/* Returns the layout of the picture that g draws. key_entry_count: number of texts of the key (legend), 0 for a picture
- * without key; longest_key_entry: number of letters of the longest text; has_second_axis: true if there is a second
- * vertical axis on the right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key), or with
- * a second axis, it is below them. */
+/* Returns the layout of the picture that `gnuplot` draws. key_entry_count: number of texts of the key (legend), 0 for a
+ * picture without key; longest_key_entry: number of letters of the longest text; has_second_axis: true if there is a
+ * second vertical axis on the right. The key is beside the panels. In narrow pictures (picture_is_too_narrow_for_key),
+ * or with a second axis, it is below them. */
 struct curves_layout curves_layout_make(const struct gnuplot *gnuplot, int key_entry_count, size_t longest_key_entry,
                                         bool has_second_axis);
 
 /* Returns the height between the upper edge of the first panel and the lower edge of the last one [pixel]. */
 double curves_layout_height_of_all_panels(const struct curves_layout *layout);
 
-/* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. from, lower_edge:
+/* Writes the gnuplot commands for the margins of a panel of a picture with the given layout. upper_edge, lower_edge:
  * distances of the upper and the lower edge of this panel from the upper edge of the first panel [pixel]. */
 void curves_write_panel_margins(FILE *gnuplot, const struct curves_layout *layout, double upper_edge,
                                 double lower_edge);
@@ -75,8 +75,8 @@ struct two_panels curves_layout_edges_of_two_panels(const struct curves_layout *
  */
 double tic_distance(double value_extent, double axis_length, double least_distance);
 
-/* Writes the gnuplot command for the tics of the vertical axis "y" or "y2" of a panel of the given height [pixel],
- * whose values extend from `low` to `high`. */
+/* Writes the gnuplot command for the tics of the vertical axis `vertical_axis` ("y" or "y2") of a panel of the given
+ * height [pixel], whose values extend from `low` to `high`. */
 void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height);
 
 /* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
@@ -117,16 +117,16 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
  */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history);
 
-/* Draws all pictures of the history of the run in r->folder into the folder r->pictures: crack, energy, sif, path and
- * load_displacement, for load steps also r_curve (names in output/pictures.h). title: heading of each picture. Returns
- * FAILED if history.csv cannot be read or gnuplot fails. */
+/* Draws all pictures of the history of the run in request->folder into the folder request->pictures: crack, energy,
+ * sif, path and load_displacement, for load steps also r_curve (names in output/pictures.h). title: heading of each
+ * picture. Returns FAILED if history.csv cannot be read or gnuplot fails. */
 status history_curves_draw(const struct plot_request *request, const char *title);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
- * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
+ * frame[frame_count], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count);
 
-/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames], to the file
+/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frame_count], to the file
  * `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the particles of frame k. Returns
  * FAILED if gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
@@ -137,8 +137,8 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
 bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe_name`,
- * with the closed-form solution, to the file `sheet`. title: heading of the picture; shown_frame[frames]: frames of the
- * run in `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
+ * with the closed-form solution, to the file `sheet`. title: heading of the picture; shown_frame[frame_count]: frames
+ * of the run in `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
 status bar_and_exact_solution_draw(struct sheet sheet, const char *title, const char *folder, const char *probe_name,
                                    const struct listed_frame *shown_frame, int frame_count);
 

@@ -44,8 +44,8 @@ static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 
 /* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
  * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key of named
- * values, is below the panels if they are larger then. panel_count: their number; height_over_width: height over width
- * of a panel. */
+ * values, is below the panels if they are larger then. panel_count: number of panels; height_over_width: height over
+ * width of a panel. */
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns true if a map of the kind `map` has a colour bar. */
@@ -74,7 +74,7 @@ void map_key_draw(FILE *gnuplot, const struct layout *layout, const struct map_k
 void map_colour_bar_draw(FILE *gnuplot, const struct layout *layout, const struct maps_shown *shown,
                          int64_t particle_count);
 
-/* Writes the gnuplot margins of a box of the given width and height. left, upper_edge: its upper left corner. All
+/* Writes the gnuplot margins of a box of the given width and height. left_edge, upper_edge: its upper left corner. All
  * lengths are in pixels. */
 void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
                        double height);
@@ -97,7 +97,7 @@ void panel_write_axis_arrows(FILE *gnuplot, const struct layout *layout, const s
                              const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
                              double upper_edge);
 
-/* Writes the gnuplot commands and data that plot the image pixel[height * width], rows from bottom to top.
+/* Writes the gnuplot commands and data that plot the image pixel[pixel_rows * pixel_columns], rows from bottom to top.
  * lower_left_corner[2]: lower left corner of the image; pixel_size[2]: width and height of a pixel, both in units of
  * the axes. further_elements: further elements of the plot command, each preceded by a comma, or "". */
 void panel_write_image(FILE *gnuplot, const struct colour *pixel, int pixel_columns, int pixel_rows,

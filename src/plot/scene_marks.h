@@ -23,8 +23,8 @@ struct marks {
  * marks_add_point and end the block with marks_end_data_block. */
 void marks_begin_data_block(struct marks *m);
 
-/* Adds a line to the current data block: the point X (coordinates [m]), projected onto the picture, and the projection
- * of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
+/* Adds a line to the current data block: the point with the coordinates `position` [m], projected onto the picture, and
+ * the projection of the arrow `arrow` [m]. arrow: NULL for a point without an arrow. */
 void marks_add_point(struct marks *m, const real *position, const double *arrow);
 
 /* Ends the current data block and adds the element that draws it to the plot command. plot_style: text of this element
@@ -49,7 +49,7 @@ void marks_draw_outlines_of_coarse_cells(struct marks *m);
 /* Draws boxes around the named regions of the scene. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
-/* Adds an entry to the key of the picture: a square in the colour c and the text `text`. */
+/* Adds an entry to the key of the picture: a square in the colour `colour` and the text `text`. */
 void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text);
 
 #endif

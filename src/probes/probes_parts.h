@@ -67,18 +67,18 @@ enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 int particle_probe_value_count(const struct particles *p);
 
 /* Returns the name and unit of value `value_number` of those that a POINT or LINE probe reports of a particle, 0 <=
- * number < particle_probe_value_count(p). */
+ * value_number < particle_probe_value_count(p). */
 struct column particle_probe_value_column(const struct particles *p, int value_number);
 
-/* Returns the damage of particle i of the run: the share of its bonds that are broken or have softened, by volume
- * [1]. */
+/* Returns the damage of `particle` of the run: the share of its bonds that are broken or have softened, by volume [1].
+ */
 static inline real probe_damage_of_particle(const struct observed_run *o, int64_t particle)
 {
     const struct bonds *b = o->bonds;
     return o->part->damage[particle] + (b ? bonds_row_softening_damage(b, o->part, b->row_of[particle]) : 0);
 }
 
-/* Computes the readings of particle i of the run and stores them in value[particle_probe_value_count(o->part)], in the
+/* Computes the readings of `particle` of the run and stores them in value[particle_probe_value_count(o->part)], in the
  * order of particle_probe_value_column. */
 void particle_compute_probe_values(const struct observed_run *o, int64_t particle, real *value);
 
@@ -124,12 +124,12 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 
 extern const char *const axis_name[DIM_MAX];
 
-/* Returns the number of the particle nearest to the reference position X, dim components [m]. Returns -1 if X is
- * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
+/* Returns the number of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
+ * `position` is outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
-/* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
- * equidistant from one end of the line to the other. */
+/* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
+ * q->request.points - 1 are equidistant from one end of the line to the other. */
 void line_probe_compute_station_position(const struct probe *q, int dim, int station, real *position);
 
 /* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *tips. */
@@ -238,7 +238,7 @@ struct bar {
  * the bar or its loads differ from what the closed-form solution describes. */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
-/* Frees a bar and its arrays. b may be NULL. */
+/* Frees a bar and its arrays. `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
@@ -257,8 +257,8 @@ enum { BAR_FIGURES_MAX = 16 };
 /* Returns the number of quantities that an EXACT probe reports for the closed-form solution `closed_form`. */
 int bar_probe_value_count(enum exact_form closed_form);
 
-/* Returns the name and unit of reported quantity `value_number` of the closed-form solution `closed_form`, 0 <= number
- * < bar_probe_value_count(form). */
+/* Returns the name and unit of reported quantity `value_number` of the closed-form solution `closed_form`, 0 <=
+ * value_number < bar_probe_value_count(closed_form). */
 struct column bar_probe_value_column(enum exact_form closed_form, int value_number);
 
 /* Updates the measured fields of a bar (bar_probe_measure_fields), compares them with the closed-form solution, and

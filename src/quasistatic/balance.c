@@ -204,8 +204,9 @@ static status solve_whole(struct run *e, real t)
                       (long long)e->clock.step + 1, t);
 }
 
-/* Finds the equilibrium at pseudo-time t [s] and stores the largest stretch ratio there. Returns INTERRUPTED, before
- * the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays valid. */
+/* Finds the equilibrium at the pseudo-time `pseudo_time` [s] and stores the largest stretch ratio there. Returns
+ * INTERRUPTED, before the solution, if the user has stopped the run, so that the checkpoint of the previous load step
+ * stays valid. */
 status equilibrium_find_at_time(struct run *e, real pseudo_time)
 {
     TRY(check_stop(e->report, &e->clock));

@@ -4,16 +4,17 @@
 
 #include "run/run.h"
 
-/* Finds the equilibrium under the loads and supports of pseudo-time t [s] and sets the present pseudo-time to t.
- * Updates the work of loads, the energy losses, the reactions of supports, and the largest ratio of stretch to
- * critical stretch. Returns FAILED, with the position of the largest residual in the message, if no equilibrium is
- * found; INTERRUPTED if the run is to stop. */
+/* Finds the equilibrium under the loads and supports at the pseudo-time `pseudo_time` [s], which becomes the present
+ * pseudo-time. Updates the work of loads, the energy losses, the reactions of supports, and the largest ratio of
+ * stretch to critical stretch. Returns FAILED, with the position of the largest residual in the message, if no
+ * equilibrium is found; INTERRUPTED if the run is to stop. */
 status equilibrium_find_at_time(struct run *e, real pseudo_time);
 
-/* Solves for the equilibrium at pseudo-time t [s] from the present one, and sets the present pseudo-time to t. Does not
- * update work, energy losses and reactions. present_applied_forces[dim]: applied forces of the present equilibrium, a
- * value for each particle [N]; they must not be the arrays e->statics->applied. Returns FAILED, with the position of
- * the largest residual in the message, if no equilibrium is found; INTERRUPTED if the run is to stop. */
+/* Solves for the equilibrium at the pseudo-time `pseudo_time` [s], starting from the present equilibrium. `pseudo_time`
+ * becomes the present pseudo-time. Does not update work, energy losses and reactions. present_applied_forces[dim]:
+ * applied forces of the present equilibrium, a value for each particle [N]; they must not be the arrays
+ * e->statics->applied. Returns FAILED, with the position of the largest residual in the message, if no equilibrium is
+ * found; INTERRUPTED if the run is to stop. */
 status equilibrium_solve_without_work_account(struct run *e, real pseudo_time, real *const *present_applied_forces);
 
 /* Converts the material points that broken bonds or high stress require to peridynamic particles and finds the

@@ -82,9 +82,9 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
     return s->in_contact || c->touching > 0;
 }
 
-/* Prepares contact for the solution at pseudo-time t [s]: stores the energy before the solution, moves rigid bodies and
- * searches for contacts. The stored energy includes contact energy only if anything was in contact before. If anything
- * is in contact now, finds the unconstrained fragments again, since contact may constrain them. */
+/* Prepares contact for the solution at the pseudo-time `pseudo_time` [s]: stores the energy before the solution, moves
+ * rigid bodies and searches for contacts. The stored energy includes contact energy only if anything was in contact
+ * before. If anything is in contact now, finds the unconstrained fragments again, since contact may constrain them. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time)
 {
     struct statics *s = e->statics;

@@ -20,12 +20,12 @@ bool statics_is_or_was_in_contact(const struct statics *s, const struct contact 
 void statics_contact_search_before_first_solution(struct run *e);
 
 /* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
- * pseudo-time t [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a substep; at least
- * 1, and limited (SUBSTEPS_MOST). */
+ * the pseudo-time `pseudo_time` [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a
+ * substep; at least 1, and limited (SUBSTEPS_MOST). */
 int statics_substep_count(const struct scene *s, const struct rigid_set *rigid, real pseudo_time);
 
-/* Prepares the solution at pseudo-time t [s]: computes the energy stored before the solution, moves rigid bodies to
- * their positions at t, and searches for contacts there. */
+/* Prepares the solution at the pseudo-time `pseudo_time` [s]: computes the energy stored before the solution, moves
+ * rigid bodies to their positions at that time, and searches for contacts there. */
 void statics_contact_begin_solution(struct run *e, real pseudo_time);
 
 /* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
@@ -43,11 +43,12 @@ void statics_contact_select_acting_contacts(void *run, bool set_is_fixed);
  * one of these forces. */
 real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss);
 
-/* Updates the largest contact force so far of each of the n rigid bodies by that of the present equilibrium. */
+/* Updates the largest contact force so far of each of the `rigid_body_count` rigid bodies by that of the present
+ * equilibrium. */
 void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count);
 
-/* Warns of those of the n rigid bodies that are driven and whose largest contact force is at most `least_force` [N]:
- * they miss the body, or push a body that nothing constrains. */
+/* Warns of those of the `rigid_body_count` rigid bodies that are driven and whose largest contact force is at most
+ * `least_force` [N]: they miss the body, or push a body that nothing constrains. */
 void rigid_bodies_warn_of_no_contact(struct warnings *warnings, const struct rigid_set *rigid, int rigid_body_count,
                                      real least_force);
 

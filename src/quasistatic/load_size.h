@@ -12,14 +12,15 @@
  * pseudo-time. */
 real statics_time_of_load_size(const struct run *e, real load_size);
 
-/* Returns the load size at which the crack increments a and b together release as much energy as they cost,
- * sqrt((cost_a + cost_b)/(release_a + release_b)) [m or N]. The release of an increment is the energy over the square
- * of the load size. INFINITY if a has no cost or the two release no energy. */
+/* Returns the load size at which the crack increments `increment` and `other_increment` together release as much energy
+ * as they cost [m or N]: the square root of the ratio of the sum of their costs to the sum of their releases. The
+ * release of an increment is the energy over the square of the load size. Returns INFINITY if `increment` has no cost
+ * or the two release no energy. */
 real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
                                                const struct crack_increment *other_increment);
 
-/* Returns the load size at which the crack increment a releases as much energy as it costs [m or N]; INFINITY if it
- * has no cost or releases no energy. */
+/* Returns the load size at which the crack increment `increment` releases as much energy as it costs [m or N]; INFINITY
+ * if it has no cost or releases no energy. */
 real increment_energy_balance_load_size(const struct crack_increment *increment);
 
 /* Returns a fictitious crack increment before the first one, as if the pre-crack had grown to its length by increments.

@@ -4,8 +4,8 @@
 
 #include "run/run.h"
 
-/* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps dt [s] in
- * which a wave with the speed wave_speed [m/s] travels twice the length of the body, `body_length` [m]. */
+/* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps `time_step`
+ * [s] in which a wave with the speed wave_speed [m/s] travels twice the length of the body, `body_length` [m]. */
 real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step);
 
 /* Makes one damped time step towards equilibrium. Sets *is_in_equilibrium to true if the body has reached equilibrium,

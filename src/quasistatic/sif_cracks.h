@@ -18,18 +18,18 @@
 const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struct crack_tips *tips,
                                             const struct crack_list *precracks, const struct particles *p);
 
-/* Projects the point X, dim components [m], onto the plane, and stores the two coordinates of the projection in the
- * plane in projection[2] [m]. */
+/* Projects the point `point`, dim components [m], onto the plane, and stores the two coordinates of the projection in
+ * the plane in projection[2] [m]. */
 void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2]);
 
-/* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in
+/* Projects the reference position of `particle` onto the plane and stores its two coordinates in the plane in
  * projection[] [m]. */
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
                                 real projection[2]);
 
-/* Computes the straight segment in which the pre-crack c intersects the plane, and stores its ends in segment_end[0]
- * and segment_end[1], as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to the crack
- * fronts, i.e. not perpendicular to the plane. */
+/* Computes the straight segment in which the pre-crack `precrack` intersects the plane, and stores its ends in
+ * segment_end[0] and segment_end[1], as coordinates in the plane [m]. Returns false if the pre-crack is not parallel to
+ * the crack fronts, i.e. not perpendicular to the plane. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
                                real segment_end[2][DIM_MAX]);
 
@@ -48,14 +48,14 @@ real sif_plane_crack_area(const struct sif_plane *plane, const struct particles 
  * [m], lies on a plane of symmetry. */
 bool sif_plane_segment_is_on_mirror(const struct sif_plane *plane, const real *segment_start, const real *segment_end);
 
-/* Computes the point ahead = from + distance * along. start: point of the plane of the tips [m]; direction: unit vector
- * in the plane; distance and result in [m]. */
+/* Computes the point ahead = start + distance * direction. start: point of the plane of the tips [m]; direction: unit
+ * vector in the plane; distance and result in [m]. */
 static inline void sif_plane_compute_point_ahead(const real *start, real distance, const real *direction, real ahead[2])
 {
     for (int d = 0; d < 2; d++) ahead[d] = start[d] + distance * direction[d];
 }
 
-/* Returns the distance between the points a and b of the plane, two coordinates each [m]. */
+/* Returns the distance between the points `point` and `other_point` of the plane, two coordinates each [m]. */
 static inline real sif_plane_point_distance(const real *point, const real *other_point)
 {
     return hypot(point[0] - other_point[0], point[1] - other_point[1]);

@@ -105,9 +105,9 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Intersects pre-crack c, a polygon, with the plane in which crack tips move, and stores the ends of the common segment
- * in segment_end[0] and segment_end[1] [m]. Their order is such that the normal of the segment points to the same side
- * as the normal of the polygon. Returns false if the pre-crack is not parallel to the crack fronts. */
+/* Intersects the pre-crack `precrack`, a polygon, with the plane in which crack tips move, and stores the ends of the
+ * common segment in segment_end[0] and segment_end[1] [m]. Their order is such that the normal of the segment points to
+ * the same side as the normal of the polygon. Returns false if the pre-crack is not parallel to the crack fronts. */
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
                                real segment_end[2][DIM_MAX])
 {

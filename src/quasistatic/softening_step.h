@@ -6,8 +6,8 @@
 
 /* Makes one load step of a body whose bonds soften. With the control `energy`, bonds dissipate the energy
  * `steps.energy` in the step, and the size of the loads follows from it; with the control `load`, the pseudo-time
- * becomes t [s]. Breaks the bonds that have no stiffness left. Returns FAILED if no equilibrium is found, INTERRUPTED
- * if the run is to stop. */
+ * becomes `pseudo_time` [s]. Breaks the bonds that have no stiffness left. Returns FAILED if no equilibrium is found,
+ * INTERRUPTED if the run is to stop. */
 status softening_make_load_step(struct run *e, real pseudo_time);
 
 /* Returns the smallest crack energy per area of the materials whose bonds soften [J/m^2], INFINITY without any. */

@@ -10,9 +10,10 @@
  * the fracture energy G_c of the material. */
 real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
-/* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
- * materials that of their interface if the scene defines it, else that of the weaker material. Where the strength of
- * bonds scatters, the value is multiplied by the square of the relative strength of the bond i-j. */
+/* Returns the crack energy per area between the particles `particle` and `other_particle` [J/m^2]: that of their common
+ * material; for two materials that of their interface if the scene defines it, else that of the weaker material. Where
+ * the strength of bonds scatters, the value is multiplied by the square of the relative strength of the bond between
+ * these particles. */
 real toughness_between_particles(const struct scene *s, const struct bond_source *bond_source,
                                  const struct particles *p, int64_t particle, int64_t other_particle);
 

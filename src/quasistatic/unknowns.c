@@ -134,7 +134,7 @@ void unknowns_free(struct statics *s)
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Stores the reference position of unknown k, a particle or a mesh node, in position[] [m]. */
+/* Stores the reference position of unknown number `unknown_number`, a particle or a mesh node, in position[] [m]. */
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position)
 {
@@ -178,8 +178,8 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
-/* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
- * the body [N]. Allocates these arrays on the first call. */
+/* Computes the applied forces at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim components for
+ * each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time)
 {
     for (int d = 0; d < p->dim; d++) {

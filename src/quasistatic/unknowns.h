@@ -18,22 +18,22 @@ void unknowns_list_particles_and_nodes(struct statics *s, const struct particles
 /* Frees the lists and fields that unknowns_list_particles_and_nodes has allocated. */
 void unknowns_free(struct statics *s);
 
-/* Stores the reference position of the unknown, a particle or a mesh node, in position[] [m]. */
+/* Stores the reference position of unknown number `unknown_number`, a particle or a mesh node, in position[] [m]. */
 void unknown_compute_reference_position(const struct statics *s, const struct particles *p, const struct mesh *mesh,
                                         int64_t unknown_number, real *position);
 
 /* Sets the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
- * displacements u [m]. */
+ * displacements `displacement` [m]. */
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
-/* Stores in sign[] the factors +1 or -1 by which displacement components of the mirror image i equal those of the
- * particle that it mirrors. All factors are +1 if i is a particle of the body. */
+/* Stores in sign[] the factors +1 or -1 by which displacement components of the mirror image `image` equal those of the
+ * particle that it mirrors. All factors are +1 if `image` is a particle of the body. */
 void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
                                       real sign[DIM_MAX]);
 
-/* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
- * the body [N]. Allocates these arrays on the first call. */
+/* Computes the applied forces at the pseudo-time `pseudo_time` [s] and stores them in s->applied, dim components for
+ * each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time);
 
 /* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of

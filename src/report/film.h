@@ -72,20 +72,20 @@ status film_read_frames_of_run(struct film *f, const char *folder, const struct 
  * `byte_budget` bytes on the page. */
 void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
 
-/* Writes the selected frames and fields of f to the page p as the entry `film` of its JSON. Returns FAILED if a frame
+/* Writes the selected frames and fields of f to `page` as the entry `film` of its JSON. Returns FAILED if a frame
  * cannot be read again. */
 status film_write(struct page *page, const struct film *f);
 
 /* Releases the memory of *f. */
 void film_free(struct film *f);
 
-/* Divides the particles of the set s into groups, each of which is shown as one particle. Particles that fill a cubic
- * cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or has yielded in
- * any frame and all have the same kind and fragment in every frame. Each other particle is a group. */
+/* Divides the particles of the set `particle_set` into groups, each of which is shown as one particle. Particles that
+ * fill a cubic cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or has
+ * yielded in any frame and all have the same kind and fragment in every frame. Each other particle is a group. */
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
-/* Returns the edge of group number `group` of the set s [m]: the spacing of a single particle, or the edge of a cubic
- * cell of merged particles. */
+/* Returns the edge of group number `group` of the set `particle_set` [m]: the spacing of a single particle, or the edge
+ * of a cubic cell of merged particles. */
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
 
 /* Fills the table f->field with the fields that a run of the dimension f->dim may have. */
@@ -107,8 +107,8 @@ int film_bytes_per_group_and_frame(const struct film *f);
  * out to save space. */
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
-/* Writes the values of one field in the frame `frame` as an array: means over the particles of each shown group of s.
- * path: file from which the frame was read. */
+/* Writes the values of one field in the frame `frame` as an array: means over the particles of each shown group of
+ * `particle_set`. path: file from which the frame was read. */
 void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
                                       const struct film_set *particle_set, const struct output_frame *frame,
                                       const char *path);

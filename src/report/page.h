@@ -26,8 +26,8 @@ struct page {
  * no memory for it. Release p with page_release. */
 status page_begin_in_memory(struct page *p);
 
-/* Adds the array values[n], with elements of type `type`, to the page, and a reference {array, type, length} to it to
- * the JSON. key: name of the reference; NULL if it is an element of a list. */
+/* Adds the array values[value_count], with elements of type `type`, to the page, and a reference {array, type, length}
+ * to it to the JSON. key: name of the reference; NULL if it is an element of a list. */
 void page_add_array(struct page *p, const char *key, enum page_type type, const void *values, int64_t value_count);
 
 /* Adds the PNG picture in the file `path` to the page as an array of bytes, and a reference to it to the JSON.

@@ -18,9 +18,9 @@ struct particle_draft {
     int32_t *id;
 };
 
-/* Appends a particle at the position X (dim coordinates [m]) to d, the list of particles to be created. volume: of the
- * particle [m^3]; material, body_number: their indices in the scene. Returns REFUSED, with a message, if there would be
- * more than PARTICLES_MAX particles. */
+/* Appends a particle at the position `position` (dim coordinates [m]) to d, the list of particles to be created.
+ * volume: volume of the particle [m^3]; material_number, body_number: indices of its material and its body in the
+ * scene. Returns REFUSED, with a message, if there would be more than PARTICLES_MAX particles. */
 status particle_draft_append_particle(struct particle_draft *d, const real *position, real volume, int material_number,
                                       int body_number);
 

@@ -59,8 +59,8 @@ void particle_list_note_append(struct particle_list_head *head, const char *sepa
  * replace missing columns. file_has_column[COLUMNS]: true for each column that the file has. */
 void particle_list_note_missing_columns(struct particle_list_head *head, const bool *file_has_column);
 
-/* Returns REFUSED, with a message that names the file `path`, if a run with n particles needs more memory than the
- * machine has. */
+/* Returns REFUSED, with a message that names the file `path`, if a run with `particle_count` particles needs more
+ * memory than the machine has. */
 status particle_list_check_memory(const char *path, int64_t particle_count);
 
 /* Reads a particle list from the Exodus II file `path` into *l. Returns REFUSED, with a message, if the file cannot be

@@ -49,9 +49,9 @@ bool quantity_is_dimensionless(const struct quantity *q);
 /* Returns the operand that is `entries_below_top` entries below the top of the stack of c; 0 for the topmost one. */
 struct operand *compile_operand_from_top(struct compile *c, int entries_below_top);
 
-/* Appends a step that pushes a value on the stack: a number or variable (op EXPRESSION_NUMBER), a coordinate or the
- * time. quantity: unit and, for a number, value. Returns false, with a message in c->what, if the expression is too
- * long or the stack too deep. */
+/* Appends a step that pushes a value on the stack: a number or variable (`operation` is EXPRESSION_NUMBER), a
+ * coordinate or the time. quantity: unit and, for a number, value. Returns false, with a message in c->what, if the
+ * expression is too long or the stack too deep. */
 bool compile_append_push_of_operand(struct compile *c, enum expression_op operation, const struct quantity *quantity);
 
 /* Appends a step that applies `operation` to the topmost operand, or to two of them for a binary operation.

@@ -27,7 +27,7 @@ void yaml_write_real(struct writer *w, real value);
 /* Writes a text in double quotes. */
 void yaml_write_quoted_text(struct writer *w, const char *text);
 
-/* Writes the numbers value[n] to the YAML text as a list in brackets. */
+/* Writes the numbers value[count] to the YAML text as a list in brackets. */
 void yaml_write_number_list(struct writer *w, const real *value, int count);
 
 /* Writes the value of key k to the YAML text, in the form that the type of the key requires. value_address: address of
@@ -62,7 +62,7 @@ void yaml_write_region(struct writer *w, const struct region *region);
 /* Writes the named regions of the scene to the YAML text. */
 void yaml_write_named_regions(struct writer *w);
 
-/* Writes the solid s, which was read from a file, to the YAML text, for example as `stl: {..}`. */
+/* Writes the solid `solid`, which was read from a file, to the YAML text, for example as `stl: {..}`. */
 void yaml_write_solid_from_file(struct writer *w, const struct solid *solid);
 
 #endif

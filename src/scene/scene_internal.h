@@ -196,8 +196,8 @@ void unit_write_text(const int twice[3], char *text, size_t capacity);
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
 
 /* Reads an expression in the unit of key k from node n, such as `12 MPa*exp(-(t/3us)^2)`, into *expression; a number is
- * one, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release e with expression_free.
- * Returns REFUSED, with a message of one line that states the position of the fault in the text. */
+ * one, too. allowed_variables: variables that are allowed in it, a sum of EXPRESS_*. Release `expression` with
+ * expression_free. Returns REFUSED, with a message of one line that states the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct yaml_node *n, unsigned allowed_variables,
                        struct expression *expression);
 
@@ -318,16 +318,17 @@ const struct key *key_find_in_any_group(const char *last_part, int *matching_key
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
-/* Writes advice for a word of another program that is no key of `group` ("" for the top of a scene) to text[capacity]:
- * the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for unknown words. */
+/* Writes advice for `foreign_word`, a word of another program that is no key of `group` ("" for the top of a scene) to
+ * text[capacity]: the equivalent key, or a note that Cleave has none. Returns false, and writes nothing, for unknown
+ * words. */
 bool foreign_word_advice(const char *foreign_word, const char *group, char *text, size_t capacity);
 
 /* Returns advice, a static text, about the invalid value `foreign_value` of the key at `key_path`, if it is a word of
  * another program; else NULL. */
 const char *foreign_value_advice(const char *key_path, const char *foreign_value);
 
-/* Returns the keys that are equivalent to a word of another program, separated by spaces ("" if there are none); NULL
- * for unknown words. */
+/* Returns the keys that are equivalent to `foreign_word`, a word of another program, separated by spaces ("" if there
+ * are none); NULL for unknown words. */
 const char *foreign_word_equivalent_keys(const char *foreign_word);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */

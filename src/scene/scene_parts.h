@@ -4,47 +4,47 @@
 
 #include "scene_internal.h"
 
-/* Reads a region, a list of solids, from node n into *region. Solids may be names of other regions, which are inserted.
- * Returns REFUSED, with a message, if it is invalid. */
+/* Reads a region, a list of solids, from the node `region_node` into *region. Solids may be names of other regions,
+ * which are inserted. Returns REFUSED, with a message, if it is invalid. */
 status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region);
 
 /* Reads the named regions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
  * invalid. */
 status read_regions(struct reader *r, const struct yaml_node *root);
 
-/* Reads a solid whose surface is in an STL file from node n into *solid. Returns REFUSED, with a message, for an
- * invalid key or file. */
+/* Reads a solid whose surface is in an STL file from the node `solid_node` into *solid. Returns REFUSED, with a
+ * message, for an invalid key or file. */
 status read_stl_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from node n into *solid: a mesh from a file, or a set of its elements or nodes. Returns REFUSED, with a
- * message, for an invalid key or file. */
+/* Reads a solid from the node `solid_node` into *solid: a mesh from a file, or a set of its elements or nodes. Returns
+ * REFUSED, with a message, for an invalid key or file. */
 status read_mesh_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Reads a solid from node n into *solid: the voxels of an image that have certain grey values. Returns REFUSED, with a
- * message, for an invalid key or file. */
+/* Reads a solid from the node `solid_node` into *solid: the voxels of an image that have certain grey values. Returns
+ * REFUSED, with a message, for an invalid key or file. */
 status read_image_solid(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
-/* Adds a part to body b for each material that the images in its shape assign to grey values. shape_node: node of the
+/* Adds a part to `body` for each material that the images in its shape assign to grey values. shape_node: node of the
  * shape. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
 /* Returns true if node n is a key that moves, turns or repeats a solid. */
 bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
-/* Reads the keys of node n that move, turn and repeat a solid, and stores these motions in *solid. Returns REFUSED,
- * with a message, for invalid keys. */
+/* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid.
+ * Returns REFUSED, with a message, for invalid keys. */
 status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
 status read_materials(struct reader *r, const struct yaml_node *root);
 
-/* Reads the flow law, kinematic hardening and heating of material m. material_node: node of the material. The keys of
+/* Reads the flow law, kinematic hardening and heating of `material`. material_node: node of the material. The keys of
  * linear hardening must have been read before. Returns REFUSED, with a message, for invalid constants, contradictions,
  * and if the method or solver does not support flow laws. */
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
-/* Reads the parts of body b, the regions of it that have materials of their own, from `parts_node`, the value of key k.
+/* Reads the parts of `body`, the regions of it that have materials of their own, from `parts_node`, the value of key k.
  * parts_node: NULL if the key is not given. Returns REFUSED, with a message, for an invalid part. */
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
                        struct scene_body *body);
@@ -53,18 +53,19 @@ status read_cracks(struct reader *r, const struct yaml_node *root);
 status read_crack_growths(struct reader *r, const struct yaml_node *root);
 status read_initial_states(struct reader *r, const struct yaml_node *root);
 
-/* Reads the function of time of boundary b from node n. If n is NULL or `constant`, the function is 1. Returns REFUSED,
- * with a message, for an invalid function. */
+/* Reads the function of time of the boundary `boundary` from the node `function_node`. If the node is NULL or
+ * `constant`, the function is 1. Returns REFUSED, with a message, for an invalid function. */
 status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary);
 
-/* Reads the axis of a rotation from the mapping n into unit_vector[DIM_MAX], a unit vector; in 2D it is z. group_path:
- * path of the keys of the rotation. Returns REFUSED, with a message, for an invalid axis. */
+/* Reads the axis of a rotation from the mapping `rotation_node` into unit_vector[DIM_MAX], a unit vector; in 2D it is
+ * z. group_path: path of the keys of the rotation. Returns REFUSED, with a message, for an invalid axis. */
 status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_node, const char *group_path,
                           real *unit_vector);
 
-/* Reads the components of a vector from node n. A number is stored in value[d], a formula in formula[d], and then
- * value[d] is 1. k: key of the vector, for unit and range; further_variables: variables other than x, y and z that
- * formulas may contain (EXPRESS_*). Returns REFUSED, with a message, for an invalid component. */
+/* Reads the components of a vector from the node `vector_node`. Component d is stored in value[d] if it is a number; if
+ * it is a formula, it is stored in formula[d], and value[d] is 1. k: key of the vector, for unit and range;
+ * further_variables: variables other than x, y and z that formulas may contain (EXPRESS_*). Returns REFUSED, with a
+ * message, for an invalid component. */
 status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
@@ -108,24 +109,25 @@ static inline bool limit_spacing_of_spacing_search(struct reader *r, real larges
     return r->spacing_most != NULL;
 }
 
-/* Sets m->onset_stretch, the stretch at which bonds of material m begin to soften, from its tensile strength;
- * m->critical_stretch must be set. material_node: node of the material. Returns REFUSED if bonds cannot soften with the
- * method or model of the scene, or if they would break before the tensile strength is reached. */
+/* Sets material->onset_stretch, the stretch at which bonds of `material` begin to soften, from its tensile strength;
+ * material->critical_stretch must be set. material_node: node of the material. Returns REFUSED if bonds cannot soften
+ * with the method or model of the scene, or if they would break before the tensile strength is reached. */
 status read_softening_onset(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Sets the strength surface of material m, if the scene gives strengths other than the tensile one, and
- * m->onset_stretch; m->critical_stretch must be set. material_node: node of the material. Returns REFUSED if the
- * strengths contradict each other, or if bonds would begin to soften before the stress reaches the surface in tension.
- */
+/* Sets the strength surface of `material`, if the scene gives strengths other than the tensile one, and
+ * material->onset_stretch; material->critical_stretch must be set. material_node: node of the material. Returns REFUSED
+ * if the strengths contradict each other, or if bonds would begin to soften before the stress reaches the surface in
+ * tension. */
 status read_strength_surface(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
-/* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of material m. strength_node: node of the
+/* Returns REFUSED if `strength` [Pa] is above a tenth of Young's modulus of `material`. strength_node: node of the
  * strength, for the message. */
 status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml_node *strength_node,
                                              const struct material *material, real strength);
 
-/* Returns REFUSED if the material with the index k, read from node n, has another softening law than an earlier
- * material. All bonds of a scene must have one law, since bonds between two materials have one curve. */
+/* Returns REFUSED if the material with the index `material_index`, read from the node `material_node`, has another
+ * softening law than an earlier material. All bonds of a scene must have one law, since bonds between two materials
+ * have one curve. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
 /* Returns REFUSED for friction where it is not supported: with the contact law between pairs of particles, or together

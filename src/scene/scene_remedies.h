@@ -7,16 +7,16 @@
 /* Returns true if at least one material of the scene has the key `key`. root: tree of the scene. */
 bool scene_has_material_with_key(const struct yaml_node *root, const char *key);
 
-/* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by node n, and
- * how the scene can be changed to have it. The material must have been read before. */
+/* Returns REFUSED with the message that bond-based peridynamics cannot have the Poisson's ratio given by the node
+ * `poisson_node`, and how the scene can be changed to have it. The material must have been read before. */
 status refuse_bond_based_poisson_ratio(struct reader *r, const struct yaml_node *poisson_node);
 
 /* Returns REFUSED with the message that materials cannot yield with a state-based model, and how the scene can be
  * changed. yield_node: node that makes the material yield. */
 status refuse_yield_with_state_model(struct reader *r, const struct yaml_node *yield_node);
 
-/* Returns REFUSED with the message that the plastic law at node n requires the method mpm, and how the scene can be
- * changed. */
+/* Returns REFUSED with the message that the plastic law at the node `law_node` requires the method mpm, and how the
+ * scene can be changed. */
 status refuse_flow_law_without_mpm(struct reader *r, const struct yaml_node *law_node);
 
 /* Returns REFUSED with the message that bonds cannot soften with the method or model of the scene, and how the scene

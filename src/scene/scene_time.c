@@ -193,8 +193,8 @@ static status read_time_file(struct reader *r, const struct yaml_node *map, stru
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Reads the factor of time of boundary b. function_node: node of `time`; NULL or `constant`: the factor is 1. Returns
- * REFUSED for an unknown form or invalid values. */
+/* Reads the factor of time of the boundary `boundary`. function_node: node of `time`; NULL or `constant`: the factor is
+ * 1. Returns REFUSED for an unknown form or invalid values. */
 status read_time_function(struct reader *r, const struct yaml_node *function_node, struct boundary *boundary)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};

@@ -60,8 +60,9 @@ static ALWAYS_INLINE pair lane_pair_load(const real *values)
     return a;
 }
 
-/* Copies the matrix block in row i, at entry q of l->column, to `block`: w x w values row by row [N/m]. width:
- * components of a node of level l. The diagonal block is read from l->diagonal, others from l->single or l->block. */
+/* Copies the matrix block in row `row`, at entry `column_entry` of l->column, to `block`: width x width values row by
+ * row [N/m]. width: number of components of a node of level l. The diagonal block is read from l->diagonal, others from
+ * l->single or l->block. */
 static ALWAYS_INLINE void multigrid_copy_matrix_block(const struct multigrid_level *l, int64_t row,
                                                       int64_t column_entry, const int width, real *block)
 {
@@ -100,7 +101,7 @@ enum { ROWS_MANY = 200 };
             ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
     } while (0)
 
-/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as a
+/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node `node` counts as a
  * motion without stiffness [1]. It is larger for the finest level, whose stiffnesses are rounded to floats, and for
  * unconstrained fragments: such stiffnesses resist rotations by 6e-8 of their value. */
 static inline real multigrid_smallest_pivot_ratio(const struct multigrid_level *l, int64_t node)
@@ -112,8 +113,8 @@ static inline real multigrid_smallest_pivot_ratio(const struct multigrid_level *
  * (multigrid_smallest_pivot_ratio) are replaced by the mean stiffness l->scale. */
 void multigrid_invert_diagonal_blocks(struct multigrid_level *l);
 
-/* Finds the nodes of the next coarser level that belong to fragments without constrained nodes, from those of level l,
- * and stores them in next->unconstrained. */
+/* Finds the nodes of the next coarser level, `coarser_level`, that belong to fragments without constrained nodes, from
+ * those of level l, and stores them in coarser_level->unconstrained. */
 void multigrid_find_unconstrained_coarse_nodes(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Estimates l->largest, the largest eigenvalue of D^-1 K, from below by Lanczos iterations. K: matrix of level l; D:
@@ -125,7 +126,7 @@ void multigrid_estimate_largest_eigenvalue(struct multigrid_level *l);
 void multigrid_aggregate_nodes(struct multigrid_level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
- * width, scale and rigid motions of the nodes of the next coarser level. */
+ * width, scale and rigid motions of the nodes of the next coarser level, `coarser_level`. */
 void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction.
@@ -133,15 +134,16 @@ void multigrid_make_coarse_rigid_motions(struct multigrid_level *l, struct multi
  * step with the matrix K of the level and its diagonal blocks D. */
 void multigrid_make_prolongation_and_restriction(struct multigrid_level *l);
 
-/* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
- * l->down. */
+/* Computes the matrix of the next coarser level, `coarser_level`, by the Galerkin product: l->up times the matrix of
+ * level l times l->down. */
 void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
 /* Factorises the matrix K of level l as K = U^T D U, with the upper triangular matrix U and the diagonal matrix D, into
  * *d. Pivots without stiffness are replaced by the mean stiffness l->scale. Release with dense_free. */
 void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
-/* Solves K x = b with the factorisation d of dense_factorise. load: d->n loads; solution: receives d->n values. */
+/* Solves K x = b with the factorisation `d` of the matrix K by dense_factorise. load: b, d->n values; solution:
+ * receives x, d->n values. */
 void dense_solve(const struct dense *d, const real *load, real *solution);
 
 /* Frees the arrays of a factorisation. */
@@ -156,10 +158,10 @@ void multigrid_compute_residual(struct multigrid_level *l);
 void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
                       bool start_from_zero);
 
-/* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
+/* Computes the load of the next coarser level from the residual of level l: coarser_level->b = l->up l->t. */
 void multigrid_restrict_residual(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
-/* Adds the solution of the next coarser level to that of level l: l->x += l->down next->x. */
+/* Adds the solution of the next coarser level to that of level l: l->x += l->down coarser_level->x. */
 void multigrid_prolong_correction(struct multigrid_level *l, const struct multigrid_level *coarser_level);
 
 #endif

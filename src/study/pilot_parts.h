@@ -42,24 +42,24 @@ struct pilot_search {
     int n;
 };
 
-/* Lists the methods that are applicable to the scene of p in p->at[] and stores their number in p->n. Returns REFUSED
- * if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of the scene has the
- * requested figure. */
+/* Lists the methods that are applicable to the scene of `search` in search->at[] and stores their number in search->n.
+ * Returns REFUSED if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of
+ * the scene has the requested figure. */
 status pilot_list_applicable_methods(struct pilot_search *search);
 
 /* Returns the name of the figure (scalar result) whose accuracy the scene requests, or a description of the default
  * figure if it names none. The text belongs to *search or is static. */
 const char *pilot_name_of_requested_result(const struct pilot_search *search);
 
-/* Allocates the array to->override, after releasing an earlier one, and fills it. The first entries are the overrides
- * of the user, user_override[overrides]. They are followed by n keys that pilot runs have chosen, with the texts
- * to->key[k] and to->value[k]. */
+/* Allocates the array choice->override, after releasing an earlier one, and fills it. The first entries are the
+ * overrides of the user, user_override[user_override_count]. They are followed by `chosen_key_count` keys that pilot
+ * runs have chosen, with the texts choice->key[k] and choice->value[k]. */
 void pilot_combine_overrides(struct pilot *choice, const struct scene_override *user_override, int user_override_count,
                              int chosen_key_count);
 
-/* Determines, from the convergence study s of the method `candidate`, the particle spacing that the method requires for
- * the requested accuracy, and stores it with its cost in *candidate (pilot_judge.c). Returns REFUSED if no accuracy can
- * be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
+/* Determines, from `study`, the convergence study of the method `candidate`, the particle spacing that the method
+ * requires for the requested accuracy, and stores it with its cost in *candidate (pilot_judge.c). Returns REFUSED if no
+ * accuracy can be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);
 

@@ -69,8 +69,9 @@ static bool scene_acts(const struct scene *s)
 
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
-/* Lists the methods that are applicable to the scene in p->at. Returns REFUSED if there is none, or if pilot runs are
- * not possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies. */
+/* Lists the methods that are applicable to the scene in search->at. Returns REFUSED if there is none, or if pilot runs
+ * are not possible: particles from a list, no length to choose a spacing from, nothing that moves or loads the bodies.
+ */
 status pilot_list_applicable_methods(struct pilot_search *search)
 {
     const struct scene *s = &search->wish.provisional;

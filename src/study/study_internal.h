@@ -19,20 +19,20 @@ void study_grow_name_table(struct study *s);
 
 /* Chooses a name for a run that no other run of s has and writes it to name[CASE_NAME_ROOM]. It is the text
  * `wanted_name`, restricted to characters that every file system accepts. If that is too long, reserved or taken, it is
- * case-HASH, with a hash of the overrides override[n] of the run. */
+ * case-HASH, with a hash of the overrides override[override_count] of the run. */
 void study_choose_case_name(const struct study *s, char *name, const char *wanted_name,
                             const struct scene_override *override, int override_count);
 
 /* Adds the name of the run with the index `case_number` of the study s to the hash table of the names of its runs. */
 void study_register_case_name(struct study *s, int case_number);
 
-/* Finds which of the keys key[keys] appear in the names of runs, those with several values. Stores their indices in
- * key_order[], which has space for `key_count` entries, in the order in which they appear. Returns their number. */
+/* Finds which of the keys key[key_count] appear in the names of runs, those with several values. Stores their indices
+ * in key_order[], which has space for `key_count` entries, in the order in which they appear. Returns their number. */
 int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
- * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; key_order[n]: indices of those in the name, in order of
- * appearance; value_index[k]: index of the value of key k in this run. */
+ * name[CASE_NAME_ROOM]. key[key_count]: all keys of the study; key_order[named_key_count]: indices of those in the
+ * name, in order of appearance; value_index[k]: index of the value of key k in this run. */
 void study_compose_case_name(char *name, const struct varied_key *key, int key_count, const int *key_order,
                              int named_key_count, const int *value_index);
 

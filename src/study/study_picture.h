@@ -35,16 +35,16 @@ struct study_picture {
  * energies, and the duration. Figures that are equal in all runs are left out. */
 void panels_choose_figures(struct study_picture *picture);
 
-/* Chooses the figures with the names figure_name[asked] for the panels. Returns REFUSED if a name is not in the table.
- */
+/* Chooses the figures with the names figure_name[figure_count] for the panels. Returns REFUSED if a name is not in the
+ * table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
 /* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
  * combined to one point with a bar. */
 bool key_has_no_physical_meaning(const char *key);
 
-/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 for another value. The
- * caller frees each value_at[k]. */
+/* Fills value_at[key_count][study->n] with the index of the value that each of the keys key[key_count] has in each run
+ * of `study`; -1 for another value. The caller frees each value_at[k]. */
 void values_find_indices_in_runs(int **value_at, const struct study *study, const struct varied_key *key,
                                  int key_count);
 
