@@ -22,8 +22,8 @@ static inline int64_t tip_end_of_particle_list_piece(const struct particles *p, 
     return piece_start + TIP_PIECE < p->n_of[KIND_PD] ? piece_start + TIP_PIECE : p->n_of[KIND_PD];
 }
 
-/* Returns true if the particle numbers particle_number[0 .. count - 1], which must be strictly ascending, at least one,
- * are consecutive. Flags of consecutive particles are tested eight at a time. */
+/* Returns true if the particle numbers particle_number[0 .. count - 1] are consecutive. They must be strictly
+ * ascending, and `count` at least 1. Flags of consecutive particles are tested eight at a time. */
 static inline bool particles_have_consecutive_numbers(const int32_t *particle_number, int64_t count)
 {
     return particle_number[count - 1] - particle_number[0] == count - 1;
