@@ -6,7 +6,7 @@
 
 enum cleanup_kind { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
-/* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this child_process_id: first the child with the id
+/* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child with the id
  * `child_process_id` (0: none) is killed with all processes that it started, then the file `file_to_remove` (copied;
  * NULL: none) is removed. kind: kind of file; a second call with this kind replaces the first. A signal that is ignored
  * or already has a handler is not handled. */

@@ -321,7 +321,8 @@ END
     for picture in finer/pictures/convergence.pdf sized/pictures/particles.spacing.pdf; do
         holds "$picture is a PDF" sh -c "head -c 5 $picture | grep -q %PDF-"
     done
-    is "they are 85 x 60 mm" "$(grep -a -c 'terminal pdfcairo size 3.34[0-9]*in,2.36[0-9]*in' all)" 2
+    is "all pictures are 85 x 60 mm" "$(grep -a -c 'terminal pdfcairo size 3.34[0-9]*in,2.36[0-9]*in' all)" \
+        "$(find finer/pictures sized/pictures -name '*.pdf' | wc -l)"
     for study in "sweep strip.yaml -s particles.spacing=1mm,2mm" "converge strip.yaml"; do
         "$cleave" $study --format mp4 -o none >out 2>err
         is "$study --format mp4: exit status" $? 2
