@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "rigid_moments.h"
+
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
 /* Computes the product to = A b, or A^T b if `back` is true, of a 3 x 3 matrix and a vector. to must not be b. */
@@ -60,48 +62,8 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 /* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
 
-/* Numbers of sampling points along the longest edge of the bounding box of a rigid body, in 2D and in 3D. */
-enum { SAMPLES = 200, SAMPLES_SPACE = 80 };
-
-/* Tolerance with which a sampling point counts as inside a region, over the longest edge of its box. With it, opposite
- * inclined faces are treated alike in spite of round-off. */
-#define ON_FACE 1e-9
-
-struct box {
-    real from[DIM_MAX], to[DIM_MAX];
-};
-
-/* Integrates over the sampling points of a region in its bounding box b. Adds the centre of the region [m] to
- * centre[dim] and its second moments per volume about the centre [m^2] to `second`; both must be 0 before. Returns the
- * volume of the region [m^dim], or 0 if the box has no volume. */
-static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
-                           real second[DIM_MAX][DIM_MAX])
-{
-    real longest = 0, sum = 0, step[DIM_MAX] = {1, 1, 1}, X[DIM_MAX] = {0};
-    int n[DIM_MAX] = {1, 1, 1};
-    for (int d = 0; d < dim; d++) longest = real_max(longest, b->to[d] - b->from[d]);
-    for (int d = 0; d < dim; d++)
-        if (!(b->to[d] > b->from[d])) return 0;
-    for (int d = 0; d < dim; d++) {
-        n[d] = (int)ceil((b->to[d] - b->from[d]) / longest * (dim < 3 ? SAMPLES : SAMPLES_SPACE));
-        step[d] = (b->to[d] - b->from[d]) / n[d];
-    }
-    for (int64_t k = 0; k < (int64_t)n[0] * n[1] * n[2]; k++) {
-        const int64_t at[] = {k % n[0], k / n[0] % n[1], k / n[0] / n[1]};
-        for (int d = 0; d < dim; d++) X[d] = b->from[d] + ((real)at[d] + 0.5) * step[d];
-        if (!region_contains(shape, X, dim, ON_FACE * longest)) continue;
-        sum++;
-        for (int r = 0; r < dim; r++) {
-            centre[r] += X[r];
-            for (int c = 0; c < dim; c++) second[r][c] += X[r] * X[c];
-        }
-    }
-    for (int r = 0; r < dim && sum > 0; r++) centre[r] /= sum;
-    for (int r = 0; r < dim && sum > 0; r++)
-        for (int c = 0; c < dim; c++)
-            second[r][c] = second[r][c] / sum - centre[r] * centre[c] + (r == c ? square(step[r]) / 12 : 0);
-    return sum * step[0] * step[1] * step[2];
-}
+/* Largest relative error of the moments of a free body [1]. */
+#define MOMENTS_UNCERTAIN 0.01
 
 /* Computes the tensor of inertia of rigid body r about its centre [kg m^2] from the second moments per volume `second`
  * [m^2]. */
@@ -115,9 +77,9 @@ static void inertia_make(struct rigid_body *r, real second[DIM_MAX][DIM_MAX])
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing)
 {
-    struct box box = {{0}, {0}};
-    real second[DIM_MAX][DIM_MAX] = {{0}};
-    const bool bounded = region_compute_bounding_box_if_finite(shape, dim, box.from, box.to);
+    struct region_moments moments = {0};
+    real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
+    const bool bounded = region_compute_bounding_box_if_finite(shape, dim, from, to);
     r->shape = shape, r->dim = dim, r->mass = mass;
     r->motion = mass > 0 ? RIGID_FREE : dot(velocity, velocity, dim) > 0 ? RIGID_DRIVEN : RIGID_FIXED;
     array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
@@ -127,16 +89,21 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
             REFUSED,
             "rigid body %s moves, but its shape is infinite; a shape of boxes, balls, discs or cylinders is expected",
             r->name);
-    if (bounded && !(region_moments(shape, dim, &box, r->centre, second) > 0))
-        return status_set(REFUSED, "rigid body %s has no volume", r->name);
-    for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (box.to[d] - box.from[d]));
+    if (bounded) region_compute_moments(shape, dim, from, to, &moments);
+    if (bounded && !(moments.volume > 0)) return status_set(REFUSED, "rigid body %s has no volume", r->name);
+    if (r->motion == RIGID_FREE && moments.change > MOMENTS_UNCERTAIN)
+        return status_set(REFUSED,
+                          "rigid body %s moves freely, but its shape is so thin that its centre and inertia are known "
+                          "to %.2g %% only; a thicker shape is expected, or one without parts that hardly weigh",
+                          r->name, 100 * moments.change);
+    memcpy(r->centre, moments.centre, sizeof r->centre);
+    for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (to[d] - from[d]));
     r->radius = bounded ? 2 * sqrt(r->radius) : spacing;
     r->face = dim == 1 ? 1 : 0;
     for (int d = 0; d < dim && dim > 1 && bounded; d++)
-        r->face =
-            real_max(r->face, (box.to[d] - box.from[d]) * (dim < 3 ? 1 : box.to[(d + 1) % 3] - box.from[(d + 1) % 3]));
+        r->face = real_max(r->face, (to[d] - from[d]) * (dim < 3 ? 1 : to[(d + 1) % 3] - from[(d + 1) % 3]));
     memcpy(r->x, r->centre, sizeof r->x);
-    inertia_make(r, second);
+    inertia_make(r, moments.second);
     r->turns = r->motion == RIGID_FREE && dim > 1;
     return OK;
 }

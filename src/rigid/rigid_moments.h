@@ -1,0 +1,24 @@
+/* Volume, centre and second moments of the shapes of rigid bodies. */
+#ifndef CLEAVE_RIGID_MOMENTS
+#define CLEAVE_RIGID_MOMENTS
+
+#include "data/region.h"
+
+/* Moments of a region of uniform density. */
+struct region_moments {
+    real volume;                   /* [m^dim] */
+    real centre[DIM_MAX];          /* centre of the volume [m] */
+    real second[DIM_MAX][DIM_MAX]; /* mean of (X - centre)(X - centre)^T [m^2] */
+    real change;                   /* relative change of the moments in the last refinement, about their error [1] */
+};
+
+/* Relative error of the moments from which on a uniform grid of sampling points is not enough [1]. */
+#define MOMENTS_ACCURATE 0.005
+
+/* Computes the moments of a region within its bounding box `from` .. `to` (dim components each [m]): with a uniform
+ * grid of sampling points, or, where this is less accurate than MOMENTS_ACCURATE, with cells that are divided at the
+ * surface until the moments no longer change. The volume is 0 if the region is empty or the box has no volume. */
+void region_compute_moments(const struct region *shape, int dim, const real *from, const real *to,
+                            struct region_moments *m);
+
+#endif
