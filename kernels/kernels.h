@@ -114,12 +114,12 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`. For
- * bonds to mirror images in clamped planes (planes of symmetry along which motion is prevented, too), adds the reaction
- * on the image to the force on the particle that it mirrors (pd/clamp_force.c). motion: step sizes with which particles
- * are moved in the same loop; NULL: no particle is moved. Particles with such bonds, and those that the images mirror,
- * must be set in motion->loaded, so that they are moved later. Returns the number of directed bonds broken. All callers
- * compute bond forces through this function. */
+/* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`.
+ * Returns the number of directed bonds broken. A clamped plane is a plane of symmetry along which motion is prevented,
+ * too: the reaction on a mirror image in a clamped plane is added to the force on the particle that the image mirrors
+ * (pd/clamp_force.c). motion: step sizes with which particles are moved in the same loop; NULL: no particle is moved.
+ * The caller must set in motion->loaded the particles with bonds to such images and the particles that these images
+ * mirror, which are moved after the loop. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));

@@ -140,8 +140,9 @@ static double strip_value(const struct experiments *x, const char *variant, cons
     return NAN;
 }
 
-/* Evaluates the results for all loads of the strip together: adds the largest speed of a straight crack to x as a
- * result, and the curves of the picture. variant[STRIP_LOADS]: names of the loads in the results. */
+/* Evaluates the runs of the glass strip under all its loads together: adds to x the largest speed of a crack that stays
+ * straight, as a result, and the curves of crack speed for the picture. variant[STRIP_LOADS]: names of the loads in the
+ * results. */
 static void strip_curves(struct experiments *x, const char (*variant)[16])
 {
     struct experiment_curve *speed = experiment_add_empty_curve(x, "speed", "strip");

@@ -112,9 +112,9 @@ static ALWAYS_INLINE void flow_load_points(const struct particles *p, const stru
         p->temperature ? flow_gather_points(p->temperature, point) : lanes_broadcast(m->law->johnson_cook.T_room);
 }
 
-/* Clears FLAG_STRESSED of points that have yielded and whose largest principal stress does not exceed their conversion
- * stress. flowed: bit l is set if point[l] has yielded; m: material of the points; e: their state after the return
- * mapping. */
+/* Clears the flag that a point is stressed enough to become peridynamic (FLAG_STRESSED), which was set by the trial
+ * stress, of points whose stress after plastic flow no longer exceeds the stress at which they convert. flowed: bit l
+ * is set if point[l] has yielded; m: material of the points; e: their state after the return mapping. */
 static ALWAYS_INLINE void flow_clear_conversion_flags(struct particles *p, const struct elastic *m,
                                                       const struct law_points *e, unsigned flowed, const int32_t *point,
                                                       const int dim)

@@ -369,8 +369,9 @@ static ALWAYS_INLINE real stencil_row_factor(const struct cell_stencil *s, int a
     return weight;
 }
 
-/* Returns the derivative of the factor stencil_row_factor along axis d, which is across the row, for point `at` of the
- * stencil [1/m]. */
+/* Returns the derivative along axis d of the product of shape functions that all nodes of a row of the grid (nodes
+ * along x) share, stencil_row_factor, for point `at` of the stencil [1/m]. d: 1 or 2; k1, k2: index of the row in the
+ * stencil along y and z. */
 static ALWAYS_INLINE real stencil_row_factor_slope(const struct cell_stencil *s, int at, int k1, int k2, int d,
                                                    const int dim, const enum shape shape)
 {

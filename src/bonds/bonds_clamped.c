@@ -87,11 +87,10 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Makes the list c->end of reactions of bonds across clamped planes, with the particle on which each acts. State-based
- * models: a row contains its own half of the bond force, as clamped images have no state; the other half is the
- * reaction, which is added to the source of the image (the particle that it mirrors). Bond-based models: a row contains
- * both halves; one half is subtracted from the particle of the row and added to the source of the image, as two
- * reactions. */
+/* Lists in c->end the reactions of bonds between a particle and a mirror image across a clamped plane, with the
+ * particle on which each acts. In state-based models the particle already has its half of the bond force; the other
+ * half is one reaction, on the particle that the image mirrors. In bond-based models the particle has both halves; two
+ * reactions move one half from there to the particle that the image mirrors. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -171,8 +171,9 @@ real contact_pair_half_energy_of_particle(const struct contact *c, const struct 
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                  real previous_distance);
 
-/* Computes the table of the height of a position above the particles of a face as a function of the density of the face
- * there, for a face that is a layer of a square or cubic lattice. dim: dimensions of space. */
+/* Fills `table` for a flat face, the outermost layer of a square or cubic lattice of particles: height above this layer
+ * as a function of the density that the particles of the layer give a point at this height. dim: dimensions of
+ * space. */
 void contact_density_profile_make(struct contact_profile *table, int dim);
 
 /* Computes the gap between the particle of row `row` of the contact list and the faces beside it, and the derivatives

@@ -136,9 +136,9 @@ static void cross_row(struct growing_crack *g, const struct bonds *b, const stru
     }
 }
 
-/* Finds the particles that may have bonds across the segment from .. to [m]: those within its length plus the cutoff of
- * bonds around `from`. *found: receives an allocated list of their indices, which the caller frees. Returns their
- * number. */
+/* Finds the particles that may have bonds across the segment from `from` to `to` [m]: those whose distance from `from`
+ * is at most the length of the segment plus the length of the longest bond. *found: receives an allocated list of their
+ * indices, which the caller frees. Returns their number. */
 static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
                      int32_t **found)
 {

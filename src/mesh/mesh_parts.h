@@ -23,8 +23,9 @@ struct mesh_partial {
  * mesh, and returns their list with their stiffness, for mesh_partial_compute_stiffness. */
 struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
 
-/* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
- * materials or doubled nodes; the stiffness is computed later (mesh_partial_compute_stiffness). */
+/* Appends cell number `cell` to the list of partial cells of the mesh: cells in which points are missing or have
+ * different materials, or whose nodes were doubled by a slit. Their stiffness is computed later by
+ * mesh_partial_compute_stiffness. */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several

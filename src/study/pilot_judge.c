@@ -9,9 +9,9 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* Returns the figure, a number in summary.json, by which pilot runs are judged if the scene names none. Of
- * figure[figures] it is the first one of a probe that is larger than its uncertainty, else the start time of cracks,
- * else the largest energy. Returns NULL if there is none of these. */
+/* Returns the result, a number in summary.json, by which pilot runs are judged if the scene names none: of the array
+ * figure[figures] the first result of a probe that is larger than its uncertainty. If there is none, it is the time at
+ * which cracks start, else the largest energy; NULL if these are missing, too. */
 static const struct scalar_result_study *figure_usual(const struct scalar_result_study *figure, int figures)
 {
     const struct scalar_result_study *start = NULL, *energy = NULL;
