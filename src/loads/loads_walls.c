@@ -212,17 +212,50 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
     return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
 }
 
-/* Prescribes the velocity of the nodes of g that have at least half of their mass from points of load number `which`.
- * l->share[g->n]: this mass [kg]. Skips node components that the load constrains already because the node is in its
- * region; a second entry would count the inertia of the node as a reaction. by: motion that this load prescribes. */
+/* Returns true if only the points of load number `which` can tell which nodes of g it drives: most of its particles are
+ * material points, and no node with mass is in its region. s: nodes that regions constrain. */
+static bool points_choose_driven_nodes(const struct loads *l, int which, const struct constrained_set *s,
+                                       const struct grid *g, const struct particles *p)
+{
+    const struct load *load = &l->load[which];
+    int64_t points = 0;
+    for (int64_t q = 0; q < load->n; q++) points += particle_moves_with_nodes(p, load->particle[q]);
+    bool choose = 2 * points > load->n;
+    for (int64_t q = 0; q < s->n && choose; q++) choose = s->held[q].load != which || !(g->mass[s->held[q].node] > 0);
+    return choose;
+}
+
+#define MOSTLY (0.5 * (1 - 1e-9)) /* share of its mass from points of a load with which a node is driven [1] */
+#define NEARLY_LARGEST 0.9 /* share over the largest one with which nodes are driven if all have less than that */
+#define HEAVY 0.01         /* mass from points of a load, over the largest, below which a node tells nothing */
+
+/* Returns the share of its mass that a node must have from the points of a load to be driven by this load [1]: one
+ * half, or, where no node has that much, nearly the largest share, so that a support between nodes drives those nearest
+ * to it. share[nodes]: mass from points of the load [kg]; mask[nodes]: 0 for nodes without such mass, or NULL;
+ * mass[nodes]: mass of the nodes [kg]. */
+static real least_driven_share(const real *share, const uint8_t *mask, const real *mass, int64_t nodes)
+{
+    real heaviest = 0, largest = 0;
+    for (int64_t I = 0; I < nodes; I++)
+        if (!mask || mask[I]) heaviest = real_max(heaviest, share[I]);
+    for (int64_t I = 0; I < nodes; I++)
+        if ((!mask || mask[I]) && share[I] > HEAVY * heaviest && mass[I] > 0)
+            largest = real_max(largest, share[I] / mass[I]);
+    return largest >= MOSTLY ? MOSTLY : NEARLY_LARGEST * largest;
+}
+
+/* Prescribes the velocity of the nodes of g that have at least the share `least` of their mass from points of load
+ * number `which`. l->share[g->n]: this mass [kg]. Skips node components that the load constrains already because the
+ * node is in its region; a second entry would count the inertia of the node as a reaction. by: motion that this load
+ * prescribes. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
-                         const struct particles *p)
+                         const struct particles *p, real least)
 {
     const struct load *load = &l->load[which];
     const bool region = !load->boundary->rotates && load_holds(load, g, p);
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
-        if (l->share[I] <= 0 || l->share[I] < 0.5 * (1 - 1e-9) * g->mass[I]) continue;
+        if (l->share[I] <= 0 || l->share[I] < least * g->mass[I]) continue;
         node_at(g, NULL, I, x);
         for (int d = 0; d < g->dim; d++) {
             if (!(load->boundary->components >> d & 1) ||
@@ -282,7 +315,10 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
     constrained_walls(driven_nodes, g, NULL, by, false);
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
-            driven_walls(l, b, g, &by[b], p);
+            driven_walls(l, b, g, &by[b], p,
+                         points_choose_driven_nodes(l, b, driven_nodes, g, p)
+                             ? least_driven_share(l->share, NULL, g->mass, g->n)
+                             : MOSTLY);
     loads_add_grid_dashpots(l, g, p, k, half_width);
 }
 
@@ -304,9 +340,10 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
     }
 }
 
-/* Lists in l->constrained_mesh the mesh nodes that have at least half of their mass from points of load number `which`,
- * for each component of the velocity that it prescribes. Skips components that the load constrains already because of
- * the node's position. */
+/* Lists in l->constrained_mesh the mesh nodes that load number `which` drives, for each component of the velocity that
+ * it prescribes: those with at least half of their mass from its points, or, where none is in its region or has that
+ * much, those with the largest share. Skips components that the load constrains already because of the node's
+ * position. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -314,11 +351,14 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     if (!l->mesh_share) l->mesh_share = BLANK("loads.mesh_share", n, real);
     if (!l->mesh_mark) l->mesh_mark = BLANK("loads.mesh_mark", n + LANES, uint8_t);
     driven_masses(load, mesh, p, l->mesh_share, l->mesh_mark);
+    const real least = points_choose_driven_nodes(l, which, &l->constrained_mesh, &mesh->grid, p)
+                           ? least_driven_share(l->mesh_share, l->mesh_mark, mesh->grid.mass, n)
+                           : MOSTLY;
     for (int64_t I = next_marked_index(l->mesh_mark, 0, n); I < n; I = next_marked_index(l->mesh_mark, I + 1, n)) {
         const real share = l->mesh_share[I];
         l->mesh_mark[I] = 0;
         for (int d = 0; d < p->dim; d++)
-            if (share > 0 && share >= 0.5 * (1 - 1e-9) * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
+            if (share > 0 && share >= least * mesh->grid.mass[I] && load->boundary->components >> d & 1 &&
                 !constrained_by_region(l, load, mesh, I, d))
                 constrained_add(&l->constrained_mesh, I, d, which);
     }

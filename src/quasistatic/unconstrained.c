@@ -484,9 +484,9 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-/* Returns how far the forces on a fragment with nodes of the mesh are from balance: the largest component of all its
- * forces along a free motion, over applied_sum [1]. In equilibrium internal forces do not contribute. Returns 0 for a
- * fragment without such nodes. */
+/* Returns how far the forces on a fragment with nodes of the mesh are from balance: the largest component of its forces
+ * along a free motion, over applied_sum [1]; internal forces in equilibrium have none. Returns 0 without such nodes or
+ * applied forces. */
 static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
                                       const struct unconstrained_fragment *f)
 {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Static solvers from the command line: the edge crack with both, the summary, bitwise equality on any number of threads and after kills,
-# refusals.
+# supports between nodes, refusals.
 test_name=test_solver
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -63,6 +63,64 @@ calm "$work/spun" $spun -s "$spin"
 calm "$work/idle" $spun -s "$spin" -s 'boundary=[{mirror: {axis: x, at: 0, tangential: held}}]'
 is "with velocities" "$(figure "$work/spun" probes.end.displacement_y)" "$(figure "$work/rested" probes.end.displacement_y)"
 is "with velocities alone" "$(figure "$work/idle" probes.end.displacement_y)" 0
+
+# ---- supports between nodes ------------------------------------------------------------------------------------------
+
+# One column of points whose region has no node drives the nodes next to it, half a spacing off: a bar of 20 mm whose particles at 11.5 mm
+# are displaced by 10 um, on a plane of symmetry: E A u/x within 0.5/11.5, and behind it a free end that moves by 10 um (2 % more, as its
+# section does not stay plane).
+cat >"$work/column.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 1 s
+method: mpm
+solver: static
+solver_tolerance: 1e-6
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {mirror: {axis: x, at: 0}}
+  - {mirror: {axis: y, at: 0}}
+  - {name: grip, displacement: [10 um, free], region: {box: {from: [11.1 mm, 0], to: [11.9 mm, inf]}}, time: {ramp: {until: 1 s}}}
+probes: [point: {name: end, at: [19.5 mm, 5.5 mm]}, reaction: {boundary: grip}]
+output: {frames: 1}
+END
+pull=$(compute "70e9 * 0.02e-3 * 10e-6 / 11.5e-3")
+for solver in static relaxation; do
+    calm "$work/column_$solver" "$work/column.yaml" -s solver=$solver
+    near "a column between nodes, $solver: reaction" "$(figure "$work/column_$solver" probes.reaction.force_max)" "$pull" 0.045
+    near "a column between nodes, $solver: end" "$(figure "$work/column_$solver" probes.end.displacement_x)" 1e-5 0.03
+done
+# The wave of a ramp of 2 us passes 8.5 mm in 1.7 us at 5.1 km/s.
+calm "$work/column_explicit" "$work/column.yaml" -s solver=explicit -s duration=3us -s 'boundary.grip.time={ramp: {until: 2 us}}'
+between "a column between nodes, explicit: end" "$(figure "$work/column_explicit" probes.end.displacement_x)" 4e-6 2e-5
+
+# A beam on three supports of one row of particles; the one in the middle is between nodes. Two spans of 40.5 mm under 0.2 N/mm: it carries
+# 1.25 w l of Euler's beam; its width and shear move that by a few per cent.
+cat >"$work/three.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 1 s
+method: mpm
+solver: static
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [0, 0], to: [82 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {fixed: [x, y], region: {box: {from: [0, 0], to: [1 mm, 1 mm]}}}
+  - {fixed: [y], region: {box: {from: [81 mm, 0], to: [82 mm, 1 mm]}}}
+  - {name: middle, fixed: [y], region: {box: {from: [40.2 mm, 0], to: [41.8 mm, 1 mm]}}}
+  - {traction: [0, -0.1 MPa], face: y+, time: {ramp: {until: 1 s}}}
+probes: [reaction: {boundary: middle}]
+output: {frames: 1}
+END
+calm "$work/three" "$work/three.yaml"
+near "a beam on three supports" "$(figure "$work/three" probes.reaction.force_max)" "$(compute "1.25 * 0.2 * 40.5")" 0.03
+
+# Nothing holds the height of a bar that only displacements pull, and no load acts along it: u = 10 um x/L.
+calm "$work/free" "$work/column.yaml" -s 'boundary=[{mirror: {axis: x, at: 0}}, {name: grip, displacement: [10 um, free], face: x+, depth: 1 mm, time: {ramp: {until: 1 s}}}]'
+near "a bar that is free across" "$(figure "$work/free" probes.end.displacement_x)" 9.75e-6 1e-4
 
 # ---- bitwise equality ------------------------------------------------------------------------------------------------
 
