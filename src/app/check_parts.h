@@ -111,7 +111,8 @@ real solid_smallest_edge(const struct run *e, const struct solid *solid);
  * for a body that is joined to one of a lower index. */
 double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
-/* Writes a line to `out` for each nearly incompressible body whose particles or cells are too stiff. */
+/* Writes a line to `out` for each body whose particles near faces are too stiff, or whose cells are too soft, in
+ * bending. */
 void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */

@@ -76,6 +76,12 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
+/* Adds warnings to *warnings about supports at an end of a body that is in the middle of a cell of two spacings, with
+ * the error of the body's stiffness. grid: any grid of the run, whose `anchor` and `h` give the positions of all nodes.
+ */
+void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
+                                          const struct grid *grid, struct warnings *warnings);
+
 /* Adds warnings to *warnings about bodies of a few rows of particles, whose stiffness the correction pd.surface:
  * moments cannot correct. Also warns if the solver for `weights`, the weights of bonds near faces, has given up. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,

@@ -1,7 +1,8 @@
 #!/bin/sh
 # What `cleave check` says about the stiffness of thin parts is what runs measure: strips and square bars of 5 layers of bonds and of
-# state-based models in bending, on both kinds of supports, in tension and in torsion, beside closed forms.
-# Takes 10 s: 12 equilibria of some thousand particles are found.
+# state-based models in bending, on both kinds of supports, in tension and in torsion, beside closed forms; cells with one dilatation in
+# bending; displaced ends in the middle of a cell.
+# Takes 10 s: 16 equilibria of some thousand particles are found.
 test_name=test_check_layers
 . tests/support/summary.sh
 bend=tests/scenes/claims/bar_bend.yaml twist=tests/scenes/claims/bar_twist.yaml
@@ -91,5 +92,64 @@ END
 run pulled "$work/pulled.yaml" -s material.poisson=0
 told "$work/pulled.yaml" -s material.poisson=0
 as_told "a strip of ospd in tension" "$(compute "1e6 / 70e9 * 21e-3 / ($(at right x) - ($(at left x))) * 100 - 100")" "$bending"
+
+# Cells whose points have one dilatation: a cantilever of 4 layers under an end force in plane strain, whose yield stress is not reached.
+# Timoshenko's beam with E/(1 - nu^2), L = 80 mm, h = 8 mm, 3.2 N.
+cat >"$work/sheet.yaml" <<'END'
+space: plane strain
+thickness: 4 mm
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 1}
+material: {young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 500 MPa}
+body: {box: {from: [0, 0], to: [80 mm, 8 mm]}}
+particles: {spacing: 2 mm}
+boundary:
+  - {fixed: all, face: x-}
+  - {name: push, traction: [0, -0.1 MPa], face: x+, time: {ramp: {until: 1 s}}}
+probes: [point: {name: tip, at: [79 mm, 5 mm]}]
+output: {frames: 1}
+END
+soft() { sed -n 's/.*one dilatation, so that [0-9]* layers bend up to \([0-9]*\) % too much.*/\1/p' "$work/said"; }
+run sheet "$work/sheet.yaml"
+told "$work/sheet.yaml"
+beam=$(compute "3.2 * (0.08 * 0.079^2 / 2 - 0.079^3 / 6) / (200e9 / 0.91 * 4e-3 * 8e-3^3 / 12) + 3.2 * 0.079 / (5/6 * 200e9 / 2.6 * 32e-6)")
+as_told "a sheet of 4 layers that may yield" "$(compute "$(at tip y) / -($beam) * 100 - 100")" "$(soft)"
+told "$work/sheet.yaml" -s material.yield_stress=inf
+is "a sheet that does not yield" "$(soft)" ""
+
+# A displaced end in the middle of a cell of two spacings: a bar of 21 mm on a plane of symmetry, force E A u/L.
+cat >"$work/odd.yaml" <<'END'
+variables: {length: 21 mm}
+space: plane stress
+thickness: 2 mm
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 1}
+material: {young: 200 GPa, poisson: 1/3, density: 7850}
+body: {box: {from: [0, 0], to: [16 mm, length]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {mirror: {axis: x, at: 0}}
+  - {fixed: [y], face: y-}
+  - {name: up, displacement: [free, 0.01 mm], face: y+, time: {ramp: {until: 1 s}}}
+probes: [reaction: {boundary: up}]
+output: {frames: 1}
+END
+off() { sed -n "s/.*boundary up: .* its $1 spacings were $2: its stiffness is off by \\([-+0-9.]*\\) % in tension.*/\\1/p" "$work/said"; }
+pulled() { compute "$(figure "$folder" probes.reaction.force_max) / (200e9 * 32e-6 * 1e-5 / $1) * 100 - 100"; }
+run odd "$work/odd.yaml"
+told "$work/odd.yaml"
+near "a face in the middle of a cell" "$(pulled 0.021)" "$(off 21 24)" 0.05
+sed 's/, face: y+/, region: {box: {from: [-inf, 20 mm], to: [inf, inf]}}/' "$work/odd.yaml" >"$work/odd_region.yaml"
+run odd_region "$work/odd_region.yaml"
+told "$work/odd_region.yaml"
+near "a region that ends there" "$(pulled 0.021)" "$(off 21 20)" 0.12
+run even "$work/odd.yaml" -s 'variables.length=20 mm'
+told "$work/odd.yaml" -s 'variables.length=20 mm'
+near "a face at nodes" "$(compute "100 + $(pulled 0.020)")" 100 1e-3
+is "a face at nodes: nothing is said" "$(grep -c 'middle of a cell' "$work/said")" 0
 
 finish
