@@ -26,13 +26,14 @@
 #include "step/sample.h"
 
 #define OPENING_ERROR 1e-4 /* relative error of a prescribed opening */
+#define OPENING_FAR 1e-2   /* relative error of a prescribed opening that ends the run */
 #define FAR_BEYOND 1.2     /* stretch ratio above which an equilibrium is discarded for one at smaller loads */
 #define NEAR_LIMIT 0.95    /* stretch ratio of the equilibrium that replaces it */
 #define NEAR_LEAST 0.85    /* stretch ratio above which the loads are close enough to the next increment */
 #define ROUND_OFF 1e-6     /* relative difference of equal loads */
 #define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
 #define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
-enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
+enum { SECANTS_MOST = 12, BRACKETS_MOST = 60, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
@@ -165,19 +166,76 @@ static real opening_now(const struct particles *part, const struct statics *stat
     return sqrt(now) - sqrt(initial);
 }
 
+/* Returns true if points or bonds may yield. */
+static bool has_yield(const struct particles *p, const struct bonds *b)
+{
+    return p->plastic_correction[0] || b->plastic_stretch;
+}
+
+/* The search for the pseudo-time at which the opening equals a wanted one. Where points yield, the opening grows with
+ * the loads, but its slope changes by a factor of hundreds: the secant method is then confined to a bracket. */
+struct opening_search {
+    real t[2];      /* the last two pseudo-times, or the ends of the bracket: opening too small, too large [s] */
+    real differ[2]; /* opening there less the wanted one [m] */
+    bool bracket;   /* t[] and differ[] are the ends of a bracket */
+    int last;       /* the end of the bracket that was replaced last */
+};
+
+/* Takes the equilibrium at pseudo-time t [s], whose opening is larger than the wanted one by `differ` [m], into the
+ * search r for a body that yields. Returns the next pseudo-time to try [s]: by the secant method, limited to 0 .. 2 t,
+ * within a bracket by its Illinois variant, which halves the difference of an end that was kept twice. Returns t if
+ * the opening has not changed since the last call. */
+static real opening_search_next(struct opening_search *r, real t, real differ)
+{
+    const int end = differ > 0;
+    if (r->bracket && end == r->last) r->differ[!end] *= 0.5;
+    if (!r->bracket && (r->differ[0] > 0) != end) {
+        r->bracket = true;
+        r->t[!end] = r->t[0], r->differ[!end] = r->differ[0];
+    } else if (!r->bracket) {
+        const real rise = differ - r->differ[0], next = t - differ * (t - r->t[0]) / rise;
+        const bool constant = fabs(rise) <= OPENING_ERROR * fabs(differ);
+        r->t[0] = t, r->differ[0] = differ;
+        return constant ? t : real_min(real_max(next, 0), 2 * t);
+    }
+    r->t[end] = t, r->differ[end] = differ, r->last = end;
+    return r->t[0] - r->differ[0] * (r->t[1] - r->t[0]) / (r->differ[1] - r->differ[0]);
+}
+
 /* Finds the equilibrium at which the opening between the gauge particles equals `wanted` [m], by the secant method. t:
- * first pseudo-time tried [s]. Returns FAILED, with a message, if an equilibrium is not found. */
+ * first pseudo-time tried [s]. A body that yields starts every attempt from the present state. Returns FAILED, with a
+ * message, if an equilibrium is not found, or if its opening differs from the wanted one by OPENING_FAR. */
 static status go_to_opening(struct run *e, real wanted, real t)
 {
-    real from = e->statics->t, at_from = opening_now(&e->part, e->statics);
-    for (int k = 0; k < SECANTS_MOST; k++) {
-        TRY(equilibrium_find_at_time(e, real_max(t, 0)));
-        const real at = opening_now(&e->part, e->statics), slope = (at - at_from) / (e->statics->t - from);
-        if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics->t == from || !(slope != 0)) return OK;
-        from = e->statics->t, at_from = at;
-        t = from + (wanted - at) / slope;
+    struct statics *s = e->statics;
+    const bool yields = has_yield(&e->part, &e->bonds);
+    real from = s->t, at_from = opening_now(&e->part, s), at = at_from, tried = from;
+    struct opening_search search = {.t = {from}, .differ = {at_from - wanted}};
+    bool near = yields && fabs(at - wanted) <= OPENING_ERROR * fabs(wanted);
+    for (int k = 0; k < (yields ? BRACKETS_MOST : SECANTS_MOST) && !near; k++) {
+        struct memory_archive saved;
+        if (yields) trial_equilibrium_begin(e, &saved);
+        const status found = equilibrium_find_at_time(e, real_max(t, 0));
+        at = opening_now(&e->part, s);
+        const real slope = (at - at_from) / (s->t - from);
+        tried = s->t;
+        near = found != OK || fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) ||
+               (!yields && (tried == from || !(slope != 0)));
+        if (yields && !near)
+            trial_equilibrium_undo(e, &saved, NULL);
+        else if (yields)
+            memory_archive_free(&saved);
+        TRY(found);
+        t = yields ? opening_search_next(&search, tried, at - wanted) : tried + (wanted - at) / slope;
+        if (yields && t == tried) break;
+        if (!yields) from = tried, at_from = at;
     }
-    return OK;
+    if (fabs(at - wanted) <= OPENING_FAR * fabs(wanted)) return OK;
+    return status_set(
+        FAILED,
+        "load step %lld: no load opens the gauge by %.6g m; the last one tried, of load time %.4g s, does "
+        "by %.6g m: use larger loads or more steps, or displacement with steps.control: load",
+        (long long)e->clock.step + 1, wanted, tried, at);
 }
 
 /* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m].
@@ -198,7 +256,19 @@ static status step_by_opening(struct run *e)
     const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number,
                now = opening_now(&e->part, e->statics);
     const real first = e->statics->t + e->scene->duration / (real)s->number;
-    if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
+    real t = now > 0 ? e->statics->t * wanted / now : first;
+    if (e->statics->next.n == 0 && has_yield(&e->part, &e->bonds)) {
+        struct memory_archive saved;
+        trial_equilibrium_begin(e, &saved);
+        const status found = go_to_opening(e, wanted, t);
+        t = e->statics->t;
+        if (found == OK)
+            trial_equilibrium_undo(e, &saved, NULL);
+        else
+            memory_archive_free(&saved);
+        TRY(found);
+    }
+    if (e->statics->next.n == 0) TRY(approach_loads(e, t));
     for (bool open = false;;) {
         const bool before =
             increment_before_opening(&e->part, e->statics, statics_norm_of_prescribed_loads(e, e->statics->t),

@@ -74,6 +74,17 @@ near "series: the whole" "$(column "$work/series" end.displacement_x 1)" 1.45e-4
 calm "$work/set" "$bar" -t 1 -s steps.number=20
 apart "permanent set" "$(column "$work/set" reaction.force_x 0.6)" 0 1e-2
 
+# Control by an opening: the stress at a strain of 0.01 is 400 MPa + 2 GPa (0.01 - 0.002), a hundredth as stiff as before it yields. The
+# opening is met to 1e-4; equilibria to 1e-5 of 416 MPa leave 2e-6 of strain, 2e-4 of it. Loads that end at 410 MPa open less.
+sed -e 's/displacement: .*/traction: [450 MPa], face: x+, time: {ramp: {until: 1 s}}}/; s/yield_tangent: 20 GPa/yield_tangent: 2 GPa/' \
+    -e 's/^steps: .*/steps: {number: 8, control: opening, from: [0.5 mm], to: [10.5 mm], opening: 0.1 mm}/' \
+    -e 's/^probes: .*/probes: [{point: {name: a, at: [0.5 mm]}}, {point: {name: b, at: [10.5 mm]}}]/' "$work/line.yaml" >"$work/open.yaml"
+calm "$work/open" "$work/open.yaml" -t 1
+near "opening: load time" "$(column "$work/open" load_time 1)" "$(compute 416/450)" 1e-5
+near "opening: met" "$(compute "$(column "$work/open" b.displacement_x 1) - ($(column "$work/open" a.displacement_x 1))")" 1e-4 2e-4
+near "opening: the step in which it yields" "$(column "$work/open" load_time 0.25)" "$(compute 401/450)" 1e-5
+stopped "an opening that no load reaches" "$work/far" 'no load opens the gauge' "$work/open.yaml" -s 'boundary.0.traction=[410 MPa]'
+
 # ---- a beam and a cylinder ---------------------------------------------------------------------------------------------
 
 # Half of a beam, 16 mm high, bent without hardening to four times the curvature 1/4 m at which its edges yield: M/M_y = 3/2 - (1/4)^2/2.
