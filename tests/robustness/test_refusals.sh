@@ -247,7 +247,7 @@ done <<'END'
 20|probes: [crack]|20:10|does not belong here
 20|probes: [sif: {inner: 21 mm}]|20:16|is not smaller than the outer radius
 20|probes: [growth]|20:10|growth is expected
-20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no growth a
+20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no crack growth named a
 20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
 20|probes: [growth: {experiment: 200}]|20:19|out of range
 20|probes: [rigid: {region: here}]|20:18|region

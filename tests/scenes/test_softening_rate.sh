@@ -28,11 +28,16 @@ done
 
 same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv"; then pass; else fail "$1 and $2 differ"; fi; }
 start echo "$work/middle/scene.yaml"
-part=$(compute "0.4 * $(figure "$work/middle" wall_seconds)")
 wait
 same middle echo
-"$cleave" run "$work/strip.yaml" -s 'variables.start=0.4*strain' -s 'variables.rate=54.772 1/s' -s duration=10us -o "$work/cut" -t 2 -q -s time.wall="$part" 2>/dev/null
-is "cut" $? 130
+# A machine that is less busy than before ends the run before its limit, which then is lowered.
+for part in 0.4 0.1 0.02; do
+    "$cleave" run "$work/strip.yaml" -s 'variables.start=0.4*strain' -s 'variables.rate=54.772 1/s' -s duration=10us -o "$work/cut" -t 2 -q \
+        --overwrite -s time.wall="$(compute "$part * $(figure "$work/middle" wall_seconds)")" 2>/dev/null
+    status=$?
+    [ $status -eq 0 ] || break
+done
+is "cut" $status 130
 "$cleave" run "$work/strip.yaml" -s 'variables.start=0.4*strain' -s 'variables.rate=54.772 1/s' -s duration=10us -o "$work/cut" -t 1 -q --resume 2>"$work/cut.err" ||
     fail "cut: $(cat "$work/cut.err")"
 same middle cut
