@@ -3,6 +3,7 @@
 
 #include "base/rise.h"
 #include "run/run.h"
+#include "step/large_motion.h"
 #include "step/parted.h"
 
 /* State of the checks for runs that become unstable (stability.c). */
@@ -15,6 +16,7 @@ struct stability {
     bool stretched;   /* the warning that points are stretched or flow too far has been printed */
     bool parted;      /* the warning that metal has come apart has been printed */
     struct point_pairs pairs;
+    struct large_motion motion;
 };
 
 #endif

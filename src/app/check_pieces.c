@@ -16,9 +16,9 @@ static void mark_driven(const struct bond_source *source, const struct particles
         if (f->of[i] >= 0 && part->flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
 }
 
-/* Prints the number of fragments of a body, the position of the second heaviest, and whether a fragment lacks a support
- * in a static scene. Prints nothing for a body in one piece. driven[k]: fragment k has a support. Particles without any
- * bond are not fragments; a warning reports them. */
+/* Prints the number of fragments of a body, the position of the second heaviest, whether a fragment lacks a support in
+ * a static scene, and whether contact keeps fragments that move apart. Prints nothing for a body in one piece.
+ * driven[k]: fragment k has a support. Particles without any bond are not fragments; a warning reports them. */
 static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;
@@ -30,11 +30,13 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
         if (first < 0) first = k;
     }
     if (pieces < 2) return;
+    const bool pass = scene_is_dynamic(s) && s->contact_between != CONTACT_ALL;
     printf("pieces         body %s consists of %lld pieces without bonds between them; all pieces but the heaviest "
-           "have %lld particles together, and the second heaviest is at (%s) m%s\n",
+           "have %lld particles together, and the second heaviest is at (%s) m%s%s\n",
            s->body[body].name, (long long)pieces, (long long)particles,
            position_text(f->fragment[first].x, s->dim, 4).text,
-           free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "");
+           free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "",
+           pass ? "; pieces that meet pass through each other: contact.between: all would keep them apart" : "");
 }
 
 void print_bodies_of_separate_pieces(const struct run *e)

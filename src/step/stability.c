@@ -497,6 +497,10 @@ status energy_check_last_sample(struct run *e)
     if (!e->stability->parted)
         e->stability->parted = parted_points_warn_if_separated(&e->stability->pairs, &e->part, &e->cells, e->scene,
                                                                e->clock.t, &e->warnings);
+    large_motion_warn_of_passing_parts(&e->stability->motion, &e->part, e->scene, e->source.family.horizon, e->clock.t,
+                                       &e->warnings);
+    if (scene_is_dynamic(e->scene))
+        large_motion_warn_of_turned_pressure(&e->stability->motion, &e->part, &e->loads, e->clock.t, &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

@@ -221,6 +221,70 @@ static void the_last_sample_is_looked_at(void **state)
         fail_msg("%s", message);
 }
 
+/* ---- large displacements ----------------------------------------------------------------------------------------- */
+
+enum { RING = 24 };
+
+/* A ring of particles in the plane z = 0.7 around (3, -2) with radius 1.3: as particles and as a load. */
+struct loaded_ring {
+    struct particles part;
+    real X[DIM_MAX][RING], x[DIM_MAX][RING];
+    int32_t particle[RING];
+    struct load load;
+    struct loads loads;
+    struct boundary boundary;
+};
+
+static void ring_make(struct loaded_ring *r)
+{
+    *r = (struct loaded_ring){.part = {.n = RING, .n_all = RING, .n_body = RING, .dim = 3}};
+    r->boundary = (struct boundary){.name = "lid", .kind = BOUNDARY_PRESSURE};
+    r->load = (struct load){.boundary = &r->boundary, .n = RING, .particle = r->particle};
+    r->loads = (struct loads){.n = 1, .load = &r->load};
+    for (int d = 0; d < DIM_MAX; d++) r->part.X[d] = r->X[d], r->part.x[d] = r->x[d];
+    for (int i = 0; i < RING; i++) {
+        const real angle = 2 * 3.14159265358979323846 * i / RING;
+        r->particle[i] = i, r->X[2][i] = 0.7;
+        r->X[0][i] = 3 + 1.3 * cos(angle), r->X[1][i] = -2 + 1.3 * sin(angle);
+    }
+}
+
+/* Sets the present positions: stretched along x by the factor `stretch`, rotated by `degrees` about the axis `axis`
+ * through the origin, shifted. */
+static void ring_move(struct loaded_ring *r, int axis, real degrees, real stretch)
+{
+    const real angle = degrees * 3.14159265358979323846 / 180, c = cos(angle), s = sin(angle);
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    for (int i = 0; i < RING; i++) {
+        const real X[] = {stretch * r->X[0][i], r->X[1][i], r->X[2][i]};
+        r->x[axis][i] = X[axis] + 5;
+        r->x[a][i] = c * X[a] - s * X[b], r->x[b][i] = s * X[a] + c * X[b] - 11;
+    }
+}
+
+/* A surface that has turned by more than 10 degrees about any axis is named once, if its pressure does not follow; a
+ * stretch by 2 is no rotation. */
+static void pressures_on_turned_surfaces(void **state)
+{
+    (void)state;
+    struct loaded_ring r;
+    struct warnings said = {0};
+    ring_make(&r);
+    for (int axis = 0; axis < 3; axis++)
+        for (int k = 0; k < 4; k++) {
+            struct large_motion m = {0};
+            ring_move(&r, axis, k == 0 ? 9.9 : k == 1 ? -10.1 : k == 2 ? 137 : 0, k == 3 ? 2 : 1);
+            large_motion_warn_of_turned_pressure(&m, &r.part, &r.loads, 0.3, &said);
+            assert_int_equal(m.turned, k == 1 || k == 2);
+        }
+    struct large_motion follows = {0};
+    ring_move(&r, 2, 50, 1);
+    r.boundary.follow = true;
+    large_motion_warn_of_turned_pressure(&follows, &r.part, &r.loads, 0.3, &said);
+    assert_false(follows.turned);
+    warnings_free(&said);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(pace_of_exponentials),
@@ -229,6 +293,7 @@ int main(void)
                                        cmocka_unit_test(slow_growth_is_no_matter_of_the_step),
                                        cmocka_unit_test(loads_beyond_reason_are_named),
                                        cmocka_unit_test(steps_too_long_are_named),
-                                       cmocka_unit_test(the_last_sample_is_looked_at)};
+                                       cmocka_unit_test(the_last_sample_is_looked_at),
+                                       cmocka_unit_test(pressures_on_turned_surfaces)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
