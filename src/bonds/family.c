@@ -133,11 +133,34 @@ void family_make_on_lattice(struct family *f, enum space space, real spacing, re
     f->weighted = lattice_sums(f).weighted;
 }
 
+/* Returns the mean of the influence function over the horizon d of the family f, weighted with the energy of bonds
+ * under uniform dilatation [1]: (n + 1)/d^(n + 1) times the integral of r^n omega(r) from 0 to d, in n dimensions. It
+ * is infinite for (d/r)^2 in 1D. */
+static real influence_mean(const struct family *f)
+{
+    const int n = space_dim(f->space);
+    const real power = n + 1, e = exp(-1);
+    /* integral of x^n exp(-x^2) from 0 to 1, with pi = 4 atan(1) */
+    const real gaussian[DIM_MAX + 1] = {[1] = (1 - e) / 2, [2] = sqrt(4 * atan(1)) / 4 * erf(1) - e / 2, [3] = 0.5 - e};
+    switch (f->influence) {
+    case INFLUENCE_GAUSSIAN:
+        return power * gaussian[n];
+    case INFLUENCE_INVERSE:
+        return power / n;
+    case INFLUENCE_INVERSE_SQUARE:
+        return power / (n - 1);
+    case INFLUENCE_LINEAR:
+        return 1 - power / (n + 2) * f->horizon / (f->horizon + f->spacing);
+    default:
+        return 1;
+    }
+}
+
 real family_micro_modulus(const struct family *f, const struct material *m)
 {
     if (f->calibration == CALIBRATION_LATTICE)
         return material_micro_modulus_of_discrete_family(m, f->space, lattice_sums(f).sigma);
-    return material_micro_modulus_of_continuum(m, f->space, f->horizon, f->section);
+    return material_micro_modulus_of_continuum(m, f->space, f->horizon, f->section) / influence_mean(f);
 }
 
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12)

@@ -426,6 +426,9 @@ static status check_model(struct reader *r, const struct yaml_node *root)
                      "with model %s the surface correction moments is possible only with method: pd and "
                      "pd.normalisation: bulk; pd.surface: none is expected",
                      node_text(r, model));
+    if (s->dim == 1 && s->calibration != CALIBRATION_LATTICE && s->influence == INFLUENCE_INVERSE_SQUARE)
+        return fault(r, scene_check_below(root, "pd", "influence"),
+                     "inverse square has no continuum integral in one dimension; pd.calibration: lattice is expected");
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1)
         return fault(r, model, "model %s is not defined in one dimension (space: line); model: bond is expected",
