@@ -1,4 +1,4 @@
-/* The model of the families of a scene whose bonds soften. */
+/* Stretches at which the bonds of a scene soften and break. */
 #ifndef CLEAVE_SCENE_SOFTENING
 #define CLEAVE_SCENE_SOFTENING
 
@@ -8,6 +8,12 @@
 /* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
  * over the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
+
+/* Returns the critical stretch of bonds between the materials a and b of the scene [1]. A crack along their joint
+ * releases the energy of the weaker of both materials: bonds of model bond have the stiffness of their two halves in
+ * series, state-based ones the mean. If a material yields, the smaller one of both critical stretches. */
+real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a,
+                                              const struct material *b);
 
 #define FREE_OF_TRAPPING 2 /* kappa above which the lattice hardly impedes cracks; measured */
 

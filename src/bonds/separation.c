@@ -50,9 +50,10 @@ static int crossings(const struct family *f, real height, struct crossing *c)
 
 /* Returns the work per volume that separates all bonds of a layer of particles at `height` [m] above a plane, if the
  * critical stretch is 1. It is the integral of the energy density of a particle over the opening of the plane, summed
- * from the last bond that breaks back to the first. f: family; m: constants of the state-based law; local: true if the
- * weighted volume Q is summed over the intact bonds only; c: working memory for the bonds that cross the plane. */
-static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
+ * from the last bond that breaks back to the first. f: family; m: constants of the state-based law; rotates: true for
+ * the model with particle rotations; local: true if the weighted volume Q is summed over the intact bonds only; c:
+ * working memory for the bonds that cross the plane. */
+static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool rotates, bool local,
                        struct crossing *c)
 {
     const int n = crossings(f, height, c);
@@ -62,23 +63,35 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     for (int k = 0; k < n; k++) {
         const real before = k + 1 < n ? c[k + 1].breaks : 0;
         if (local) Q += c[k].weighted;
-        sum += c[k].sum, energy += c[k].energy;
+        sum += c[k].sum, energy += rotates ? c[k].energy : c[k].sum / c[k].breaks;
         work += 0.5 * (m->A * square(sum / Q) + m->B / Q * energy) * (square(c[k].breaks) - square(before));
     }
     return work;
 }
 
-real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *m,
-                                                 bool intact_bonds_only)
+/* Returns G/s_c^2 [N/m]: the work per area that separates two halves of a lattice if the critical stretch is 1.
+ * Arguments as those of layer_work. */
+static real separation_work(const struct family *f, const struct state_modulus *m, bool rotates, bool local)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
     struct crossing *c = NEW("separation.crossing", room, struct crossing);
     real work = 0;
-    for (int layer = 0; layer < reach; layer++)
-        work += layer_work(m, f, (layer + 0.5) * f->spacing, intact_bonds_only, c);
+    for (int layer = 0; layer < reach; layer++) work += layer_work(m, f, (layer + 0.5) * f->spacing, rotates, local, c);
     memory_free(c);
     return 2 * f->spacing * work;
+}
+
+real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *m,
+                                                 bool intact_bonds_only)
+{
+    return separation_work(f, m, true, intact_bonds_only);
+}
+
+real family_ordinary_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
+                                                          bool intact_bonds_only)
+{
+    return separation_work(f, modulus, false, intact_bonds_only);
 }
 
 enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give 1e-5 less */

@@ -16,6 +16,7 @@
 #include "step/report.h"
 #include "contact/contact.h"
 #include "scene/fill.h"
+#include "scene/scene_softening.h"
 #include "output/output.h"
 #include "run/make.h"
 #include "step/step.h"
@@ -26,16 +27,16 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Sets the critical stretch of bonds for each pair of materials: that of the weaker material, or of an interface
- * between bodies. In static problems no bond breaks. Allocates the table tables->pair_stretch [materials][materials],
- * to which `source` then refers. */
+/* Sets the critical stretch of bonds for each pair of materials: by the energy of the weaker material, or of an
+ * interface between bodies. In static problems no bond breaks. Allocates the table tables->pair_stretch
+ * [materials][materials], to which `source` then refers. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
-    for (int a = 0; a < s->materials; a++) /* weaker material of each pair */
+    for (int a = 0; a < s->materials; a++)
         for (int b = 0; b < s->materials; b++)
             tables->pair_stretch[a * s->materials + b] =
-                real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
+                scene_critical_stretch_between_materials(s, &s->material[a], &s->material[b]);
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *face = &s->interface[k];
         const int a = s->body[face->body[0]].material, b = s->body[face->body[1]].material;
@@ -63,8 +64,9 @@ static void make_softening(const struct scene *s, struct material_tables *tables
             const struct material *m = &s->material[a], *n = &s->material[b];
             const struct material *first = m->onset_stretch <= n->onset_stretch ? m : n;
             tables->pair_softening[a * s->materials + b] = (struct softening_pair){
-                first->onset_stretch, first->scatter.given && first->scatter.of == SCATTER_STRENGTH,
-                material_has_strength_surface(first), first->rate.points > 0 ? &first->rate : NULL};
+                real_min(first->onset_stretch, tables->pair_stretch[a * s->materials + b]),
+                first->scatter.given && first->scatter.of == SCATTER_STRENGTH, material_has_strength_surface(first),
+                first->rate.points > 0 ? &first->rate : NULL};
         }
     }
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;

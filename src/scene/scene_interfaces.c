@@ -52,8 +52,9 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
 }
 
 /* Computes face->critical_stretch, the critical stretch of bonds across the interface `face`, if the interface has an
- * energy release rate. It is the critical stretch of a material with the harmonic mean of both Young's moduli, this
- * energy release rate, and the other properties of the softer body. n: node of the interface. Returns REFUSED for
+ * energy release rate. With model bond it is the critical stretch of a material with the harmonic mean of both Young's
+ * moduli, this energy release rate, and the other properties of the softer body. State-based bonds have the mean of the
+ * energies of both materials. n: node of the interface. Returns REFUSED for
  * bodies of several materials or with softening bonds. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
@@ -71,11 +72,16 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
                      "goes with brittle bodies so far");
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
-    struct material between = a->young < b->young ? *a : *b;
+    struct material between = a->young < b->young ? *a : *b, first = *a, second = *b;
     between.young = 2 * a->young * b->young / (a->young + b->young);
     between.energy_release_rate = face->energy_release_rate;
     material_compute_derived_constants(&between, s->space);
     face->critical_stretch = scene_critical_stretch(s, &between);
+    const bool alike = reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
+    if (s->model == MODEL_BOND || alike) return OK;
+    first.energy_release_rate = second.energy_release_rate = face->energy_release_rate;
+    const real one_stretch = scene_critical_stretch(s, &first), other_stretch = scene_critical_stretch(s, &second);
+    face->critical_stretch = sqrt(2 / (1 / square(one_stretch) + 1 / square(other_stretch)));
     return OK;
 }
 

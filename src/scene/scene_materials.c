@@ -65,18 +65,6 @@ static status read_hardening(struct reader *r, const struct yaml_node *n, struct
                  node_text(r, tangent ? tangent : hardening));
 }
 
-/* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form,
- * or for model mospd from the energy that separates the two halves of a lattice. */
-real scene_critical_stretch(const struct scene *s, const struct material *m)
-{
-    const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
-    if (s->model != MODEL_MOSPD) return material_critical_stretch(m, s->space, s->horizon * s->spacing, model);
-    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
-    const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, true);
-    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
-    return sqrt(m->energy_release_rate / family_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk));
-}
-
 /* Reads the random scatter of the strength of material m. n: node of `scatter`, or NULL if there is none. Returns
  * REFUSED for a material whose bonds do not break, for material points that yield, and if the parameter of the
  * distribution is missing. */

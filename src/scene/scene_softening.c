@@ -25,7 +25,8 @@ static void set_stretches(const struct scene *s, struct material *m)
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
     m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
     if (s->model == MODEL_BOND || isnan(m->energy_release_rate)) return;
-    struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
+    struct family f = {
+        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, model.rotates);
     const struct softening_curve curve = softening_curve_of_law(m->softening);
     family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));

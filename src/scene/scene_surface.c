@@ -62,11 +62,9 @@ static real characteristic_length(const struct scene *s, const struct material *
 {
     struct material unit = *m;
     unit.energy_release_rate = 1;
-    const real release_rate =
-        isnan(m->energy_release_rate)
-            ? square(m->critical_stretch /
-                     material_critical_stretch(&unit, s->space, s->horizon * s->spacing, STRETCH_BOND))
-            : m->energy_release_rate;
+    const real release_rate = isnan(m->energy_release_rate)
+                                  ? square(m->critical_stretch / scene_critical_stretch(s, &unit))
+                                  : m->energy_release_rate;
     return m->young * release_rate / square(m->tensile_strength);
 }
 

@@ -44,6 +44,26 @@ sed 's/^body:.*/bodies:\
 interfaces: [{bodies: [low, high]}]/' "$work/whole.yaml" >"$work/halves.yaml"
 sed 's/^interfaces:.*/interfaces: [{bodies: [low, high], energy_release_rate: 2}]/; s/8 MPa/4 MPa/' "$work/halves.yaml" >"$work/glued.yaml"
 sed 's/8 MPa/4 MPa/' "$work/whole.yaml" >"$work/strong.yaml"
+# Two strips of unlike moduli that fly apart: their joint releases its own energy, or that of the weaker one, 8 J/m^2 of 6 mm by 2 mm.
+cat >"$work/apart.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 5 us
+method: pd
+materials: [{name: A, young: 70 GPa, density: 2500, energy_release_rate: 12}, {name: B, young: 7 GPa, density: 2500, energy_release_rate: 8}]
+bodies:
+  - {name: a, material: A, shape: {box: {from: [-3 mm, 0], to: [3 mm, 2 mm]}}, velocity: [0, 5 m/s]}
+  - {name: b, material: B, shape: {box: {from: [-3 mm, -2 mm], to: [3 mm, 0]}}, velocity: [0, -5 m/s]}
+interfaces: [{bodies: [a, b]}]
+particles: {spacing: 0.25 mm}
+contact: {between: none}
+END
+for model in bond ospd; do
+    start apart_$model "$work/apart.yaml" -s model=$model
+    start own_$model "$work/apart.yaml" -s model=$model -s materials.0.energy_release_rate= -s materials.1.energy_release_rate= \
+        -s interfaces.0.energy_release_rate=8
+done
+wait
 for scene in layers whole; do start $scene "$work/$scene.yaml"; done
 wait
 for scene in halves glued; do start $scene "$work/$scene.yaml"; done
@@ -64,6 +84,12 @@ between "glued: parts" "$(f glued fragments.count)" 2 2
 is "glued: along the joint" "$(sed -n 2p "$work/glued/fragments.csv" | cut -d, -f2)" 600
 between "strong: one part" "$(f strong fragments.count)" 1 1
 if cmp "$work/glued/history.csv" "$work/glued_again/history.csv"; then pass; else fail "glued: scene.yaml is another scene"; fi
+
+# Bonds near both ends of the joint are fewer: 3 % less than in an infinite plane.
+for model in bond ospd; do
+    between "unlike, $model: the weaker one's energy" "$(compute "$(f apart_$model energy.fracture) / (8 * 6e-3 * 2e-3)")" 0.93 1.02
+    between "unlike, $model: the joint's own energy" "$(compute "$(f own_$model energy.fracture) / (8 * 6e-3 * 2e-3)")" 0.93 1.02
+done
 
 refused "no such body" "$work/no" "no body of this name" "$work/halves.yaml" -s "interfaces=[{bodies: [low, middle]}]"
 refused "a toughness of what is apart" "$work/no" "bodies that are joined" "$work/halves.yaml" \

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "scene/scene_softening.h"
 #include "tests/support/scene_texts.h"
 
 /* ---- every key --------------------------------------------------------------------------------------------------- */
@@ -368,10 +369,90 @@ static void interfaces_have_their_strength(void **state)
     scene_free(&s);
 }
 
+/* Reads a scene of a stiff and a soft material whose bodies meet, with further lines. */
+static void read_joint(struct scene *s, const char *more)
+{
+    char text[1200];
+    snprintf(text, sizeof text,
+             "duration: 1 us\nmethod: pd\nmaterials:\n"
+             "  - {name: stiff, young: 192 GPa, density: 7900, energy_release_rate: 210}\n"
+             "  - {name: soft, young: 3.1 GPa, density: 1180, energy_release_rate: 90}\n"
+             "bodies:\n  - {name: low, material: stiff, shape: {box: {from: [0, 0], to: [4 mm, 2 mm]}}}\n"
+             "  - {name: high, material: soft, shape: {box: {from: [0, 2 mm], to: [4 mm, 4 mm]}}}\n"
+             "space: plane stress\nthickness: 0.37 mm\n%s",
+             more);
+    if (scene_read_text(s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+}
+
+/* A joint releases the energy of its interface, else the smaller one of both materials. The critical stretch is
+ * proportional to sqrt(G/E); E is the harmonic mean for model bond, the arithmetic mean for ospd. */
+static void joints_have_their_energy(void **state)
+{
+    (void)state;
+    const real series = 2 * 192 * 3.1 / (192 + 3.1), mean = (192 + 3.1) / 2;
+    struct scene s;
+    for (int ospd = 0; ospd < 2; ospd++)
+        for (int given = 0; given < 2; given++) {
+            char more[200];
+            snprintf(more, sizeof more,
+                     "particles: {spacing: 0.2 mm}\nmodel: %s\ninterfaces: [{bodies: [low, high]%s}]\n",
+                     ospd ? "ospd" : "bond", given ? ", energy_release_rate: 37" : "");
+            read_joint(&s, more);
+            const real ratio = sqrt((given ? 37 : 90) / (ospd ? mean : series) / (210.0 / 192));
+            const real stretch =
+                given ? s.interface[0].critical_stretch
+                      : scene_critical_stretch_between_materials(&s, &s.material[given], &s.material[!given]);
+            assert_true(fabs(stretch / s.material[0].critical_stretch / ratio - 1) < 1e-12);
+            scene_free(&s);
+        }
+}
+
+/* With the influence function omega the critical stretch of a continuum is that of omega = 1 times sqrt(mu/nu), with
+ * the means mu and nu of omega that have the weights r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2, 3/2 and 4/3 for
+ * horizon/r. A horizon of 10 spacings agrees within 3 %. */
+static void stretches_depend_on_influence(void **state)
+{
+    (void)state;
+    static const char *const name[] = {"inverse square", "inverse"};
+    static const real ratio[] = {1.5, 9.0 / 8};
+    for (int k = 0; k < 2; k++) {
+        struct scene s, plain;
+        char more[120];
+        snprintf(more, sizeof more, "particles: {spacing: 0.2 mm, horizon: 10.015}\npd: {influence: %s}\n", name[k]);
+        read_joint(&s, more);
+        read_joint(&plain, "particles: {spacing: 0.2 mm, horizon: 10.015}\n");
+        const real found = s.material[0].critical_stretch / plain.material[0].critical_stretch / sqrt(ratio[k]);
+        if (!(fabs(found - 1) < 0.03)) fail_msg("%s: off by %g", name[k], found - 1);
+        scene_free(&s), scene_free(&plain);
+    }
+}
+
+/* On a line with a horizon of 3 spacings h, k parallel bonds of length k h cross each plane: G = E s^2 h/2 (1 + 4 +
+ * 9)/(1 + 2 + 3). The continuum integral of (horizon/r)^2 diverges there. */
+static void stretch_on_a_line(void **state)
+{
+    (void)state;
+    static const char text[] = "space: line\nsection: 3 mm^2\nduration: 1 us\nmethod: pd\n"
+                               "material: {young: 70 GPa, density: 2500, energy_release_rate: 8}\n"
+                               "body: {box: {from: 0, to: 20 mm}}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n";
+    struct scene s;
+    if (scene_read_text(&s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
+    assert_true(fabs(s.material[0].critical_stretch / sqrt(8 * 12 / 14.0 / (70e9 * 0.5e-3)) - 1) < 1e-12);
+    scene_free(&s);
+    char endless[sizeof text + 60];
+    snprintf(endless, sizeof endless, "%spd: {influence: inverse square, calibration: continuum}\n", text);
+    assert_int_equal(scene_read_text(&s, endless, strlen(endless), "test.yaml", NULL, 0), REFUSED);
+    assert_true(strstr(status_message(), "has no continuum integral") != NULL);
+    scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(interfaces_have_their_strength),
+        cmocka_unit_test(joints_have_their_energy),
+        cmocka_unit_test(stretches_depend_on_influence),
+        cmocka_unit_test(stretch_on_a_line),
         cmocka_unit_test(test_plate_scalars),
         cmocka_unit_test(test_plate_materials_bodies),
         cmocka_unit_test(test_plate_conditions),

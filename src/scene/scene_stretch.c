@@ -1,0 +1,48 @@
+/* Critical stretch of the bonds of a scene, from energies per area of a crack. */
+#include <math.h>
+
+#include "bonds/softening_work.h"
+#include "scene/scene_softening.h"
+#include "scene_parts.h"
+
+/* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form for
+ * the influence function for which there is one (bonds in 2D and 3D: 1, ospd: horizon/r), else from the energy of the
+ * bonds of a lattice across a plane or, with state-based models, from the energy that separates its two halves. */
+real scene_critical_stretch(const struct scene *s, const struct material *m)
+{
+    const bool bond = s->model == MODEL_BOND;
+    const bool closed = bond ? s->influence == INFLUENCE_ONE && s->dim > 1
+                             : s->influence == INFLUENCE_INVERSE && s->model == MODEL_OSPD;
+    if (closed)
+        return material_critical_stretch(m, s->space, s->horizon * s->spacing, bond ? STRETCH_BOND : STRETCH_OSPD);
+    struct family f = {
+        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
+    struct material unit = *m;
+    unit.critical_stretch = 1;
+    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    if (bond) return sqrt(m->energy_release_rate / family_crack_energy_per_area(&f, &unit));
+    const bool rotates = s->model == MODEL_MOSPD;
+    const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, rotates);
+    const real energy = rotates ? family_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk)
+                                : family_ordinary_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk);
+    return sqrt(m->energy_release_rate / energy);
+}
+
+/* Returns the energy per area of the bonds of material m across a plane over the square of their stretch [J/m^2]. */
+static real energy_over_stretch_squared(const struct scene *s, const struct material *m)
+{
+    struct material unit = *m;
+    if (!isnan(m->energy_release_rate)) return m->energy_release_rate / square(m->critical_stretch);
+    unit.energy_release_rate = 1;
+    return 1 / square(scene_critical_stretch(s, &unit));
+}
+
+real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a, const struct material *b)
+{
+    const real least = real_min(a->critical_stretch, b->critical_stretch);
+    const bool alike = reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
+    if (alike || !isfinite(least) || material_yields(a) || material_yields(b)) return least;
+    const real k = energy_over_stretch_squared(s, a), l = energy_over_stretch_squared(s, b);
+    const real energy = real_min(k * square(a->critical_stretch), l * square(b->critical_stretch));
+    return sqrt(energy / (s->model == MODEL_BOND ? 2 * k * l / (k + l) : 0.5 * (k + l)));
+}
