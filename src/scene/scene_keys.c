@@ -166,7 +166,9 @@ const struct key keys[] = {
     KEY("pd.volume", KEY_CHOICE, UNIT_NONE, AT(scene, volume), ANY, "whole",
         "share of a neighbour at the horizon's edge", .words = "whole|ramp|cut-ramp"),
     KEY("pd.calibration", KEY_CHOICE, UNIT_NONE, AT(scene, calibration), ANY, "lattice",
-        "fixes stiffness: a full family, the continuum integral, or vmpd", .words = "lattice|continuum|vmpd"),
+        "fixes stiffness: a full family, which is exact; the continuum integral or vmpd, which are not, least of all "
+        "with influence inverse square",
+        .words = "lattice|continuum|vmpd"),
     KEY("pd.surface", KEY_CHOICE, UNIT_NONE, AT(scene, surface), ANY,
         "(moments with method pd; volume in load steps of bonds that break)",
         "weights of bonds near faces: from moments of families, so that thin bodies bend, twist and stretch as they "
