@@ -33,7 +33,7 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     unsigned apart = 0;
     for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++) {
         real u[DIM_MAX], w[DIM_MAX];
-        const real t = scene_is_dynamic(s) ? s->duration * m / MOMENTS_OF_SUPPORTS : INFINITY;
+        const real t = scene_is_single_equilibrium(s) ? INFINITY : s->duration * m / MOMENTS_OF_SUPPORTS;
         load_displacement_of_particle(a, p, j, t, u);
         load_displacement_of_particle(b, p, k, t, w);
         for (int d = 0; d < s->dim; d++)

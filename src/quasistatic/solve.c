@@ -70,6 +70,36 @@ static void warn_past_limit(struct warnings *to, int64_t past)
     if (past > 0) warnings_add_and_print(to, text);
 }
 
+#define TURN_STRAIN_MOST 0.05 /* share of the largest stretch that rotations may falsify: as the energy balance */
+
+/* Warns of rotations that falsify the stresses of conjugate gradients. They solve linear equations, by which a bond
+ * that rotates by the angle a is longer than before, by a^2/2 of its length: compares the largest such difference
+ * between the stretch in the solution and the linear one with the largest linear one. */
+static void warn_large_rotation(struct warnings *to, const struct bonds *b, const struct particles *p)
+{
+    real falsified = 0, largest = 0;
+    char text[320];
+    for (int64_t r = 0; r < b->rows; r++)
+        for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {
+            const int32_t i = b->particle[r], j = it.bond.nbr;
+            real length2 = 0, along = 0, moved2 = 0;
+            for (int d = 0; d < p->dim && it.bond.w != 0; d++) {
+                const real xi = p->X[d][j] - p->X[d][i], eta = p->x[d][j] - p->x[d][i] - xi;
+                length2 += square(xi), along += xi * eta, moved2 += square(eta);
+            }
+            if (!(length2 > 0)) continue;
+            const real stretch = along / length2;
+            falsified = real_max(falsified, 0.5 * (moved2 / length2 - square(stretch)));
+            largest = real_max(largest, fabs(stretch));
+        }
+    snprintf(text, sizeof text,
+             "bonds rotate by up to %.2g degrees, which falsifies stretches by up to %.2g %% of the largest one: the "
+             "equations of solver: cg are those of small displacements; use smaller loads, or solver: static or "
+             "relaxation",
+             sqrt(2 * falsified) * 180 / acos(-1), 100 * falsified / largest);
+    if (falsified > TURN_STRAIN_MOST * largest) warnings_add_and_print(to, text);
+}
+
 #define STRAIN_LARGE                                                                                                   \
     0.1 /* strain above which linear elasticity does not describe a solid [1]; a limit by judgement                    \
          */
@@ -111,6 +141,7 @@ static void solver_finish(struct run *e)
     warn_past_limit(&e->warnings, e->solver->past_limit);
     bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     warn_large_strain(&e->warnings, p, e->scene->material);
+    if (e->scene->solver == SOLVER_CG) warn_large_rotation(&e->warnings, &e->bonds, p);
 }
 
 /* Sets the error that no equilibrium was found, with a message that contains the reason. tolerance: required residual

@@ -82,7 +82,9 @@ static void supports_mark(struct statics *s, const struct loads *loads, const st
     for (int64_t q = 0; mesh->points > 0 && q < walls->n; q++) {
         const struct held *h = &walls->held[q];
         const bool drives = loads->load[h->load].boundary->kind == BOUNDARY_VELOCITY;
-        if (node_of_mesh[h->node] >= 0) component_hold(s, node_of_mesh[h->node], h->component, drives ? h->load : -1);
+        const int32_t k = node_of_mesh[h->node];
+        if (k < 0 || (drives && s->load[k * DIM_MAX + h->component] > h->load)) continue;
+        component_hold(s, k, h->component, drives ? h->load : -1);
     }
 }
 

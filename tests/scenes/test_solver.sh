@@ -153,4 +153,48 @@ refused "flip" 'mpm.transfer apic' $crack -s method=mpm -s solver=relaxation -s 
 refused "yields" 'edge_crack_k1.yaml:.*steel yields; solver: explicit is expected' $crack -s material.yield_stress=1GPa
 calm "$work/quiet" $crack -s material.critical_stretch=1e-5
 holds "bonds past their limit" [ "$(figure "$work/quiet" solver.bonds_past_limit)" -gt 0 ]
+# ---- what the results do not show ------------------------------------------------------------------------------------------
+
+# A cantilever of 80 by 8 mm whose end rotates by two degrees, a tenth of that by a tenth of the load: by a^2/2 = 6e-4 the bonds on the
+# neutral axis are too long, an eighth of the largest stretch.
+cat >"$work/turned.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 1 s
+method: pd
+solver: cg
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [0, 0], to: [80 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: w, fixed: all, face: x-, depth: 1 mm}
+  - {name: t, traction: [0, 4 MPa], face: x+, time: {ramp: {until: 1 s}}}
+output: {frames: 0}
+END
+warned "rotations" "$work/turned" 'rotate by up to 2 degrees, .* by up to 1[0-9] %' "$work/turned.yaml"
+calm "$work/turned_less" "$work/turned.yaml" -s 'boundary.1.traction=[0, 0.4 MPa]'
+
+# Of two supports of the same nodes the later one holds in load steps, and the run says so.
+cat >"$work/twice.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 1 s
+method: mpm
+solver: static
+material: {young: 70 GPa, density: 2700}
+body: {box: {from: [0, 0], to: [20 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}]
+probes: [point: {name: end, at: [19.5 mm, 9.5 mm]}]
+output: {frames: 0}
+END
+pulled='{name: a, displacement: [10 um, free], face: x+, depth: 1 mm}' held='{name: b, fixed: [x], region: {box: {from: [19 mm, 0], to: [20 mm, 10 mm]}}}'
+mirrors='{mirror: {axis: x, at: 0}}, {mirror: {axis: y, at: 0}}'
+for method in mpm pd; do
+    warned "held last, $method" "$work/held_$method" 'prescribe different motions along x' "$work/twice.yaml" -s method=$method -s "boundary=[$mirrors, $pulled, $held]"
+    apart "held last, $method: rest" "$(figure "$work/held_$method" probes.end.displacement_x)" 0 1e-12
+    warned "pulled last, $method" "$work/pulled_$method" 'prescribe different motions along x' "$work/twice.yaml" -s method=$method -s "boundary=[$mirrors, $held, $pulled]"
+    near "pulled last, $method" "$(figure "$work/pulled_$method" probes.end.displacement_x)" 1e-5 0.05
+done
+
 finish
