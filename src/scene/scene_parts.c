@@ -226,6 +226,8 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
                                    initial->formula);
 }
 
+/* Reads an initial state from n. Returns REFUSED for wrong values, and for displacements with relaxation on the grid,
+ * where the stress of points is added up from a start that counts as unloaded: the equilibrium would depend on it. */
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
@@ -234,6 +236,10 @@ static status read_initial(struct reader *r, const struct yaml_node *n, struct s
     TRY(read_initial_velocity(r, yaml_node_find(n, "velocity"), initial));
     TRY(read_pulse(r, yaml_node_find(n, "pulse"), initial));
     TRY(read_initial_rotation(r, n, initial));
+    if (initial->sets_strain && r->scene->solver == SOLVER_RELAXATION && r->scene->method != METHOD_PD)
+        return fault(r, yaml_node_find(n, "displacement_gradient"),
+                     "the equilibrium of material points by solver: relaxation depends on their initial strain; "
+                     "solver: static, or no initial strain, is expected");
     if (initial->sets_velocity || initial->sets_strain || initial->sets_pulse) return OK;
     return fault(r, n,
                  "sets nothing; velocity, velocity_gradient, rotation, displacement_gradient or pulse is "

@@ -232,6 +232,7 @@ done <<'END'
 14|boundary:^  - {absorbing: false, face: x+}|15:6|can only be true
 14|boundary:^  - {absorbing: true}|15:5|face
 14|boundary:^  - {absorbing: true, face: z+}|15:23|is not the name of a face in space
+14|solver: relaxation^initial: [{displacement_gradient: [1e-3, 0, 0, 0]}]^boundary:|15:12|depends on their initial strain
 14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|has no waves
 17|    body: disk|17:5|there is no body
 18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
