@@ -105,9 +105,9 @@ void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct p
 /* Adds a warning to *warnings about each pair of bodies that overlap at the start. */
 void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, struct warnings *warnings);
 
-/* Adds warnings to *warnings about planes of symmetry that no body touches, and about initial states whose region holds
- * no particle. */
-void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p,
+/* Adds warnings to *warnings about planes of symmetry with a gap between them and the bodies, and about initial states
+ * whose region holds no particle. horizon: length of the longest bonds [m]. */
+void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings);
 
 /* Adds warnings to *warnings about times of frames beyond the end of the run. */

@@ -240,7 +240,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
     engine_warn_of_bodies_that_never_meet(s, &e->part, to);
     engine_warn_of_overlaps(s, &e->part, to);
-    engine_warn_of_unused_mirrors_and_states(s, &e->part, to);
+    engine_warn_of_unused_mirrors_and_states(s, &e->part, e->source.family.horizon, to);
     engine_warn_of_frames_after_end_of_run(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);

@@ -6,9 +6,9 @@
 
 enum { COMPARED_MOST = 64 }; /* largest number of bodies that are compared in pairs */
 #define DEEP 0.25            /* depth inside another body from which on a particle counts [spacings] */
-#define BESIDE                                                                                                         \
-    1.0 /* distance of a plane of symmetry from the nearest particle at which they do not touch [spacings]             \
-         */
+/* Distance of a plane of symmetry from the nearest particle from which on there is a gap between plane and body
+ * [spacings]. The first row of particles is half a spacing from a plane at the face. */
+#define BESIDE 0.95
 
 /* Particles of a body that are inside another body. n: their number; deepest: index of the deepest one; depth: its
  * distance from the surface [m]. */
@@ -91,17 +91,35 @@ static real mirror_distance(const struct particles *p, const struct boundary *b)
     return real_max(low - b->at, b->at - high);
 }
 
-void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p,
+/* Adds a warning to *to about a plane of symmetry with a gap of `distance` [m] between it and the nearest particle, and
+ * says what acts across the gap: bonds to the mirror image, up to their length of `horizon` [m]; grid nodes on the
+ * plane, up to the size of a cell; contact with the image; or nothing. */
+static void warn_of_mirror_beside(const struct scene *s, const struct particles *p, const struct boundary *mirror,
+                                  real distance, real horizon, struct warnings *to)
+{
+    const bool bonds = s->method != METHOD_MPM && 2 * distance <= (1 + ON_SURFACE) * horizon;
+    const real reach = p->n_free > 0 ? 1.5 * s->cell : s->cell + 0.5; /* of nodes of the grid, of the mesh */
+    const bool nodes = s->method != METHOD_PD && distance < (reach - ON_SURFACE) * s->spacing;
+    const bool meets = s->contact_between == CONTACT_ALL && scene_is_dynamic(s);
+    const char *effect = bonds || nodes ? "holds the body across the gap, too softly"
+                         : meets        ? "only keeps the body from its mirror image, by contact"
+                                        : "does nothing";
+    warnings_add_if_new(
+        to,
+        "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle, where half a spacing, "
+        "%.3g m, is expected, and %s; %s: check its position and the unit (mm?)",
+        mirror->name, "xyz"[mirror->axis], mirror -> at, distance, 0.5 * s -> spacing, effect,
+        particles_extent_text(p).text);
+}
+
+void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struct particles *p, real horizon,
                                               struct warnings *warnings)
 {
-    for (int b = 0; b < s->boundaries && s->method == METHOD_PD && p->n > 0; b++) {
+    for (int b = 0; b < s->boundaries && p->n > 0; b++) {
         const struct boundary *mirror = &s->boundary[b];
-        if (mirror->kind != BOUNDARY_MIRROR || !(mirror_distance(p, mirror) > BESIDE * s->spacing)) continue;
-        warnings_add_if_new(
-            warnings,
-            "boundary %s: its plane of symmetry %c = %.4g m is %.3g m from the nearest particle and does "
-            "nothing; %s: check its position and the unit (mm?)",
-            mirror->name, "xyz"[mirror->axis], mirror -> at, mirror_distance(p, mirror), particles_extent_text(p).text);
+        const real distance = mirror->kind == BOUNDARY_MIRROR ? mirror_distance(p, mirror) : 0;
+        if (distance > (BESIDE + 0.5 * s->irregularity) * s->spacing)
+            warn_of_mirror_beside(s, p, mirror, distance, horizon, warnings);
     }
     for (int k = 0; k < s->initials; k++)
         if (!initial_is_met(s, p, k))

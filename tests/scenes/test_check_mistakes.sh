@@ -113,8 +113,17 @@ says "a support outside" "^warning: boundary f holds no particle; $between its r
     -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
 says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
 silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"
-says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle and does nothing; $between" "$glass" \
-    -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[]
+says "a plane of symmetry beside the body" "^warning: boundary m: its plane of symmetry y = -0.03 m is 0.0105 m from the nearest particle, where half a spacing, 0.0005 m, is expected, and does nothing; $between" "$glass" \
+    -s 'boundary.down={name: m, mirror: {axis: y, at: -30 mm}}' -s cracks=[] -s contact.between=none
+# Bonds of 3.015 mm cross gaps of 1 mm at most; cells of 2 mm, the second of which begins 1 mm beside the body.
+beside() { echo "boundary m: its plane of symmetry y = -0.02$1 m is 0.00$2 m from the nearest particle, where half a spacing, 0.0005 m, is expected, and $3;"; }
+for method in pd mpm; do
+    says "a plane half a spacing off, $method" "$(beside 05 1 'holds the body across the gap, too softly')" "$glass" -s cracks=[] -s method=$method \
+        -s 'boundary.down={name: m, mirror: {axis: y, at: -20.5 mm}}'
+    says "a plane of symmetry far off, $method" "$(beside 3 35 'does nothing')" "$glass" -s cracks=[] -s contact.between=none -s method=$method -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
+done
+says "a plane in contact" "$(beside 3 35 'only keeps the body from its mirror image, by contact')" "$glass" -s cracks=[] -s method=pd -s contact.between=all \
+    -s 'boundary.down={name: m, mirror: {axis: y, at: -23 mm}}'
 silent "a plane of symmetry at the body" 'does nothing' "$glass" -s 'boundary.down={name: m, mirror: {axis: y, at: -20 mm}}' -s cracks=[]
 # Rows of the second body are 0.4 spacings beside those of the first, from 10 mm inside it on.
 two() { echo "bodies=[{name: a, shape: {$(box '0, -20 mm' '50 mm, 20 mm')}}, {name: b, shape: {$(box "$1, -19.6 mm" '90 mm, 20 mm')}}]"; }
