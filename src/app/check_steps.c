@@ -8,10 +8,12 @@
 #include "fracture/tips.h"
 #include "quasistatic/load_steps.h"
 
-#define AT_ONCE 1e-3   /* share of the largest loads above which loads count as present before the first load step */
-#define FALLS 1e-6     /* least relative decrease of a load that is not round-off */
-#define LOADS_LOOKS 64 /* number of times at which loads are evaluated */
-#define FEW 20.0       /* spacings of crack, or of material ahead, below which loads deviate from handbooks */
+#define AT_ONCE 1e-3     /* share of the largest loads above which loads count as present before the first load step */
+#define FALLS 1e-6       /* least relative decrease of a load that is not round-off */
+#define LOADS_LOOKS 64   /* number of times at which loads are evaluated */
+#define PEAK_LOOKS 240   /* number of times at which peaks between load steps are looked for */
+#define PEAK_MISSED 0.01 /* least height of a peak above the load steps beside it, over the largest loads */
+#define FEW 20.0         /* spacings of crack, or of material ahead, below which loads deviate from handbooks */
 #define NOTHING_BREAKS 0.8 /* tip stretch over critical stretch without an increment; 0.9 at Griffith's load */
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
 #define LEAST_SHARE 0.1    /* least run time over the largest: early separation, fewer iterations */
@@ -101,12 +103,28 @@ void print_load_step_solver(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
+/* Writes a remark to `out` on loads that have a peak at time t [s] between the load steps of s: its time and the least
+ * larger number of steps of which one ends there. */
+static void print_missed_peak(const struct scene *s, real t, FILE *out)
+{
+    int number = s->steps.number + 1;
+    for (; number < s->steps.number + PEAK_LOOKS; number++) {
+        const real step = t / s->duration * number;
+        if (fabs(step - round(step)) < 1e-6 * number) break;
+    }
+    fprintf(out,
+            "accuracy       the loads have a peak at t = %.4g s, between two of the %d load steps, which skip it: "
+            "steps.number: %d ends a step there\n",
+            t, s->steps.number, number);
+}
+
 /* Writes to `out` a remark if loads act before the first load step. Writes another one if loads decrease, although the
- * load steps are controlled in a manner that requires growing loads. */
+ * load steps are controlled in a manner that requires growing loads. Under control by load, writes one on the peak that
+ * load steps miss most. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
-    real most = 0, before = 0, falls = NAN;
+    real most = 0, before = 0, falls = NAN, peak = NAN, missed = 0;
     for (int k = 0; k <= LOADS_LOOKS; k++) {
         const real t = s->duration * k / LOADS_LOOKS, now = statics_norm_of_prescribed_loads(e, t);
         if (isnan(falls) && now < before - FALLS * most) falls = t;
@@ -124,6 +142,16 @@ static void advise_growth(const struct run *e, FILE *out)
             "accuracy       loads fall before t = %.4g s: steps.control: %s searches for the pseudo-time of each crack "
             "increment, and requires loads that grow all the time\n",
             falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
+    for (int k = 1; k < PEAK_LOOKS && s->steps.control == CONTROL_LOAD; k++) {
+        const real t = s->duration * k / PEAK_LOOKS, step = s->duration / s->steps.number,
+                   from = floor(t / step) * step;
+        const real above = statics_norm_of_prescribed_loads(e, t) -
+                           real_max(statics_norm_of_prescribed_loads(e, from),
+                                    statics_norm_of_prescribed_loads(e, real_min(from + step, s->duration)));
+        if (above > missed * (1 + 1e-9)) missed = above, peak = t;
+        most = real_max(most, above);
+    }
+    if (missed > PEAK_MISSED * most) print_missed_peak(s, peak, out);
 }
 
 /* Writes a remark to `out` for each crack tip with fewer than FEW spacings of crack behind it or of body ahead of

@@ -70,6 +70,12 @@ near "series: elastic" "$(column "$work/series" end.displacement_x 0.6)" 3e-5 1e
 near "series: the soft half" "$(column "$work/series" middle.displacement_x 1)" 1.0925e-4 1e-5
 near "series: the whole" "$(column "$work/series" end.displacement_x 1)" 1.45e-4 1e-5
 
+# The table of the bar has a peak at half of the duration: an odd number of steps skips it.
+"$cleave" check "$bar" -s steps.number=7 >"$work/peak" 2>&1
+holds "a peak between steps" grep -q 'accuracy  *the loads have a peak at t = 0.5 s, between two of the 7 load steps.*: 8 ends' "$work/peak"
+"$cleave" check "$bar" >"$work/peak" 2>&1
+holds "a peak at the end of a step" sh -c "! grep -q 'have a peak' '$work/peak'"
+
 # Permanent set: zero stress at a strain of 0.006 - 480 MPa/E.
 calm "$work/set" "$bar" -t 1 -s steps.number=20
 apart "permanent set" "$(column "$work/set" reaction.force_x 0.6)" 0 1e-2
