@@ -206,6 +206,28 @@ static void say_scatter(const struct particles *p, int material)
     if (most > 0) printf(", both by factors of %.3g to %.3g", least, most);
 }
 
+/* Returns true if an interface with an energy release rate of its own joins a body of material m. */
+static bool breaks_at_interface(const struct scene *s, int m)
+{
+    bool breaks = false;
+    for (int k = 0; k < s->interfaces; k++)
+        for (int end = 0; end < 2; end++)
+            breaks |= s->interface[k].critical_stretch > 0 &&
+                      scene_body_can_have_material(&s->body[s->interface[k].body[end]], m);
+    return breaks;
+}
+
+/* Prints a line for each interface with an energy release rate of its own: the stretch at which its bonds break. */
+static void say_interfaces(const struct scene *s)
+{
+    for (int k = 0; k < s->interfaces; k++) {
+        const struct scene_interface *i = &s->interface[k];
+        if (i->critical_stretch > 0)
+            printf("interface      %s and %s: bonds break at a stretch of %.4g, by %.4g J/m^2\n",
+                   s->body[i->body[0]].name, s->body[i->body[1]].name, i->critical_stretch, i->energy_release_rate);
+    }
+}
+
 static void say_materials(const struct run *e)
 {
     for (int m = 0; m < e->scene->materials; m++) {
@@ -221,7 +243,8 @@ static void say_materials(const struct run *e)
         else if (isfinite(a->critical_stretch))
             printf(", bonds break at a stretch of %.4g", a->critical_stretch), print_brittle_strength(e->scene, a);
         else
-            printf("; its bonds never break: neither energy_release_rate nor critical_stretch is given");
+            printf("; its bonds %s: neither energy_release_rate nor critical_stretch is given",
+                   breaks_at_interface(e->scene, m) ? "break at the interface only" : "never break");
         const real most = e->tables.elastic[m].trigger_mean;
         if (isfinite(most)) printf(", conversion above %.4g Pa", most);
         if (isfinite(most) && material_has_strength_surface(a))
@@ -331,6 +354,7 @@ static void say_settings(const struct run *e)
     print_shape_file_volumes(e);
     print_bodies_of_separate_pieces(e);
     say_materials(e);
+    say_interfaces(e->scene);
     print_smallest_precrack_length(e);
     say_frames(e);
     print_coarse_cells(e);

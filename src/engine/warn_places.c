@@ -17,6 +17,15 @@ struct overlap {
     real depth;
 };
 
+/* Returns true if particle i belongs to body a and not to body b. Bodies that interfaces join have one number in
+ * particles.body; they are told apart by their materials, and of equal materials not at all. */
+static bool belongs_to_first_only(const struct scene *s, const struct particles *p, int64_t i, int a, int b)
+{
+    const struct scene_body *one = &s->body[a], *other = &s->body[b];
+    return p->body[i] == one->joined && scene_body_can_have_material(one, p->material[i]) &&
+           (one->joined != other->joined || !scene_body_can_have_material(other, p->material[i]));
+}
+
 /* Returns the particles of body a that are inside the shape of body b by more than `least` [m]. Returns none if b is
  * made from a list of particles, whose surface is not known, or if its bounding box has an infinite side. */
 static struct overlap body_overlap(const struct scene *s, const struct particles *p, int a, int b, real least)
@@ -27,7 +36,7 @@ static struct overlap body_overlap(const struct scene *s, const struct particles
     if (s->body[b].file || shape->n == 0 || region_contains_infinite_box_solid(shape, s->dim)) return found;
     if (!region_compute_bounding_box_if_finite(shape, s->dim, low, high)) return found;
     for (int64_t i = 0; i < p->n; i++) {
-        bool near = p->body[i] == a;
+        bool near = belongs_to_first_only(s, p, i, a, b);
         for (int d = 0; d < s->dim && near; d++) near = p->X[d][i] > low[d] && p->X[d][i] < high[d];
         if (!near) continue;
         real X[DIM_MAX];
@@ -76,7 +85,7 @@ static bool initial_is_met(const struct scene *s, const struct particles *p, int
     bool met = initial->sets_pulse || p->n < p->n_body; /* cells without particles may be in the region */
     for (int64_t i = 0; i < p->n && !met; i++) {
         real X[DIM_MAX];
-        if (initial->body >= 0 && p->body[i] != initial->body) continue;
+        if (initial->body >= 0 && p->body[i] != s->body[initial->body].joined) continue;
         particle_reference_position(p, i, X);
         met = initial->region.n == 0 || region_contains(&initial->region, X, s->dim, 0);
     }

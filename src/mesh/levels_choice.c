@@ -61,6 +61,15 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
+/* Returns true if an initial state moves or strains anything: not a rotation at rate 0, for example. */
+static bool initial_acts(const struct scene_initial *i)
+{
+    const int n = DIM_MAX * DIM_MAX;
+    bool acts = i->sets_pulse || dot(i->velocity, i->velocity, DIM_MAX) > 0;
+    for (int k = 0; k < n; k++) acts |= i->velocity_gradient[k] != 0 || i->displacement_gradient[k] != 0;
+    return acts;
+}
+
 /* Returns the load that requires the smallest cells in a body of thickness `across` [spacings], with its rise time.
  * Initial states and moving or rigid bodies count as loads that rise at once, an initial pulse by its width. Returns
  * the kind RISE_NONE if the scene has no load. */
@@ -77,6 +86,7 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
     }
     for (int k = 0; k < s->initials; k++) {
         const struct scene_initial *i = &s->initial[k];
+        if (!initial_acts(i)) continue;
         const real width = i->sets_pulse ? i->pulse.width : 0;
         const struct load_rise one = {RISE_INITIAL, k, i->sets_pulse, 0.25 * width / c, 0.25 * width / D};
         rise_take(&least, &one, across);

@@ -181,6 +181,7 @@ too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require a r
 too_coarse "a ramp of 23 spacings" '3 makes .* require a rise over at least 40 spacings, or a body at least 400 .*is 200; use mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
 silent "a ramp of 23 spacings and cells of 8" 'accuracy  *mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'accuracy  *mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
+silent "a rotation at rate 0" ' is sudden' "$far" -s boundary=[] -s "initial=[{rotation: {centre: [0, 0], rate: 0}}]" -s mpm.levels=2
 silent "a sudden load and cells of 4" 'accuracy  *mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
 # Keys without effect.
 cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"

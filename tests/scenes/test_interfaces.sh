@@ -95,4 +95,23 @@ refused "no such body" "$work/no" "no body of this name" "$work/halves.yaml" -s 
 refused "a toughness of what is apart" "$work/no" "bodies that are joined" "$work/halves.yaml" \
     -s "interfaces=[{bodies: [low, high], joined: false, energy_release_rate: 1}]"
 refused "a boundary of a joined body" "$work/no" "is joined to body low" "$work/halves.yaml" -s "boundary=[{fixed: all, body: high}]"
+# Joined bodies that touch do not overlap, and each has the initial state of its own name; their bonds break at the interface.
+cat >"$work/touching.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 1 us
+method: pd
+material: {young: 70 GPa, density: 2500}
+bodies:
+  - {name: high, shape: {box: {from: [0, 0], to: [20 mm, 8 mm]}}}
+  - {name: low, shape: {box: {from: [0, -8 mm], to: [20 mm, 0]}}}
+interfaces: [{bodies: [high, low], energy_release_rate: 8 J/m^2}]
+initial: [{body: low, velocity: [0, -0.1 m/s]}]
+particles: {spacing: 1 mm}
+END
+"$cleave" check "$work/touching.yaml" --no-trial >"$work/said" 2>&1
+holds "no overlap, no state without particles" sh -c "! grep -q 'overlap\|in its region\|never break' '$work/said'"
+holds "what breaks" grep -q '^interface  *high and low: bonds break at a stretch of .*, by 8 J/m^2$' "$work/said"
+"$cleave" check "$work/touching.yaml" --no-trial -s 'initial.0.region={box: {from: [30 mm, 0], to: [40 mm, 1 mm]}}' >"$work/said" 2>&1
+holds "a region beside a joined body" grep -q 'initial.0.: no particle is in its region' "$work/said"
 finish
