@@ -196,9 +196,10 @@ KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t 
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real lag));
 
 /* Returns half the elastic energy of the intact bonds of all rows (a row: all bonds of one particle) [J]; a bond
- * between two peridynamic particles is in two rows, so that its energy is complete. Summed in fixed blocks: equal bits
- * on any number of threads. */
-typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
+ * between two peridynamic particles is in two rows, so that its energy is complete. In state-based models it is the
+ * energy of the families at the last computation of their states. Summed in fixed blocks: equal bits on any number of
+ * threads. row_energy: [b->rows] the share of each row is added to it [J]; NULL if it is not wanted. */
+typedef real bond_energy_fn(const struct bonds *b, const struct particles *p, real *row_energy);
 
 /* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) of the bonds of all rows (a row: all bonds of one
  * particle), broken ones included [J]; 0 where no bond yields. Summed in fixed blocks. */

@@ -152,7 +152,7 @@ static void job_call(const struct job *j, struct ground *g)
         k.bond_force(&pd->bonds, &pd->part, &pd->source.limit, NULL);
         break;
     case BOND_ENERGY:
-        k.bond_energy(&pd->bonds, &pd->part);
+        k.bond_energy(&pd->bonds, &pd->part, NULL);
         break;
     case BOND_STRESS:
         k.bond_stress(&pd->bonds, &pd->part);

@@ -246,7 +246,7 @@ const struct limits_scene limits_shear = {
 static double energy_of(struct run *e)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) +
-           e->kernels.bond_energy(&e->bonds, &e->part) +
+           e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
 }

@@ -112,6 +112,10 @@ const char *bonds_describe_first_inconsistency(const struct bonds *b);
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
+/* Returns the energy released by the broken bonds of row `row` since the start, plus half of the energy that its intact
+ * bonds have dissipated by softening [J]. The sum over all rows is bonds_fracture_energy. */
+real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
+
 /* Returns true if an intact bond of row `row` (all bonds of one particle) has begun to soften, by its stretch or
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);

@@ -39,6 +39,7 @@ struct observed_run {
     const struct particles *part;
     const struct cells *cells; /* search over reference positions */
     const struct bonds *bonds;
+    const struct kernels *kernels; /* for ENERGY */
     const struct loads *loads;
     const struct grid *grid;
     const struct crack_tips *tips;
@@ -95,6 +96,11 @@ void probes_free(struct probes *s);
  * s->value. Values that depend on velocities at the time of the sample or on the forces of the time step are replaced
  * later by probes_complete_sample_after_step. */
 void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o);
+
+/* Computes the kinetic, strain and fracture energy of the particles of ENERGY probes and stores them in s->value [J].
+ * Must be called when the forces at the time of the sample are known and before anything moves, as the energies of the
+ * whole run are computed. The kinetic energy is replaced later by probes_complete_sample_after_step. */
+void probes_sample_energies(struct probes *s, const struct observed_run *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
  * *s. Must be called before the time step; probes_complete_sample_after_step interpolates between these velocities and

@@ -61,14 +61,17 @@ RARE void bond_row_block_add_repulsive_core_forces(const struct bonds *b, struct
 
 /* Returns half the energy of the repulsive cores of the bonds of `row_block` [J]; the other half belongs to the bonds'
  * other rows. */
-RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block)
+RARE real bond_row_block_repulsive_core_energy(const struct bonds *b, const struct particles *p, int64_t row_block,
+                                               real *row_energy)
 {
     real sum = 0;
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
         for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);) {
             const struct core c = bond_repulsive_core_of(b, p, &it.bond, b->particle[row]);
             if (!(c.ratio < CORE_FROM)) continue;
-            sum += 0.25 * c.K / it.bond.inverse_length * b->core * square(CORE_FROM - c.ratio);
+            const real energy = 0.25 * c.K / it.bond.inverse_length * b->core * square(CORE_FROM - c.ratio);
+            sum += energy;
+            if (row_energy) row_energy[row] += energy;
         }
     return sum;
 }

@@ -43,9 +43,9 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
 
 /* Returns the elastic energy of the bonds of the eight particles in row block g, repulsive cores included, divided by
  * the stiffness. Times half the stiffness, it is the share of these particles in the energy, since each bond belongs to
- * two particles. */
+ * two particles. row_energy: [b->rows] the share of each row in the energy is added to it [J]; NULL if not wanted. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
-                                                const int dim, const enum pd_model model)
+                                                real *row_energy, const int dim, const enum pd_model model)
 {
     const int32_t *row = b->particle + g * LANES;
     lanes sum = lanes_broadcast(0), press = lanes_broadcast(0), x[DIM_MAX];
@@ -56,9 +56,11 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
 #undef VISIT_BRITTLE
 #undef VISIT
     real total = lanes_mask_any(press < CORE_FROM - 1)
-                     ? bond_row_block_repulsive_core_energy(b, p, g) / (0.5 * b->stiffness)
+                     ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) / (0.5 * b->stiffness)
                      : 0;
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
+    for (int l = 0; row_energy && l < LANES && g * LANES + l < b->rows; l++)
+        row_energy[g * LANES + l] += 0.5 * b->stiffness * sum[l];
     return total;
 }
 
@@ -161,7 +163,7 @@ real bond_plastic_work(const struct bonds *b)
 enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
 #define INSTANCE(D, M)                                                                                                 \
-    static real bond_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                               \
+    static real bond_energy_##D##d_##M(const struct bonds *b, const struct particles *p, real *row_energy)             \
     {                                                                                                                  \
         real total = 0;                                                                                                \
         for (int64_t first = 0; first < b->row_blocks; first += (int64_t)ROW_BLOCK_PER_BLOCK * BLOCKS_AT_ONCE) {       \
@@ -171,7 +173,7 @@ enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
             {                                                                                                          \
                 int64_t g = first + (int64_t)block * ROW_BLOCK_PER_BLOCK + k;                                          \
                 if (g < b->row_blocks && (PD_##M == PD_BOND_PLASTIC || b->active.level[g] > 0))                        \
-                    part[block] += bond_energy_row_block(b, p, g, D, PD_##M);                                          \
+                    part[block] += bond_energy_row_block(b, p, g, row_energy, D, PD_##M);                              \
             }                                                                                                          \
             for (int block = 0; block < BLOCKS_AT_ONCE; block++) total += part[block];                                 \
         }                                                                                                              \

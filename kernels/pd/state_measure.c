@@ -66,18 +66,20 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
 }
 
 /* Returns the elastic energy of the families of the eight particles of row block g, repulsive cores included [J]; 0 if
- * the row block is inactive (at rest). */
-static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
-                                           const enum pd_model model)
+ * the row block is inactive (at rest). row_energy: [b->rows] the energy of each family is added to it [J]; NULL if it
+ * is not wanted. */
+static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
+                                           real *row_energy, const int dim, const enum pd_model model)
 {
     if (b->active.level[g] == 0) return 0;
     const struct own_state s = own_state_of(b, p, g, dim, state_model_has_rotations(model));
     lanes sum = lanes_broadcast(0), T[DIM_MAX], y[DIM_MAX];
-    real total = b->state.pressed[g] ? bond_row_block_repulsive_core_energy(b, p, g) : 0;
+    real total = b->state.pressed[g] ? bond_row_block_repulsive_core_energy(b, p, g, row_energy) : 0;
 #define VISIT(COLUMN) sum += own_force_column(&s, COLUMN, p, T, y, dim, state_model_has_rotations(model))
     FOR_COLUMNS(b, g, VISIT);
 #undef VISIT
     for (int l = 0; l < LANES && g * LANES + l < b->rows; l++) total += sum[l];
+    for (int l = 0; row_energy && l < LANES && g * LANES + l < b->rows; l++) row_energy[g * LANES + l] += sum[l];
     return total;
 }
 
@@ -114,17 +116,18 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
 struct row_block_sum {
     const struct bonds *b;
     const struct particles *p;
+    real *row_energy; /* [b->rows] receives the energy of each family [J]; NULL if it is not wanted */
 };
 
 #define INSTANCE(D, M)                                                                                                 \
     static real energy_term_##D##d_##M(const void *context, int64_t g)                                                 \
     {                                                                                                                  \
         const struct row_block_sum *s = context;                                                                       \
-        return energy_row_block(s->b, s->p, g, D, PD_##M);                                                             \
+        return energy_row_block(s->b, s->p, g, s->row_energy, D, PD_##M);                                              \
     }                                                                                                                  \
-    static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                              \
+    static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p, real *row_energy)            \
     {                                                                                                                  \
-        return reproducible_sum(b->row_blocks, energy_term_##D##d_##M, &(struct row_block_sum){b, p});                 \
+        return reproducible_sum(b->row_blocks, energy_term_##D##d_##M, &(struct row_block_sum){b, p, row_energy});     \
     }                                                                                                                  \
     static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                    \
     {                                                                                                                  \

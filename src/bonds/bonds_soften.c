@@ -176,6 +176,15 @@ real bonds_dissipated_softening_energy(const struct bonds *b)
     return b->soft.curve ? reproducible_sum(b->row_blocks, row_block_spent, b) : 0;
 }
 
+real bonds_row_fracture_energy(const struct bonds *b, int64_t row)
+{
+    const int64_t g = row / LANES, first = b->column[g] * LANES + row % LANES;
+    real sum = b->fracture_energy[row];
+    for (int64_t k = 0; b->soft.curve && b->soft.begun[g] && k < b->column_count[g]; k++)
+        sum += bond_half_softening_energy(b, g, first + k * LANES);
+    return sum;
+}
+
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row)
 {
     if (row < 0 || !bond_row_block_has_begun_softening(b, row / LANES)) return false;

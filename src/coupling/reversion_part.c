@@ -37,7 +37,7 @@ status reversion_check_scene_allows_reversion(const struct scene *s)
 static real energy_now(struct run *e)
 {
     if (e->source.modulus) bonds_compute_particle_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    return e->kernels.bond_energy(&e->bonds, &e->part) +
+    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
            particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);

@@ -79,11 +79,15 @@ static void sample_tip(const struct probe *q, const struct observed_run *o, real
     value[dim] = tip ? tip->growth : 0;
 }
 
-/* Stores kinetic, strain and fracture energy of the particles of an ENERGY probe in value[3] [J]. */
-static void probes_sample_energy(const struct probe *q, const struct observed_run *o, real *value)
+void probes_sample_energies(struct probes *s, const struct observed_run *o)
 {
-    struct energies e = probe_energies(q, o);
-    value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
+    for (int k = 0; k < s->n; k++) {
+        const struct probe *q = &s->probe[k];
+        real *value = s->value + q->first;
+        if (q->request.kind != PROBE_ENERGY) continue;
+        const struct energies e = probe_energies(q, o);
+        value[0] = e.kinetic, value[1] = e.strain, value[2] = e.fracture;
+    }
 }
 
 void probes_begin_sample_before_step(struct probes *s, const struct observed_run *o)
@@ -103,9 +107,6 @@ void probes_begin_sample_before_step(struct probes *s, const struct observed_run
             break;
         case PROBE_POINT:
             particle_compute_probe_values(o, q->list[0], value);
-            break;
-        case PROBE_ENERGY:
-            probes_sample_energy(q, o, value);
             break;
         case PROBE_MOMENTUM:
             probe_compute_momentum_of_particles(q, o->part, value);

@@ -5,6 +5,7 @@
 
 #include "kernels/pd/bond_laws.h"
 #include "probes_parts.h"
+#include "base/memory.h"
 #include "base/team.h"
 #include "probes/diagnostics.h"
 
@@ -130,6 +131,7 @@ struct region_sum {
     const struct probe *q;
     const struct observed_run *o;
     int component;
+    const real *row_energy; /* [bonds->rows] share of each row in the elastic energy of the bonds [J] */
 };
 
 /* Returns a component of the momentum of particle number k of a probe [kg m/s]. context: a struct region_sum, with the
@@ -158,28 +160,22 @@ static int64_t row_at(const struct region_sum *s, int64_t k)
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Returns half the energy of all intact bonds of particle number k of a probe [J]. context: a struct region_sum,
- * with the probe and the run. */
+/* Returns the share of particle number k of a probe in the elastic energy of the bonds [J]. context: a struct
+ * region_sum, with the probe, the run and the energy of each row. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
-    const struct bonds *b = s->o->bonds;
-    const struct particles *p = s->o->part;
     int64_t row = row_at(s, k);
-    if (row < 0) return 0;
-    real sum = 0;
-    for (struct bond_iterator it = bond_iterator_of_row(b, row); bond_next(&it);)
-        sum += bond_energy_of(b, p, &it.bond, s->q->list[k]);
-    return 0.5 * sum;
+    return row >= 0 ? s->row_energy[row] : 0;
 }
 
-/* Returns the energy dissipated by the bonds of particle number k of a probe [J]. context: a struct region_sum, with
- * the probe and the run. */
+/* Returns the energy dissipated by the bonds of particle number k of a probe, broken or softened [J]. context: a struct
+ * region_sum, with the probe and the run. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     int64_t row = row_at(s, k);
-    return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
+    return row >= 0 ? bonds_row_fracture_energy(s->o->bonds, row) : 0;
 }
 
 /* Returns the number of broken bonds of particle number k of a probe; 0 if its motion is prescribed. A bond counts
@@ -199,13 +195,19 @@ real probe_kinetic_energy(const struct probe *q, const struct particles *p)
 
 struct energies probe_energies(const struct probe *q, const struct observed_run *o)
 {
-    struct region_sum s = {.q = q, .o = o};
-    return (struct energies){
+    const struct bonds *b = o->bonds;
+    const bool bonded = b && b->rows > 0;
+    real *row_energy = bonded ? NEW("probes.row_energy", b->rows, real) : NULL;
+    if (bonded) o->kernels->bond_energy(b, o->part, row_energy);
+    struct region_sum s = {.q = q, .o = o, .row_energy = row_energy};
+    const struct energies sums = {
         .kinetic = probe_kinetic_energy(q, o->part),
         .strain = reproducible_sum(q->n, bond_term, &s) +
                   points_strain_energy_of_list(o->part, o->material, o->partial, q->list, q->n),
         .fracture = reproducible_sum(q->n, fracture_term, &s),
     };
+    memory_free(row_energy);
+    return sums;
 }
 
 void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum)
@@ -347,10 +349,10 @@ static void figures_line(const struct emitter *e)
 
 static void figures_energy(const struct emitter *e)
 {
-    struct energies sum = probe_energies(e->q, e->o);
+    const struct energies sum = probe_energies(e->q, e->o);
     probes_figures_put(e, "kinetic", e->sampled ? e->sampled[0] : sum.kinetic);
-    probes_figures_put(e, "strain", sum.strain);
-    probes_figures_put(e, "fracture", sum.fracture);
+    probes_figures_put(e, "strain", e->sampled ? e->sampled[1] : sum.strain);
+    probes_figures_put(e, "fracture", e->sampled ? e->sampled[2] : sum.fracture);
 }
 
 static void figures_momentum(const struct emitter *e)

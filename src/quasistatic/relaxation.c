@@ -70,7 +70,7 @@ static void estimate(struct run *e, bool *done)
 {
     struct static_solver *s = e->solver;
     real nodes = 0, particles, motion[2];
-    const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
+    const real strain = e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
                         points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
     reproducible_sums(e->part.n, 2, motion_block, &e->part, motion);
     s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;

@@ -174,7 +174,7 @@ static status step_try(struct run *e, real t, real spent)
     trial_equilibrium_begin(e, &saved);
     work_account_start(&account, s, &e->part);
     const real worked = e->loads.work + e->loads.constraint_work,
-               stored = e->kernels.bond_energy(&e->bonds, &e->part) + bonds_fracture_energy(&e->bonds);
+               stored = e->kernels.bond_energy(&e->bonds, &e->part, NULL) + bonds_fracture_energy(&e->bonds);
     const status found = search_run(e, &f);
     memory_free(f.list.bond);
     if (found != OK) {
@@ -187,7 +187,7 @@ static status step_try(struct run *e, real t, real spent)
     family_losses_add(&e->bonds, &e->part, &e->loads, account.x);
     work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -
-                      e->kernels.bond_energy(&e->bonds, &e->part) - bonds_fracture_energy(&e->bonds);
+                      e->kernels.bond_energy(&e->bonds, &e->part, NULL) - bonds_fracture_energy(&e->bonds);
     if (!isfinite(spent)) s->balance.lost += real_max(0, lost), e->damped += real_max(0, lost);
     softening_store_equilibrium_stretches(&e->bonds, &e->part, &e->source.limit);
     return OK;

@@ -11,6 +11,7 @@ struct observed_run observed_run_view_of(const struct run *e)
     return (struct observed_run){.part = &e->part,
                                  .cells = &e->cells,
                                  .bonds = &e->bonds,
+                                 .kernels = &e->kernels,
                                  .loads = &e->loads,
                                  .grid = &e->grid->field[0].grid,
                                  .tips = &e->fracture->tips,

@@ -226,7 +226,7 @@ static void sample_state(struct run *e)
 
 real sample_current_elastic_energy(struct run *e)
 {
-    return e->kernels.bond_energy(&e->bonds, &e->part) +
+    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
            points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
            reference_frame_strain_energy(e->frame, &e->part);
 }
@@ -246,6 +246,8 @@ static void sample_energies(struct run *e)
         .absorbed = e->loads.absorbing.energy,
         .viscous = e->viscosity->taken,
     };
+    const struct observed_run o = observed_run_view_of(e);
+    probes_sample_energies(&e->probing->probes, &o);
 }
 
 /* Completes a sample with what requires velocities after the step, and writes its line of history.csv. now: time of
@@ -458,12 +460,10 @@ void sample_take_after_last_step(struct run *e)
 {
     real held = 0;
     family_states_precompute(&e->bonds, &e->part, &e->source);
-    reference_frame_update_motion_and_stress(e->frame, &e->part,
-                                             &e->loads); /* positions, velocities and stresses of points of the mesh */
+    reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     sample_state(e);
     sample_energies(e);
-    real kinetic = kinetic_now(&e->part, e->frame);
-    const real before = kinetic;
+    real kinetic = kinetic_now(&e->part, e->frame), before = kinetic;
     const real decay = e->scene->damping * e->clock.dt, share = damping_velocity_increment_factor(decay),
                kick = e->clock.dt * share;
     if (scene_is_dynamic(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);

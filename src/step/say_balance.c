@@ -15,6 +15,9 @@
 #define FLOW_DOUBTFUL                                                                                                  \
     0.003 /* relative error of the energy balance that is reported of points that flow on the grid: bars of several    \
              diameters that hit a wall have less, shorter ones up to three times that */
+/* Energy that broken bonds have released beyond what they had stored, over the largest energy, above which a run warns
+ * [1]: far above round-off, and a fifth of the error of the energy balance that tests/scenes allow peridynamics. */
+#define RELEASED_NOTICED 1e-3
 #define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
 #define DAMPED_DOUBTFUL                                                                                                \
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
@@ -31,6 +34,24 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
              "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
              released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
     warnings_add_and_print(to, text);
+}
+
+bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to)
+{
+    char text[480];
+    const real released = diagnostics_energy_released_beyond_stored(w);
+    const bool states = s->model == MODEL_OSPD || s->model == MODEL_MOSPD;
+    if (!(released > RELEASED_NOTICED * w->energy_scale)) return false;
+    snprintf(text, sizeof text,
+             "the fracture energy has fallen below 0, to %.3g J at t = %.4g s, %.2g %% of the largest energy: broken "
+             "bonds have released more energy than they had stored, which moves the bodies%s; see energy.fracture at "
+             "the end",
+             -released, w->now.time, 100 * released / w->energy_scale,
+             states ? " (as they lose bonds, the other bonds of particles under pressure or shear become stiffer); "
+                      "compare with model: bond"
+                    : "");
+    warnings_add_and_print(to, text);
+    return true;
 }
 
 #define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */

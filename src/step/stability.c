@@ -502,6 +502,7 @@ status energy_check_last_sample(struct run *e)
     if (scene_is_dynamic(e->scene))
         large_motion_warn_of_turned_pressure(&e->stability->motion, &e->part, &e->loads, e->clock.t, &e->warnings);
     if (diagnostics_energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
+    if (!e->stability->released) e->stability->released = fracture_energy_warn_if_negative(e->scene, w, &e->warnings);
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);
         return unstable(&e->part, &e->clock, "whose velocities change sign in every step", remedy);

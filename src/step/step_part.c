@@ -100,6 +100,7 @@ static status stability_state(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "engine/excess_rise", e->stability->excess);
     ARCHIVE_VALUE(a, "engine/stretched", e->stability->stretched);
     ARCHIVE_VALUE(a, "engine/parted", e->stability->parted);
+    ARCHIVE_VALUE(a, "engine/released", e->stability->released);
     ARCHIVE_VALUE(a, "engine/pulled", e->stability->pairs.pulled);
     ARCHIVE_VALUE(a, "engine/large_motion", e->stability->motion);
     return OK;

@@ -432,4 +432,66 @@ for how in mpm.frame=current mpm.frame=reference method=pd; do
     between "driven as a whole, $how: at the end" "$(column "$work/driven" reaction.force_x 1)" -1e-9 1e-9
 done
 
+# Probe `energy` over the whole body: its strain and fracture energy are the sums over particles of what the columns of the whole run sum
+# over bonds, in every model, while bonds soften and break. history.csv has nine digits: 1e-8 of the largest value.
+cat >"$work/torn.yaml" <<'END'
+space: plane stress
+thickness: 3 mm
+duration: 20 us
+method: pd
+accept: [stretch, particles, speed, stress]
+material: {young: 10 GPa, density: 2000, energy_release_rate: 1000 J/m^2}
+body: {box: {from: [0, 0], to: [12 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+initial: [{velocity_gradient: [[4000, 0], [0, -1500]]}]
+probes: [energy]
+output: {samples: 40, frames: 0}
+END
+sed -e 's/^space.*/space: solid/' -e '/^thickness/d' -e 's/to: .*/to: [8 mm, 6 mm, 5 mm]}}/' -e 's/from: \[0, 0\]/from: [0, 0, 0]/' \
+    -e 's/\[\[4000.*/[[4000, 0, 0], [0, -1500, 0], [0, 0, 0]]}]/' "$work/torn.yaml" >"$work/torn_solid.yaml"
+# unlike FOLDER COLUMN: prints the largest difference of the column and that of the probe, over the largest value of the column.
+unlike() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); at[$k] = k } next }
+    { d = $at[name] - $at["energy." name]; if (d < 0) d = -d; if (d > far) far = d; if ($at[name] > large) large = $at[name] }
+    END { print (large > 0 ? far / large : "nothing") }' "$1/history.csv"; }
+for model in bond ospd mospd; do
+    for shape in torn torn_solid; do
+        for law in brittle soft; do
+            run=${shape}_${model}_$law
+            set -- -s "model=$model"
+            [ $model = bond ] || set -- "$@" -s material.poisson=0.2
+            [ $law = brittle ] || set -- "$@" -s "material.tensile_strength=40 MPa"
+            holds "$run" "$cleave" run "$work/$shape.yaml" -t 1 -o "$work/$run" "$@" >"$work/said" 2>&1
+            between "$run: strain energy of the probe" "$(unlike "$work/$run" strain)" 0 1e-8
+            between "$run: fracture energy of the probe" "$(unlike "$work/$run" fracture)" 0 1e-8
+            between "$run: bonds break [J]" "$(most "$work/$run" fracture)" 1e-4 1
+        done
+    done
+done
+
+# A struck triangle of a state-based model: its broken bonds release more energy than they had stored (the column falls to -2.5 % of the
+# largest energy), and the run says so once, as soon as it is below -0.1 %; bonds of the bond-based model do not.
+cat >"$work/struck.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 30 us
+method: adaptive
+model: ospd
+accept: [rayleigh, contact, stretch, waves, particles, speed, shock, mass]
+material: {young: 70 GPa, poisson: 0.2, density: 2500, energy_release_rate: 8 J/m^2}
+bodies:
+  - name: hit
+    shape: [{polygon: {corners: [[0, 0], [10 mm, 0], [4 mm, 8 mm]]}}, {subtract: {disc: {centre: [4 mm, 3 mm], radius: 1 mm}}}]
+  - {name: shot, rigid: true, mass: 1 g, velocity: [0, -20 m/s], shape: {disc: {centre: [5 mm, 10 mm], radius: 2 mm}}}
+particles: {spacing: 0.25 mm}
+output: {samples: 200, frames: 0}
+END
+told='^warning: the fracture energy has fallen below 0'
+"$cleave" run "$work/struck.yaml" -t 1 -o "$work/struck" >"$work/said" 2>&1
+is "negative fracture energy: said once" "$(grep -c "$told" "$work/said")" 1
+between "negative fracture energy [J]" "$(least "$work/struck" fracture)" -0.02 -0.0002
+"$cleave" run "$work/struck.yaml" -t 1 -o "$work/struck_bonds" -s method=pd -s model=bond -s material.poisson=1/3 >"$work/said" 2>&1
+is "fracture energy of bonds: nothing said" "$(grep -c "$told" "$work/said")" 0
+between "fracture energy of bonds [J]" "$(least "$work/struck_bonds" fracture)" 0 0
+between "fracture energy of bonds at the end [J]" "$(column "$work/struck_bonds" fracture 1)" 1e-6 0.2
+
 finish

@@ -195,7 +195,7 @@ static inline real operator_energy(struct operator* o)
         operator_place(o, o->unknown[k], u[k]);
     }
     operator_forces(o, f);
-    const real W = e->kernels.bond_energy(&e->bonds, &e->part) +
+    const real W = e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
                    mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !o->s.small_strain);
     for (int64_t k = 0; k < o->n * o->n; k++) half += 0.5 * u[k / o->n] * o->K[k] * u[k % o->n];
     for (int64_t k = 0; k < o->n; k++) operator_place(o, o->unknown[k], 0);

@@ -164,7 +164,7 @@ static struct made make_all(struct particle_cloud *c, enum pd_model model)
     kernels_choose(&k, c->p.dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
     for (int rotation = 0; rotation < 2; rotation++) { /* in the first some break */
         const real broken = (real)k.bond_force(&c->bonds, &c->p, &c->source.limit, NULL);
-        const real energy = k.bond_energy(&c->bonds, &c->p);
+        const real energy = k.bond_energy(&c->bonds, &c->p, NULL);
         k.bond_stress(&c->bonds, &c->p);
         made_add(&m, &broken, 1);
         made_add(&m, &energy, 1);

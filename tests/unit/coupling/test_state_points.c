@@ -68,7 +68,7 @@ static void shake(struct run *e)
 static real energy_of(struct run *e)
 {
     run_compute_internal_forces(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part) +
+    return e->kernels.bond_energy(&e->bonds, &e->part, NULL) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
 

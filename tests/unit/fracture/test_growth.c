@@ -164,7 +164,7 @@ static real energy_of(struct stage *s, enum pd_model model)
     struct kernels k;
     kernels_choose(&k, 2, model, SHAPE_LINEAR, TRANSFER_FLIP);
     force(s, model);
-    return k.bond_energy(&s->c.bonds, &s->c.p);
+    return k.bond_energy(&s->c.bonds, &s->c.p, NULL);
 }
 
 /* Checks that the forces of all bonds add up to zero, also of partially released ones, and that both entries of a bond

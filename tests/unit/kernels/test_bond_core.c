@@ -37,7 +37,7 @@ static real energy_now(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
     e->kernels.bond_force(&e->bonds, &e->part, &bond_limit_never, NULL);
-    return e->kernels.bond_energy(&e->bonds, &e->part);
+    return e->kernels.bond_energy(&e->bonds, &e->part, NULL);
 }
 
 /* Compresses lengths along x to `share`, and displaces each particle by up to 0.05 spacings. */

@@ -125,7 +125,7 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
         for (int d = 0; d < dim && n < steps - 1; d++)
             for (int64_t i = 0; i < p->n; i++) p->x[d][i] += dt * p->v[d][i];
     }
-    const real elastic = b.k.bond_energy(&b.c.bonds, p), fracture = bonds_fracture_energy(&b.c.bonds);
+    const real elastic = b.k.bond_energy(&b.c.bonds, p, NULL), fracture = bonds_fracture_energy(&b.c.bonds);
     assert_true(broken > b.c.bonds.n / 40 && broken < b.c.bonds.n && fracture > 0.02 * start);
     for (int d = 0; d < dim; d++) memory_free(before[d]);
     particle_cloud_free(&b.c);

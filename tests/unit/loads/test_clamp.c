@@ -79,7 +79,7 @@ static void forces(struct run *e)
 static real energy(struct run *e)
 {
     forces(e);
-    return e->kernels.bond_energy(&e->bonds, &e->part);
+    return e->kernels.bond_energy(&e->bonds, &e->part, NULL);
 }
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */

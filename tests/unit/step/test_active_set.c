@@ -48,7 +48,7 @@ static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
     assert_true(c.bonds.n > 2 * c.p.n);
     for (int d = 0; d < dim; d++)
         for (int64_t i = 0; i < c.p.n; i++) assert_true(c.p.f[d][i] == 0);
-    assert_true(k.bond_energy(&c.bonds, &c.p) == 0);
+    assert_true(k.bond_energy(&c.bonds, &c.p, NULL) == 0);
     particle_cloud_free(&c);
 }
 
@@ -119,8 +119,8 @@ static void same_bits(const struct run *a, const struct run *b)
         assert_memory_equal(a->frame->mesh.grid.velocity[d], b->frame->mesh.grid.velocity[d],
                             (size_t)a->frame->mesh.grid.n * sizeof(real));
     }
-    const real energy = a->kernels.bond_energy(&a->bonds, p);
-    assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q)}, sizeof energy);
+    const real energy = a->kernels.bond_energy(&a->bonds, p, NULL);
+    assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q, NULL)}, sizeof energy);
 }
 
 /* Returns the inactive share of the body, or of the points on the grid. */
