@@ -90,4 +90,12 @@ status diagnostics_check_divergence(const struct particles *p, bool check_peridy
  * missing or has another size. */
 status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
 
+/* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
+ * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
+bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
+
+/* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
+ * no excess. Bonds of state-based models can have such an excess. */
+real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
+
 #endif

@@ -25,17 +25,9 @@ status divergence_check_particles(const struct run *e, bool check_peridynamic, b
  * in every step, or if an energy is not finite. */
 status energy_check_last_sample(struct run *e);
 
-/* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
- * no excess. Bonds of state-based models can have such an excess. */
-real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
-
 /* Warns in *to, and prints, that the fracture energy of the last sample is below 0 by more than 1e-3 of the largest
  * energy of the run. w: energies of the last sample of a run of scene s. Returns true if it is. */
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to);
-
-/* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
- * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
-bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
 enum { REMEDY_LENGTH = 640 };
 

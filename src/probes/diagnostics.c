@@ -176,3 +176,16 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
     ARCHIVE_VALUE(a, "diagnostics/bonds_broken", w->bonds_broken);
     return OK;
 }
+
+/* Kinetic energy, over that of the body moving at its wave speed, below which all energies are round-off [1]. */
+#define ENERGY_OF_ROUND_OFF 1e-24
+
+bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
+{
+    return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
+}
+
+real diagnostics_energy_released_beyond_stored(const struct diagnostics *w)
+{
+    return real_max(0, -w->now.energy.fracture);
+}

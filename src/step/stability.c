@@ -16,8 +16,6 @@
 #define LOAD_SHARE_LEAST 0.5 /* least share of the motion that a load must explain: speeds double at free faces */
 #define LARGE_STRAIN 0.1     /* initial strain that counts as the cause: stresses of a tenth of the modulus */
 #define ENERGY_STEPS 50      /* steps before the energy check begins */
-/* Kinetic energy, over that of the body moving at its wave speed, below which all energies are round-off [1]. */
-#define ENERGY_OF_ROUND_OFF 1e-24
 /* Smallest energy without a source, over the largest energy, at which a run fails [1]. Empirical: the first steps after
  * a jump in velocity show 0.1, unstable runs that break all bonds 0.9. */
 #define ENERGY_FROM_NOWHERE 0.5
@@ -343,19 +341,6 @@ static int64_t fastest_particle(const struct particles *p)
         if (speed2 > most) most = speed2, fastest = i;
     }
     return fastest;
-}
-
-bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed)
-{
-    return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
-}
-
-/* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. max(0, -fracture energy). It
- * can be positive in state-based models: a broken bond changes the dilatation of its particles, and their other bonds
- * may store more. */
-real diagnostics_energy_released_beyond_stored(const struct diagnostics *w)
-{
-    return real_max(0, -w->now.energy.fracture);
 }
 
 /* Returns true if the bodies have gained more energy than a stable run can: the error of the energy balance exceeds
