@@ -47,9 +47,7 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
              "bonds have released more energy than they had stored, which moves the bodies%s; see energy.fracture at "
              "the end",
              -released, w->now.time, 100 * released / w->energy_scale,
-             states ? " (as they lose bonds, the other bonds of particles under pressure or shear become stiffer); "
-                      "compare with model: bond"
-                    : "");
+             states ? " (particles under pressure gain energy as they lose bonds); compare with model: bond" : "");
     warnings_add_and_print(to, text);
     return true;
 }
