@@ -275,7 +275,7 @@ static real bending_energy(enum space space, enum surface_rule surface, int leng
         const real u[] = {x * y, -0.5 * (x * x + nu * y * y - nu * z * z), -nu * y * z};
         for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] + curvature * u[d];
     }
-    const real energy = bond_energy_table[p->dim][PD_BOND](&c.bonds, p);
+    const real energy = bond_energy_table[p->dim][PD_BOND](&c.bonds, p, NULL);
     const real width = p->dim > 2 ? layers * CLOUD_SPACING : c.source.family.section;
     const real inertia = width * pow(layers * CLOUD_SPACING, 3) / 12;
     const real unit = 0.5 * c.material[0].young * inertia * square(curvature);

@@ -202,7 +202,7 @@ static void test_wide_families(void **state)
 static real energy_of(const struct particle_cloud *c, const struct partial_stress *partial)
 {
     const struct particles *p = &c->p;
-    real sum = c->bonds.rows > 0 ? bond_energy_table[1][PD_BOND](&c->bonds, p) : 0;
+    real sum = c->bonds.rows > 0 ? bond_energy_table[1][PD_BOND](&c->bonds, p, NULL) : 0;
     for (int64_t i = 0; i < p->n; i++) {
         if (p->kind[i] != KIND_MPM) continue;
         real share = partial->index && partial->index[i] >= 0 ? partial->matrix[partial->index[i]] : 0;

@@ -52,7 +52,7 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
 {
     const struct particles *p = &s->c.p;
     const int n = symmetric_component_count(p->dim);
-    real sum = s->c.bonds.rows > 0 ? bond_energy_table[p->dim][PD_BOND](&s->c.bonds, p) : 0,
+    real sum = s->c.bonds.rows > 0 ? bond_energy_table[p->dim][PD_BOND](&s->c.bonds, p, NULL) : 0,
          compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&s->c.material[0], p->dim, compliance);
     for (int64_t i = 0; i < p->n; i++) {

@@ -172,7 +172,8 @@ static real energy_of(const struct both *b, enum pd_model model)
 {
     const struct particle_cloud *c = &b->s.c;
     const int dim = c->p.dim, n = symmetric_component_count(dim);
-    real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p) : 0, compliance[SYM_MAX * SYM_MAX];
+    real sum = c->bonds.rows > 0 ? state_energy_table[dim][model](&c->bonds, &c->p, NULL) : 0,
+         compliance[SYM_MAX * SYM_MAX];
     material_compliance_matrix(&c->material[0], dim, compliance);
     for (int64_t i = 0; i < c->p.n; i++) {
         real given[SYM_MAX];
@@ -291,7 +292,7 @@ static void test_rows(void **state)
     for (int64_t i = 0; i < p->n; i++) p->end_rotation[0][i] = c - 1, p->end_rotation[1][i] = s;
     forces(&b, k.model);
     for (int64_t row = 0; row < bonds->rows; row++) sum += state_row_energy(bonds, p, row, 0);
-    const real all = state_energy_table[2][k.model](bonds, p);
+    const real all = state_energy_table[2][k.model](bonds, p, NULL);
     if (!(fabs(sum / all - 1) < 1e-9)) fail_msg("%g J of rows, %g J in all", sum, all);
     patch_free(&b.s);
 }

@@ -86,7 +86,7 @@ static void test_work(void **state)
             work += 0.5 * (force + before) * YIELD * (to - from) / STEPS * scale;
             before = force;
         }
-    assert_close(bond_energy_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p) + bond_plastic_work(&c.bonds), work, 1e-7);
+    assert_close(bond_energy_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, NULL) + bond_plastic_work(&c.bonds), work, 1e-7);
     particle_cloud_free(&c);
 }
 

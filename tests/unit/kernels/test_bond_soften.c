@@ -101,7 +101,7 @@ static void test_work(void **state)
                 assert_true(now >= dissipated * (1 - 1e-6)); /* floats */
                 dissipated = now;
             }
-            const real held = bond_energy_table[1][PD_BOND_SOFT](&s.c.bonds, &s.c.p);
+            const real held = bond_energy_table[1][PD_BOND_SOFT](&s.c.bonds, &s.c.p, NULL);
             assert_near(held + dissipated, work, 2e-6 * 0.5 * square(CRITICAL) * scale);
         }
         assert_close(dissipated, 0.5 * square(CRITICAL) * scale, 2e-6);
@@ -187,7 +187,7 @@ static void test_lanes(void **state)
                 for (int d = 0; d < dim; d++)
                     assert_near(p->f[d][i], row[i].force[d], 1e-6 * b->stiffness * ONSET * 10);
             }
-            assert_close(bond_energy_table[dim][PD_BOND_SOFT](b, p), energy, 1e-6);
+            assert_close(bond_energy_table[dim][PD_BOND_SOFT](b, p, NULL), energy, 1e-6);
             assert_near(bonds_fracture_energy(b), soften_reference_fracture(&r, p, w, b->stiffness), 1e-6 * energy);
         }
         for (int64_t q = 0; q < n * n; q++) ended += r.ended[q], softened += r.most[q] > r.onset[q];

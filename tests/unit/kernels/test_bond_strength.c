@@ -218,10 +218,10 @@ static void test_start(void **state)
         for (int64_t i = 0; i < p->n; i++)
             force = real_max(force, fabs(before[i])), change = real_max(change, fabs(p->f[0][i] - before[i]));
         assert_true(change < 1e-6 * force);
-        assert_near(bonds_fracture_energy(b), 0, 1e-6 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p));
+        assert_near(bonds_fracture_energy(b), 0, 1e-6 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p, NULL));
         cloud_strain(&s.c, STRAIN(2 * at));
         soft_forces(&s);
-        assert_true(bonds_fracture_energy(b) > 0.1 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p));
+        assert_true(bonds_fracture_energy(b) > 0.1 * bond_energy_table[p->dim][PD_BOND_SOFT](b, p, NULL));
         memory_free(share), memory_free(before);
         particle_cloud_free(&s.c);
     }

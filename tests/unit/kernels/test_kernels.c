@@ -256,7 +256,7 @@ static void test_bond_energy(void **state)
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p);
                 for (int64_t i = 0; i < c.p.n; i++) expected += reference_row(&c.p, w, c.bonds.stiffness, i).energy;
-                real energy = bond_energy_table[dim][model](&c.bonds, &c.p);
+                real energy = bond_energy_table[dim][model](&c.bonds, &c.p, NULL);
                 assert_true(expected > 0 && fabs(energy - expected) <= CLOSE * expected);
                 memory_free(w);
                 particle_cloud_free(&c);
@@ -332,7 +332,7 @@ static void test_bond_threads(void **state)
                 for (int t = 0; t < 2; t++) {
                     omp_set_num_threads(t + 1);
                     body_make(&c[t], dim, way);
-                    energy[t] = bond_energy_table[dim][model](&c[t].bonds, &c[t].p);
+                    energy[t] = bond_energy_table[dim][model](&c[t].bonds, &c[t].p, NULL);
                     bond_force_table[dim][model](&c[t].bonds, &c[t].p, &c[t].source.limit, NULL);
                     bond_stress_table[dim][model](&c[t].bonds, &c[t].p);
                     pd_move_table[dim](&c[t].p, c[t].p.list[KIND_PD], c[t].p.n_of[KIND_PD],

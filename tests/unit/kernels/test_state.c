@@ -40,7 +40,7 @@ static void force(struct body *b)
 static real energy(struct body *b)
 {
     force(b);
-    return state_energy_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p);
+    return state_energy_table[b->c.p.dim][b->model](&b->c.bonds, &b->c.p, NULL);
 }
 
 /* ---- patch tests ------------------------------------------------------------------------------------------------- */

@@ -139,7 +139,7 @@ static void test_gradient(void **state)
         for (int step = 0; step < 10; step++) shake(&a.s.c, &seed, 2e-4 * (step + 1), 1e-4 * step), ended += forces(&a);
         forces(&a);
         const real energy = potential(&a, w);
-        assert_close(state_energy_table[p->dim][a.model](b, p), energy, 1e-6);
+        assert_close(state_energy_table[p->dim][a.model](b, p, NULL), energy, 1e-6);
         for (int64_t i = 0; i < p->n; i++)
             for (int d = 0; d < p->dim; d++) largest = real_max(largest, fabs(p->f[d][i]));
         for (int64_t i = 0; i < p->n; i += 5)
@@ -176,12 +176,12 @@ static void test_ends(void **state)
             shake(&a.s.c, &seed, 3e-4 * (step + 1), 0);
             forces(&a);
             if (step != 5) continue;
-            const real before = state_energy_table[2][a.model](b, &a.s.c.p);
+            const real before = state_energy_table[2][a.model](b, &a.s.c.p, NULL);
             struct bonds old = *b;
             bonds_make(b, &old, &a.s.c.p, &a.s.c.source);
             bonds_free(&old);
             state_precompute_table[2][a.model](b, &a.s.c.p);
-            assert_close(state_energy_table[2][a.model](b, &a.s.c.p), before, 1e-12);
+            assert_close(state_energy_table[2][a.model](b, &a.s.c.p, NULL), before, 1e-12);
         }
         for (int64_t r = 0; r < b->rows; r++)
             for (struct bond_iterator it = bond_iterator_of_row(b, r); bond_next(&it);) {

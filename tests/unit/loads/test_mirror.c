@@ -111,7 +111,7 @@ static void check_forces(struct quarter *q)
     for (int k = 0; k < 2; k++) {
         bond_force_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, &both[k]->source.limit, NULL);
         bond_stress_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
-        energy[k] = bond_energy_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p);
+        energy[k] = bond_energy_table[dim][PD_BOND](&both[k]->bonds, &both[k]->p, NULL);
     }
     assert_true(fabs(4 * energy[0] - energy[1]) <= CLOSE * energy[1] && energy[1] > 0);
     for (int d = 0; d < dim; d++) assert_true(deviation(q, q->part.p.f[d], q->whole.p.f[d]) <= CLOSE);

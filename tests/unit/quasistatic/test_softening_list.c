@@ -44,7 +44,7 @@ static real potential(struct soft_body *s, struct softening_list *l)
 {
     softening_list_make(l, &s->c.bonds, &s->c.p, 1);
     softening_list_store_largest_stretches(l, &s->c.bonds, 1);
-    return bond_energy_table[s->c.p.dim][PD_BOND_SOFT](&s->c.bonds, &s->c.p) + bonds_fracture_energy(&s->c.bonds);
+    return bond_energy_table[s->c.p.dim][PD_BOND_SOFT](&s->c.bonds, &s->c.p, NULL) + bonds_fracture_energy(&s->c.bonds);
 }
 
 static void forces(struct soft_body *s)
