@@ -36,7 +36,10 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
             return face->energy_release_rate;
     }
     const real limit = source->limit.critical_stretch[a * s->materials + b];
-    if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other)) return least;
+    if (a == b || s->model != MODEL_BOND || material_yields(one) || material_yields(other) || !isfinite(limit))
+        return least;
+    if (!isfinite(one->critical_stretch))
+        return isfinite(other->critical_stretch) ? toughness_of_pair(s, source, b, a) : least;
     const real c = family_micro_modulus(family, one), d = family_micro_modulus(family, other);
     return family_crack_energy_per_area(family, one) * 2 * d / (c + d) * square(limit / one->critical_stretch);
 }
