@@ -186,7 +186,7 @@ says "alone, and an equilibrium" "warning: $lone, and there is no equilibrium" "
 "$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
 holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
 printf '31.5, 0.5\n31.5, 1.5\n' >>"$work/lone.csv"
-says "an island" 'pieces  *body p consists of 2 pieces without bonds between them; all pieces but the heaviest have 3 particles together, and the second heaviest is at (0.03117, 0.0008333) m$' \
+says "an island" 'pieces  *body p consists of 2 pieces without bonds between them; all pieces but the heaviest have 3 particles together, and the second heaviest is at (0.03117, 0.0008333) m; pieces that meet pass through each other: contact.between: all would keep them apart$' \
     "$work/lone.yaml"
 says "an island, and an equilibrium" 'pieces .*; some pieces have no support, so that there is no equilibrium' "$work/lone.yaml" -s solver=cg \
     -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
