@@ -412,7 +412,7 @@ real load_largest_driven_speed(const struct load *l, const struct particles *p, 
  * extended to that interval. */
 real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
 
-/* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and `t_end`
+/* Returns the largest difference between the velocities that two loads prescribe between the times 0 and `t_end`
  * [s], each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component
  * is prescribed by both; INFINITY if one load rotates or depends on position. */
 real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
@@ -421,20 +421,7 @@ real loads_largest_velocity_difference(const struct load *load, const struct loa
 /* Distance up to which a particle outside a region counts as inside, so that particles on its border do [spacings]. */
 #define LOADS_TOLERANCE ON_SURFACE
 
-/* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
-
-/* Checks all mirror boundaries and appends mirror images of the particles within `mirror_reach` [m] of their planes to
- * p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a
- * message, if a mirror plane is inside its body or two mirrors coincide. */
-status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
-
-/* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
- * such bonds are added after all bond forces, so these particles must not be moved before. */
-void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
-
-/* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
- * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step. */
-void loads_update_mirror_images(const struct loads *l, struct particles *p);
+/* ---- forces and velocities of a step ----------------------------------------------------------------------------- */
 
 /* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
 void loads_clear_forces_of_loaded_particles(struct loads *l, struct particles *p);
@@ -481,9 +468,6 @@ bool loads_impose_prescribed_motion(struct loads *l, struct particles *p, real t
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
 void loads_add_grid_reactions(struct loads *l, const struct grid *g, real dt_velocity);
-
-/* Returns true if the plane of mirror b is on a node of grid g or midway between two. spacing: lattice spacing [m]. */
-bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 

@@ -1,13 +1,30 @@
-/* Planes of symmetry that bonds cross (loads_mirror.c). */
+/* Planes of symmetry or antisymmetry: mirror images of particles beyond them, and whether nodes of a grid fit them
+ * (loads_mirror.c, loads_walls.c). */
 #ifndef CLEAVE_MIRRORS
 #define CLEAVE_MIRRORS
 
 #include "loads/loads.h"
+
+/* Checks all mirror boundaries and appends mirror images of the particles within `mirror_reach` [m] of their planes to
+ * p. optional_arrays: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a
+ * message, if a mirror plane is inside its body or two mirrors coincide. */
+status loads_make_mirror_images(struct loads *l, struct particles *p, real mirror_reach, int optional_arrays);
+
+/* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
+ * such bonds are added after all bond forces, so these particles must not be moved before. */
+void loads_flag_particles_at_clamped_mirrors(struct loads *l, const struct particles *p);
+
+/* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
+ * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step. */
+void loads_update_mirror_images(const struct loads *l, struct particles *p);
 
 /* Checks the distance between parallel mirrors of a body with bonds of at most `bond_length` [m]. A particle between
  * mirrors that are closer would have bonds to images of images on both sides, of which only one exists. The forces
  * would have no potential, and no time step would be stable. Material points have no such limit. Returns REFUSED, with
  * a message, if the distance is at most the bond length minus a spacing. */
 status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length);
+
+/* Returns true if the plane of mirror b is on a node of grid g or midway between two. spacing: lattice spacing [m]. */
+bool mirror_plane_fits_grid_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 #endif

@@ -1,5 +1,6 @@
 /* Application of boundary conditions: set-up, forces, walls, and their impulse and work. */
 #include "loads/loads.h"
+#include "loads/mirrors.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "loads/loads.h"
+#include "loads/mirrors.h"
 #include "base/memory.h"
 
 /* ---- walls of the grid ------------------------------------------------------------------------------------------- */

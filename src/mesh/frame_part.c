@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
+#include "loads/mirrors.h"
 
 /* Largest deviation of layers of particles from half spacings at a plane of symmetry [spacings]: round-off of positions
  * and of lengths in scenes. */

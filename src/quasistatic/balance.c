@@ -16,6 +16,7 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 #include "step/step.h"
+#include "loads/mirrors.h"
 
 #define GAIN_MOST 0.01 /* largest energy gain of a solution, as a share of the uncertainty of the work of loads */
 enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };

@@ -17,6 +17,7 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
+#include "loads/mirrors.h"
 
 #define CARRIED 1e-6     /* largest gap at which contact is searched: another body may support this one [spacings] */
 #define SUBSTEP_MOST 0.2 /* largest displacement of a rigid body in a substep [spacings] */

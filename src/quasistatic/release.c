@@ -18,6 +18,7 @@
 #include "step/sample.h"
 #include "step/step.h"
 #include "step/checks.h"
+#include "loads/mirrors.h"
 
 #define CROSSINGS_QUIET 3.0   /* time without breaking bonds before damping, in crossing times of waves */
 #define CROSSINGS_DAMPED 40.0 /* longest time of damping, in crossing times */

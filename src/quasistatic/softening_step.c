@@ -28,6 +28,7 @@
 
 #include "base/memory.h"
 #include "bonds/strength_surfaces.h"
+#include "loads/mirrors.h"
 
 #define FACTOR_ERROR 1e-5  /* largest difference of the last factor from 1 */
 #define RESIDUAL_MOST 1e-5 /* residual of an equilibrium, unless solver_tolerance is larger [1] */

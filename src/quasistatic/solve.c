@@ -12,6 +12,7 @@
 #include "run/say.h"
 #include "run/energies.h"
 #include "step/sample.h"
+#include "loads/mirrors.h"
 
 /* Returns the parts of the run that the solvers read and change, as pointers into *e. */
 static struct static_body static_body_of(struct run *e)

@@ -10,6 +10,7 @@
 #include "contact/contact.h"
 #include "kernels/kernels.h"
 #include "mesh/mesh_part.h"
+#include "loads/mirrors.h"
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 

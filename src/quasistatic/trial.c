@@ -8,6 +8,7 @@
 #include "mesh/mesh_part.h"
 #include "quasistatic/load_steps.h"
 #include "rigid/rigid_part.h"
+#include "loads/mirrors.h"
 
 /* Saves all data that a trial equilibrium changes to the archive a if a->saving is true, else restores them from it.
  * Positions of mirror images and mesh points are left out, since they follow from the other data. Returns FAILED if an

@@ -6,6 +6,7 @@
 
 #include "base/eigenvalue.h"
 #include "base/memory.h"
+#include "loads/mirrors.h"
 
 #define STRAIN 1e-7 /* strain of the trial motion: its square is negligible, round-off relative to it about 1e-9 */
 /* Factor on the critical time step 2/omega_max found by iteration [1], empirical. The iteration ends a few parts in a

@@ -3,6 +3,7 @@
 
 #include "base/team.h"
 #include "solver_parts.h"
+#include "loads/mirrors.h"
 
 void static_body_compute_bond_forces(const struct static_body *body)
 {

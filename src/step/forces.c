@@ -1,6 +1,7 @@
 /* Internal forces at fixed positions. */
 
 #include "mesh/mesh_part.h"
+#include "loads/mirrors.h"
 
 void run_compute_internal_forces(struct run *e)
 {

@@ -15,6 +15,7 @@
 #include "step/viscosity.h"
 #include "probes/diagnostics.h"
 #include "step/checks.h"
+#include "loads/mirrors.h"
 
 /* Quantities that the phases of one step share. */
 struct step {

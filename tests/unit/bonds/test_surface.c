@@ -10,6 +10,7 @@
 #include "base/team.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
+#include "loads/mirrors.h"
 #include "src/bonds/surface_parts.h"
 
 enum { STRAINS = 6 };

@@ -18,6 +18,7 @@
 #include "step/report.h"
 #include "probes/diagnostics.h"
 #include "scene/scene_read.h"
+#include "loads/mirrors.h"
 
 /* Step of finite differences of forces: 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry; the
  * last bits of stretches, 2^-49, are 1e-10 of it. */

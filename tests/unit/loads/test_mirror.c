@@ -10,6 +10,7 @@
 #include "coupling/conversion.h"
 #include "kernels/kernels.h"
 #include "loads/loads.h"
+#include "loads/mirrors.h"
 #include "tests/support/near.h"
 #include "base/team.h"
 

@@ -6,6 +6,7 @@
 #include "tests/support/near.h"
 #include "probes/probes.h"
 #include "src/probes/probes_parts.h"
+#include "loads/mirrors.h"
 
 /* ---- step bar: characteristics ----------------------------------------------------------------------------------- */
 
