@@ -84,8 +84,13 @@ status option_check_has_value(const char *option, bool has_value, const char *us
     return has_value ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
-status option_read_picture_size_or_dpi(struct picture_size *size, const char *option, const char *option_value,
-                                       const char *usage)
+bool option_is_of_study_pictures(const char *option)
+{
+    return !strcmp(option, "--size") || !strcmp(option, "--dpi") || !strcmp(option, "--format");
+}
+
+status option_read_size_dpi_or_format(struct picture_size *size, const char *option, const char *option_value,
+                                      const char *usage)
 {
     TRY(option_check_has_value(option, option_value != NULL, usage));
     if (strcmp(option, "--size") == 0) return option_read_picture_size(size, option, option_value);

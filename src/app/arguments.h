@@ -29,10 +29,13 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
  * message, unless it is a number above 0, up to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
+/* Returns true if `option` is one of the options of the pictures of a study: --size, --dpi, --format. */
+bool option_is_of_study_pictures(const char *option);
+
 /* Reads the value of the option --size, --dpi or --format of a study. option_value: NULL if the option has none; usage:
  * usage line. Returns REFUSED, with a message, if it is missing or no size, resolution or format of a picture. */
-status option_read_picture_size_or_dpi(struct picture_size *size, const char *option, const char *option_value,
-                                       const char *usage);
+status option_read_size_dpi_or_format(struct picture_size *size, const char *option, const char *option_value,
+                                      const char *usage);
 
 /* Checks that the option `option` is followed by a value. Returns OK if has_value is true, else REFUSED, with a message
  * that contains the usage line `cleave USAGE`, USAGE being the text `usage`. */

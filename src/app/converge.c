@@ -66,8 +66,8 @@ static status converge_option(struct converge_arguments *a, const char *word, co
         return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
-    else if (!strcmp(word, "--size") || !strcmp(word, "--dpi") || !strcmp(word, "--format"))
-        return option_read_picture_size_or_dpi(&a->size, word, value, usage);
+    else if (option_is_of_study_pictures(word))
+        return option_read_size_dpi_or_format(&a->size, word, value, usage);
     else
         a->wanted[a->wanteds++] = value;
     return OK;
@@ -75,11 +75,10 @@ static status converge_option(struct converge_arguments *a, const char *word, co
 
 static status converge_words(struct converge_arguments *a, int argc, char **argv)
 {
-    static const char *const taking[] = {"-o",       "-s",   "-j",     "-t",    "--runs",  "--levels",
-                                         "--budget", "--of", "--size", "--dpi", "--format"};
+    static const char *const taking[] = {"-o", "-s", "-j", "-t", "--runs", "--levels", "--budget", "--of"};
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
-        bool takes = false;
+        bool takes = option_is_of_study_pictures(word);
         for (size_t t = 0; t < COUNT_OF(taking); t++) takes |= !strcmp(word, taking[t]);
         if (takes) TRY(option_check_has_value(word, k + 1 < argc, usage));
         if (takes)

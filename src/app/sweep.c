@@ -64,8 +64,8 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
             TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--of"))
             TRY(drawn_figure_add(a, k + 1 < argc ? argv[++k] : NULL));
-        else if (!strcmp(word, "--size") || !strcmp(word, "--dpi") || !strcmp(word, "--format"))
-            TRY(option_read_picture_size_or_dpi(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
+        else if (option_is_of_study_pictures(word))
+            TRY(option_read_size_dpi_or_format(&a->size, word, k + 1 < argc ? argv[++k] : NULL, usage));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
