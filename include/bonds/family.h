@@ -159,11 +159,12 @@ real family_micro_modulus(const struct family *f, const struct material *m);
  * is cubic, and its shear modulus equals c12. */
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
-/* Returns G/s_c^2 [N/m] in the model with particle rotations, with the work G per area that separates the two halves of
- * a lattice along a plane and the stretch s_c at which bonds break (separation.c). modulus: moduli of the material;
+/* Returns G/s_c^2 [N/m] of state-based peridynamics, with the work G per area that separates the two halves of a
+ * lattice along a plane and the stretch s_c at which bonds break (separation.c). f: family of the lattice; modulus:
+ * moduli of the material; particles_rotate: true for the model with particle rotations, false for the ordinary one;
  * intact_bonds_only: true if the weighted volume Q is summed over the unbroken bonds of a family, false over all. */
 real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
-                                                 bool intact_bonds_only);
+                                                 bool particles_rotate, bool intact_bonds_only);
 
 /* Returns the energy that the bonds across a lattice plane normal to an axis store, per area of the plane, if each has
  * the critical stretch of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */

@@ -79,6 +79,12 @@ static inline bool material_uses_mean_dilatation(const struct material *m, enum 
     return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
 }
 
+/* Returns true if the bulk and shear moduli of two materials are the same to the last bit. */
+static inline bool materials_have_equal_stiffness(const struct material *a, const struct material *b)
+{
+    return reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
+}
+
 /* Returns the stress at which the material begins to yield [Pa]. Only for materials that yield (material_yields). */
 static inline real material_initial_yield_stress(const struct material *m)
 {

@@ -69,29 +69,17 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-/* Returns G/s_c^2 [N/m]: the work per area that separates two halves of a lattice if the critical stretch is 1.
- * Arguments as those of layer_work. */
-static real separation_work(const struct family *f, const struct state_modulus *m, bool rotates, bool local)
+real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *m,
+                                                 bool particles_rotate, bool intact_bonds_only)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
     struct crossing *c = NEW("separation.crossing", room, struct crossing);
     real work = 0;
-    for (int layer = 0; layer < reach; layer++) work += layer_work(m, f, (layer + 0.5) * f->spacing, rotates, local, c);
+    for (int layer = 0; layer < reach; layer++)
+        work += layer_work(m, f, (layer + 0.5) * f->spacing, particles_rotate, intact_bonds_only, c);
     memory_free(c);
     return 2 * f->spacing * work;
-}
-
-real family_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *m,
-                                                 bool intact_bonds_only)
-{
-    return separation_work(f, m, true, intact_bonds_only);
-}
-
-real family_ordinary_fracture_energy_over_stretch_squared(const struct family *f, const struct state_modulus *modulus,
-                                                          bool intact_bonds_only)
-{
-    return separation_work(f, modulus, false, intact_bonds_only);
 }
 
 enum { OPENINGS = 1000 }; /* steps of the quadrature over the opening; 4000 give 1e-5 less */

@@ -77,8 +77,7 @@ static status interface_strength(struct reader *r, const struct yaml_node *n, st
     between.energy_release_rate = face->energy_release_rate;
     material_compute_derived_constants(&between, s->space);
     face->critical_stretch = scene_critical_stretch(s, &between);
-    const bool alike = reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
-    if (s->model == MODEL_BOND || alike) return OK;
+    if (s->model == MODEL_BOND || materials_have_equal_stiffness(a, b)) return OK;
     first.energy_release_rate = second.energy_release_rate = face->energy_release_rate;
     const real one_stretch = scene_critical_stretch(s, &first), other_stretch = scene_critical_stretch(s, &second);
     face->critical_stretch = sqrt(2 / (1 / square(one_stretch) + 1 / square(other_stretch)));

@@ -25,11 +25,9 @@ static void set_stretches(const struct scene *s, struct material *m)
     const struct softening_model model = scene_softening_model_of_bonds(s, m);
     m->onset_stretch = softening_model_onset_stretch(m, s->space, &model);
     if (s->model == MODEL_BOND || isnan(m->energy_release_rate)) return;
-    struct family f = {
-        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
+    const struct family f = scene_family(s);
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, model.rotates);
     const struct softening_curve curve = softening_curve_of_law(m->softening);
-    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     for (int k = 0; k < ITERATIONS && m->onset_stretch < m->critical_stretch; k++) {
         const struct softening_range range = softening_range_from_onset(&curve, m->onset_stretch, m->critical_stretch);
         const real work = family_fracture_energy_of_softening_bonds(&f, &modulus, model.rotates, &curve, range);

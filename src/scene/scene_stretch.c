@@ -5,6 +5,14 @@
 #include "scene/scene_softening.h"
 #include "scene_parts.h"
 
+struct family scene_family(const struct scene *s)
+{
+    struct family f = {
+        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
+    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
+    return f;
+}
+
 /* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form for
  * the influence function for which there is one (bonds in 2D and 3D: 1, ospd: horizon/r), else from the energy of the
  * bonds of a lattice across a plane or, with state-based models, from the energy that separates its two halves. */
@@ -15,17 +23,14 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
                              : s->influence == INFLUENCE_INVERSE && s->model == MODEL_OSPD;
     if (closed)
         return material_critical_stretch(m, s->space, s->horizon * s->spacing, bond ? STRETCH_BOND : STRETCH_OSPD);
-    struct family f = {
-        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
+    const struct family f = scene_family(s);
     struct material unit = *m;
     unit.critical_stretch = 1;
-    family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     if (bond) return sqrt(m->energy_release_rate / family_crack_energy_per_area(&f, &unit));
     const bool rotates = s->model == MODEL_MOSPD;
     const struct state_modulus modulus = state_based_moduli_of_material(m, s->space, rotates);
-    const real energy = rotates ? family_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk)
-                                : family_ordinary_fracture_energy_over_stretch_squared(&f, &modulus, !s->bulk);
-    return sqrt(m->energy_release_rate / energy);
+    const real unit_energy = family_fracture_energy_over_stretch_squared(&f, &modulus, rotates, !s->bulk);
+    return sqrt(m->energy_release_rate / unit_energy);
 }
 
 /* Returns the energy per area of the bonds of material m across a plane over the square of their stretch [J/m^2]. */
@@ -40,8 +45,8 @@ static real energy_over_stretch_squared(const struct scene *s, const struct mate
 real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a, const struct material *b)
 {
     const real least = real_min(a->critical_stretch, b->critical_stretch);
-    const bool alike = reals_are_bitwise_equal(a->bulk, b->bulk) && reals_are_bitwise_equal(a->shear, b->shear);
-    if (alike || !isfinite(least) || material_yields(a) || material_yields(b)) return least;
+    if (materials_have_equal_stiffness(a, b) || !isfinite(least)) return least;
+    if (material_yields(a) || material_yields(b)) return least;
     const real k = energy_over_stretch_squared(s, a), l = energy_over_stretch_squared(s, b);
     const real energy = real_min(k * square(a->critical_stretch), l * square(b->critical_stretch));
     return sqrt(energy / (s->model == MODEL_BOND ? 2 * k * l / (k + l) : 0.5 * (k + l)));
