@@ -208,7 +208,7 @@ status crack_increment_apply_at_energy_balance(struct run *e)
 {
     const real size = increment_energy_balance_load_size(&e->statics->ahead);
     if (isfinite(size)) TRY(equilibrium_find_at_time(e, statics_time_of_load_size(e, size)));
-    return crack_increment_apply_at_present_loads(e);
+    return crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e));
 }
 
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e)
@@ -227,9 +227,4 @@ status crack_increment_equilibrate(struct run *e, int64_t broken_bonds)
     TRY(equilibrium_find_at_time(e, e->statics->t));
     plastic_state_save(&e->statics->plastic, &e->bonds, &e->part, e->optional);
     return equilibrium_convert_points_and_solve_again(e, broken_bonds);
-}
-
-status crack_increment_apply_at_present_loads(struct run *e)
-{
-    return crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e));
 }

@@ -20,10 +20,6 @@ real crack_area_of_growth_by_one_spacing(const struct run *e);
  * a trial equilibrium is not found. */
 status crack_increment_find(struct run *e);
 
-/* Makes the next crack increment under the present loads: breaks its bonds and finds the equilibrium without them.
- * Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
-status crack_increment_apply_at_present_loads(struct run *e);
-
 /* Breaks the bonds of the next crack increment and moves the tips of SIF-driven cracks, without finding the new
  * equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
 int64_t crack_increment_break_bonds_and_move_tips(struct run *e);

@@ -8,6 +8,7 @@
 #include "flow_turn.h"
 #include "sif_cracks.h"
 #include "load_size.h"
+#include "opening.h"
 #include "unconstrained.h"
 #include "softening_step.h"
 #include "springs.h"
@@ -25,15 +26,12 @@
 #include "step/report.h"
 #include "step/sample.h"
 
-#define OPENING_ERROR 1e-4 /* relative error of a prescribed opening */
-#define OPENING_FAR 1e-2   /* relative error of a prescribed opening that ends the run */
-#define FAR_BEYOND 1.2     /* stretch ratio above which an equilibrium is discarded for one at smaller loads */
-#define NEAR_LIMIT 0.95    /* stretch ratio of the equilibrium that replaces it */
-#define NEAR_LEAST 0.85    /* stretch ratio above which the loads are close enough to the next increment */
-#define ROUND_OFF 1e-6     /* relative difference of equal loads */
-#define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
-#define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
-enum { SECANTS_MOST = 12, BRACKETS_MOST = 60, APPROACHES_MOST = 12 };
+#define FAR_BEYOND 1.2  /* stretch ratio above which an equilibrium is discarded for one at smaller loads */
+#define NEAR_LIMIT 0.95 /* stretch ratio of the equilibrium that replaces it */
+#define NEAR_LEAST 0.85 /* stretch ratio above which the loads are close enough to the next increment */
+#define ROUND_OFF 1e-6  /* relative difference of equal loads */
+#define THROUGH 1e-2    /* share of the largest load size at which the body counts as severed */
+enum { APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
@@ -110,7 +108,8 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
         TRY(crack_increment_apply_by_dynamic_release(e));
     else
-        TRY(pays ? crack_increment_apply_at_present_loads(e) : crack_increment_apply_at_energy_balance(e));
+        TRY(pays ? crack_increment_equilibrate(e, crack_increment_break_bonds_and_move_tips(e))
+                 : crack_increment_apply_at_energy_balance(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_find_at_time(e, t));
     return crack_increment_find(e);
 }
@@ -153,98 +152,13 @@ static status step_by_energy(struct run *e, real most)
     return OK;
 }
 
-/* Returns the opening: the increase of the distance between the two gauge particles of the scene since the start
- * [m]. */
-static real opening_now(const struct particles *part, const struct statics *statics)
-{
-    real now = 0, initial = 0;
-    for (int d = 0; d < part->dim; d++) {
-        const int64_t a = statics->gauge[0], b = statics->gauge[1];
-        now += square(part->x[d][b] - part->x[d][a]);
-        initial += square(part->X[d][b] - part->X[d][a]);
-    }
-    return sqrt(now) - sqrt(initial);
-}
-
-/* Returns true if points or bonds may yield. */
-static bool has_yield(const struct particles *p, const struct bonds *b)
-{
-    return p->plastic_correction[0] || b->plastic_stretch;
-}
-
-/* The search for the pseudo-time at which the opening equals a wanted one. Where points yield, the opening grows with
- * the loads, but its slope changes by a factor of hundreds: the secant method is then confined to a bracket. */
-struct opening_search {
-    real t[2];      /* the last two pseudo-times, or the ends of the bracket: opening too small, too large [s] */
-    real differ[2]; /* opening there less the wanted one [m] */
-    bool bracket;   /* t[] and differ[] are the ends of a bracket */
-    int last;       /* the end of the bracket that was replaced last */
-};
-
-/* Takes the equilibrium at pseudo-time t [s], whose opening is larger than the wanted one by `differ` [m], into the
- * search r for a body that yields. Returns the next pseudo-time to try [s]: by the secant method, limited to 0 .. 2 t,
- * within a bracket by its Illinois variant, which halves the difference of an end that was kept twice. Returns t if
- * the opening has not changed since the last call. */
-static real opening_search_next(struct opening_search *r, real t, real differ)
-{
-    const int end = differ > 0;
-    if (r->bracket && end == r->last) r->differ[!end] *= 0.5;
-    if (!r->bracket && (r->differ[0] > 0) != end) {
-        r->bracket = true;
-        r->t[!end] = r->t[0], r->differ[!end] = r->differ[0];
-    } else if (!r->bracket) {
-        const real rise = differ - r->differ[0], next = t - differ * (t - r->t[0]) / rise;
-        const bool constant = fabs(rise) <= OPENING_ERROR * fabs(differ);
-        r->t[0] = t, r->differ[0] = differ;
-        return constant ? t : real_min(real_max(next, 0), 2 * t);
-    }
-    r->t[end] = t, r->differ[end] = differ, r->last = end;
-    return r->t[0] - r->differ[0] * (r->t[1] - r->t[0]) / (r->differ[1] - r->differ[0]);
-}
-
-/* Finds the equilibrium at which the opening between the gauge particles equals `wanted` [m], by the secant method. t:
- * first pseudo-time tried [s]. A body that yields starts every attempt from the present state. Returns FAILED, with a
- * message, if an equilibrium is not found, or if its opening differs from the wanted one by OPENING_FAR. */
-static status go_to_opening(struct run *e, real wanted, real t)
-{
-    struct statics *s = e->statics;
-    const bool yields = has_yield(&e->part, &e->bonds);
-    real from = s->t, at_from = opening_now(&e->part, s), at = at_from, tried = from;
-    struct opening_search search = {.t = {from}, .differ = {at_from - wanted}};
-    bool near = yields && fabs(at - wanted) <= OPENING_ERROR * fabs(wanted);
-    for (int k = 0; k < (yields ? BRACKETS_MOST : SECANTS_MOST) && !near; k++) {
-        struct memory_archive saved;
-        if (yields) trial_equilibrium_begin(e, &saved);
-        const status found = equilibrium_find_at_time(e, real_max(t, 0));
-        at = opening_now(&e->part, s);
-        const real slope = (at - at_from) / (s->t - from);
-        tried = s->t;
-        near = found != OK || fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) ||
-               (!yields && (tried == from || !(slope != 0)));
-        if (yields && !near)
-            trial_equilibrium_undo(e, &saved, NULL);
-        else if (yields)
-            memory_archive_free(&saved);
-        TRY(found);
-        t = yields ? opening_search_next(&search, tried, at - wanted) : tried + (wanted - at) / slope;
-        if (yields && t == tried) break;
-        if (!yields) from = tried, at_from = at;
-    }
-    if (fabs(at - wanted) <= OPENING_FAR * fabs(wanted)) return OK;
-    return status_set(
-        FAILED,
-        "load step %lld: no load opens the gauge by %.6g m; the last one tried, of load time %.4g s, does "
-        "by %.6g m: use larger loads or more steps, or displacement with steps.control: load",
-        (long long)e->clock.step + 1, wanted, tried, at);
-}
-
 /* Returns true if the next crack increment, due at the load size `due`, comes before the opening reaches `wanted` [m].
  * Assumes that the opening grows in proportion to the loads. size: present load size, in the unit of `due` ([m] or
  * [N]). */
 static bool increment_before_opening(const struct particles *p, const struct statics *s, real size, real due,
                                      real wanted)
 {
-    const real now = opening_now(p, s);
+    const real now = gauge_opening(p, s);
     return s->next.n > 0 && now > 0 && now / size * due < wanted;
 }
 
@@ -254,13 +168,13 @@ static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
     const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number,
-               now = opening_now(&e->part, e->statics);
+               now = gauge_opening(&e->part, e->statics);
     const real first = e->statics->t + e->scene->duration / (real)s->number;
     real t = now > 0 ? e->statics->t * wanted / now : first;
-    if (e->statics->next.n == 0 && has_yield(&e->part, &e->bonds)) {
+    if (e->statics->next.n == 0 && body_may_yield(&e->part, &e->bonds)) {
         struct memory_archive saved;
         trial_equilibrium_begin(e, &saved);
-        const status found = go_to_opening(e, wanted, t);
+        const status found = opening_go_to(e, wanted, t);
         t = e->statics->t;
         if (found == OK)
             trial_equilibrium_undo(e, &saved, NULL);
@@ -276,9 +190,9 @@ static status step_by_opening(struct run *e)
         if (open && !before) return OK;
         open = !before;
         if (open) {
-            TRY(go_to_opening(e, wanted,
-                              opening_now(&e->part, e->statics) > 0
-                                  ? e->statics->t * wanted / opening_now(&e->part, e->statics)
+            TRY(opening_go_to(e, wanted,
+                              gauge_opening(&e->part, e->statics) > 0
+                                  ? e->statics->t * wanted / gauge_opening(&e->part, e->statics)
                                   : first));
             TRY(equilibrium_convert_points_and_solve_again(e, 0));
         } else {
@@ -327,30 +241,6 @@ static status load_step(struct run *e)
     return OK;
 }
 
-/* Returns REFUSED, with a message, if a gauge position of the opening is far from the body, or if both are at one
- * particle. */
-static status check_opening(const struct scene *scene, const struct particles *part)
-{
-    const struct scene_steps *s = &scene->steps;
-    const real *const at[] = {s->from, s->to};
-    const int64_t nearest[] = {particles_index_nearest_to_position(part, s->from),
-                               particles_index_nearest_to_position(part, s->to)};
-    for (int k = 0; k < 2; k++) {
-        real X[DIM_MAX], away = 0;
-        particle_reference_position(part, nearest[k], X);
-        for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
-        if (sqrt(away) > FAR_OFF * scene->spacing)
-            return status_set(REFUSED,
-                              "steps.%s: the body is %.3g m away from this position; a position on the body, where the "
-                              "gauge is mounted, is expected",
-                              k ? "to" : "from", sqrt(away));
-    }
-    if (nearest[0] != nearest[1]) return OK;
-    return status_set(
-        REFUSED,
-        "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
-}
-
 /* Returns REFUSED, with a message, if the control of load steps is energy or opening, which scale the loads by the
  * pseudo-time, but loads and supports are constant. quarter, half, whole: load sizes at a quarter, at half and at the
  * end of the duration, [m] or [N]. */
@@ -368,7 +258,7 @@ status statics_check_scene_is_solvable(const struct run *e)
 {
     const struct scene *s = e->scene;
     if (!scene_has_load_steps(s)) return OK;
-    if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
+    if (s->steps.control == CONTROL_OPENING) TRY(gauge_check_positions(e->scene, &e->part));
     TRY(check_loads_grow(s, statics_norm_of_prescribed_loads(e, 0.25 * s->duration),
                          statics_norm_of_prescribed_loads(e, 0.5 * s->duration),
                          statics_norm_of_prescribed_loads(e, s->duration)));

@@ -6,9 +6,10 @@
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"
 #include "solver/solver.h"
-#include "probes/diagnostics.h"
+#include "run/energies.h"
 #include "step/step.h"
 #include "step/checks.h"
+#include "loads/mirrors.h"
 
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
 #define MOTION_SMALL 1e-6 /* ratio of kinetic to strain energy of a body at rest */

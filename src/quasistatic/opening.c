@@ -1,0 +1,135 @@
+/* The gauge of load steps that control an opening: its opening, and the search for loads that give a wanted one. */
+#include "opening.h"
+
+#include <math.h>
+
+#include "balance.h"
+#include "trial.h"
+
+#include "data/particles.h"
+#include "quasistatic/load_steps.h"
+
+#define OPENING_ERROR 1e-4 /* relative error of a prescribed opening */
+#define OPENING_FAR 1e-2   /* relative error of a prescribed opening that ends the run */
+#define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
+enum { SECANTS_MOST = 12, BRACKETS_MOST = 60 };
+
+status gauge_check_positions(const struct scene *scene, const struct particles *part)
+{
+    const struct scene_steps *s = &scene->steps;
+    const real *const at[] = {s->from, s->to};
+    const int64_t nearest[] = {particles_index_nearest_to_position(part, s->from),
+                               particles_index_nearest_to_position(part, s->to)};
+    for (int k = 0; k < 2; k++) {
+        real X[DIM_MAX], away = 0;
+        particle_reference_position(part, nearest[k], X);
+        for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
+        if (sqrt(away) > FAR_OFF * scene->spacing)
+            return status_set(REFUSED,
+                              "steps.%s: the body is %.3g m away from this position; a position on the body, where the "
+                              "gauge is mounted, is expected",
+                              k ? "to" : "from", sqrt(away));
+    }
+    if (nearest[0] != nearest[1]) return OK;
+    return status_set(
+        REFUSED,
+        "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
+}
+
+real gauge_opening(const struct particles *part, const struct statics *statics)
+{
+    real now = 0, initial = 0;
+    for (int d = 0; d < part->dim; d++) {
+        const int64_t a = statics->gauge[0], b = statics->gauge[1];
+        now += square(part->x[d][b] - part->x[d][a]);
+        initial += square(part->X[d][b] - part->X[d][a]);
+    }
+    return sqrt(now) - sqrt(initial);
+}
+
+bool body_may_yield(const struct particles *part, const struct bonds *bonds)
+{
+    return part->plastic_correction[0] || bonds->plastic_stretch;
+}
+
+/* The search for the pseudo-time at which the opening equals a wanted one. Where points yield, the opening grows with
+ * the loads, but its slope changes by a factor of hundreds: the secant method is then confined to a bracket. */
+struct opening_search {
+    real t[2];      /* the last two pseudo-times, or the ends of the bracket: opening too small, too large [s] */
+    real differ[2]; /* opening there less the wanted one [m] */
+    bool bracket;   /* t[] and differ[] are the ends of a bracket */
+    int last;       /* the end of the bracket that was replaced last */
+};
+
+/* Takes the equilibrium at pseudo-time t [s], whose opening is larger than the wanted one by `differ` [m], into the
+ * search r for a body that yields. Returns the next pseudo-time to try [s]: by the secant method, limited to 0 .. 2 t,
+ * within a bracket by its Illinois variant, which halves the difference of an end that was kept twice. Returns t if
+ * the opening has not changed since the last call. */
+static real opening_search_next(struct opening_search *r, real t, real differ)
+{
+    const int end = differ > 0;
+    if (r->bracket && end == r->last) r->differ[!end] *= 0.5;
+    if (!r->bracket && (r->differ[0] > 0) != end) {
+        r->bracket = true;
+        r->t[!end] = r->t[0], r->differ[!end] = r->differ[0];
+    } else if (!r->bracket) {
+        const real rise = differ - r->differ[0], next = t - differ * (t - r->t[0]) / rise;
+        const bool constant = fabs(rise) <= OPENING_ERROR * fabs(differ);
+        r->t[0] = t, r->differ[0] = differ;
+        return constant ? t : real_min(real_max(next, 0), 2 * t);
+    }
+    r->t[end] = t, r->differ[end] = differ, r->last = end;
+    return r->t[0] - r->differ[0] * (r->t[1] - r->t[0]) / (r->differ[1] - r->differ[0]);
+}
+
+/* Returns true if the opening `at` equals the opening `wanted` within the relative error `error`. */
+static bool opening_is_near(real at, real wanted, real error) { return fabs(at - wanted) <= error * fabs(wanted); }
+
+/* Finds the equilibrium of a body that yields at which the opening between the gauge particles equals `wanted` [m].
+ * Each attempt starts from the state at the call, since plastic strains depend on the path; that state is restored
+ * after attempts that fail. t: first pseudo-time tried [s]. *at: receives the opening of the last attempt [m], which
+ * the caller compares. Returns FAILED, with a message, if an equilibrium is not found. */
+static status find_opening_of_yielding_body(struct run *e, real wanted, real t, real *at)
+{
+    const struct statics *s = e->statics;
+    *at = gauge_opening(&e->part, s);
+    struct opening_search search = {.t = {s->t}, .differ = {*at - wanted}};
+    bool ends = opening_is_near(*at, wanted, OPENING_ERROR);
+    for (int k = 0; k < BRACKETS_MOST && !ends; k++) {
+        struct memory_archive saved;
+        trial_equilibrium_begin(e, &saved);
+        const status found = equilibrium_find_at_time(e, real_max(t, 0));
+        *at = gauge_opening(&e->part, s);
+        const real tried = s->t;
+        t = found == OK ? opening_search_next(&search, tried, *at - wanted) : tried;
+        ends = k + 1 == BRACKETS_MOST || t == tried;
+        const bool kept = opening_is_near(*at, wanted, ends ? OPENING_FAR : OPENING_ERROR);
+        if (found != OK || kept)
+            memory_archive_free(&saved);
+        else
+            trial_equilibrium_undo(e, &saved, NULL);
+        TRY(found);
+        ends |= kept;
+    }
+    return OK;
+}
+
+status opening_go_to(struct run *e, real wanted, real t)
+{
+    const bool yields = body_may_yield(&e->part, &e->bonds);
+    real at = gauge_opening(&e->part, e->statics);
+    if (yields) TRY(find_opening_of_yielding_body(e, wanted, t, &at));
+    for (int k = 0; k < SECANTS_MOST && !yields; k++) { /* secant method */
+        const real from = e->statics->t, before = at;
+        TRY(equilibrium_find_at_time(e, real_max(t, 0)));
+        at = gauge_opening(&e->part, e->statics);
+        const real change = e->statics->t - from, slope = (at - before) / change;
+        if (opening_is_near(at, wanted, OPENING_ERROR) || change == 0 || !(slope != 0)) break;
+        t = e->statics->t + (wanted - at) / slope;
+    }
+    if (opening_is_near(at, wanted, OPENING_FAR)) return OK;
+    return status_set(FAILED,
+                      "load step %lld: no load opens the gauge by %.6g m; the last one tried opens it by %.6g m: use "
+                      "larger loads or more steps, or displacement with steps.control: load",
+                      (long long)e->clock.step + 1, wanted, at);
+}

@@ -1,0 +1,24 @@
+/* The gauge of load steps that control an opening: two particles, on both sides of a crack, whose distance increases.
+ */
+#ifndef CLEAVE_OPENING
+#define CLEAVE_OPENING
+
+#include "quasistatic/statics.h"
+#include "run/run.h"
+
+/* Returns REFUSED, with a message, if a gauge position of the scene is far from the body, or if both are at one
+ * particle. */
+status gauge_check_positions(const struct scene *scene, const struct particles *part);
+
+/* Returns the opening: the increase of the distance between the two gauge particles since the start [m]. */
+real gauge_opening(const struct particles *part, const struct statics *statics);
+
+/* Returns true if points or bonds may yield. */
+bool body_may_yield(const struct particles *part, const struct bonds *bonds);
+
+/* Finds the equilibrium at which the opening between the gauge particles equals `wanted` [m]. t: first pseudo-time
+ * tried [s]. Returns FAILED, with a message, if an equilibrium is not found, or if its opening differs from the wanted
+ * one by more than a hundredth. */
+status opening_go_to(struct run *e, real wanted, real t);
+
+#endif
