@@ -8,7 +8,7 @@
 
 #include "base/memory_archive.h"
 #include "bonds/family.h"
-#include "data/region.h"
+#include "quasistatic/sif_tips.h"
 #include "scene/scene.h"
 #include "solver/equilibrium.h"
 
@@ -32,78 +32,6 @@ _Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no
 struct break_list {
     int64_t n;
     struct broken_bond *bond; /* [n] */
-};
-
-/* Energies of a crack increment, a set of bonds that break together. The energy that the body releases grows with the
- * square of the load size L, a measure proportional to the loads: prescribed displacements [m] or else forces [N]
- * (statics_norm_of_prescribed_loads). */
-struct crack_increment {
-    real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
-    real release; /* energy that the body releases, over the square of the load size (statics_norm_of_prescribed_loads)
-                   * [J/m^2, J/N^2]
-                   */
-};
-
-/* The tip of a SIF-driven crack: the direction of its growth follows from its stress-intensity factors. In space the
- * struct describes a straight front by its intersection with the plane across it. Positions are reference positions in
- * that plane. */
-struct sif_crack_tip {
-    real start[2];      /* position before any growth [m] */
-    real position[2];   /* present position [m] */
-    real along[2];      /* unit vector: x axis of the frame of the stress-intensity factors */
-    real heading[2];    /* unit vector: direction of the next increment */
-    real last[2];       /* unit vector: direction of the segment that ends at the tip */
-    real straight;      /* length of growth for which the direction still stays constant [m] */
-    real length_behind; /* length of the crack behind the tip, from its start or its last kink [m] */
-    real grown;         /* growth so far [m] */
-    bool reversed;      /* the first corner of the pre-crack lies at this tip, not the second one */
-    bool ended;         /* the tip has reached a surface or another crack and grows no more */
-    bool selected;      /* the tip takes part in the next crack increment */
-    int body;
-    real K[2];                     /* K_I and K_II of the last evaluation [Pa m^(1/2)] */
-    struct crack_increment ahead;  /* the next increment of the tip */
-    struct crack_increment behind; /* the last increment of the tip */
-    real due;                      /* load size at which the next increment is due, INFINITY: at no load */
-};
-
-/* The plane in which the tips move: the plane of a plane body, or in space the plane across the fronts, which must be
- * straight and parallel and run through the whole body (sif_plane.c). */
-struct sif_plane {
-    bool made;
-    int dim;               /* of the body */
-    real spacing;          /* of the particles [m] */
-    real section;          /* thickness of a plane body [m] */
-    real axis[2][DIM_MAX]; /* unit vectors that span the plane */
-    real front[DIM_MAX];   /* unit vector along the fronts; 0 for a plane body */
-    real middle;           /* position of the middle of a front along `front` [m] */
-    int mirrors;
-    struct mirror_plane
-        mirror[2 * DIM_MAX]; /* [mirrors] symmetry planes parallel to the fronts; `axis` is one of the plane */
-    int body_mirrors;
-    const struct mirror_plane
-        *body_mirror; /* [body_mirrors] symmetry planes of the body; `axis` is one of space; borrowed */
-};
-
-enum { SIF_TIPS_MAX = 64 };
-
-/* A straight segment of the path of a tip, which bonds do not cross. */
-struct path_segment {
-    real at[2][DIM_MAX]; /* its ends, in the plane of the tips [m] */
-    int tip;             /* number of the tip */
-};
-
-/* The cracks whose growth direction follows from their stress-intensity factors. */
-struct sif_cracks {
-    const struct scene *scene;        /* borrowed */
-    const struct bond_source *source; /* borrowed: pre-cracks, family and critical stretches */
-    struct sif_plane plane;
-    const char *fault; /* why no crack of the scene is SIF-driven; NULL: cracks are */
-    bool known;        /* the tips of the pre-cracks have been found */
-    int n;
-    struct sif_crack_tip tip[SIF_TIPS_MAX]; /* [n] */
-    real tried;                             /* load size at which the next increment was last determined [m, N] */
-    int64_t segments;
-    struct path_segment *path; /* [segments] cut so far, in the order of growth */
 };
 
 /* Crack area and released energy at one instant. The energy release rate is the difference of the energies of two

@@ -2,7 +2,6 @@
 #include <math.h>
 
 #include "probes/probes_part.h"
-#include "mesh/mesh_part.h"
 #include "grid/grid_part.h"
 
 /* Returns true if position x[dim] [m] is in the region of a PATCH probe of scene s. */

@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "fracture/tips.h"
-#include "quasistatic/statics.h"
+#include "quasistatic/sif_tips.h"
 #include "run/run.h"
 
 /* ---- the plane of the tips (sif_plane.c) ------------------------------------------------------------------------- */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "sif_cracks.h"
+#include "quasistatic/statics.h"
 
 #include "fracture/fracture_part.h"
 

@@ -8,7 +8,6 @@
 
 #include "base/memory.h"
 #include "quasistatic/load_steps.h"
-#include "quasistatic/statics.h"
 #include "rigid/rigid_part.h"
 
 #define SIDEWAYS 1e-3 /* share of the largest loads above which a different load is not round-off */

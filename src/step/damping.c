@@ -15,8 +15,8 @@
 
 #include "base/memory.h"
 #include "base/team.h"
-#include "mesh/mesh_part.h"
 #include "step/damping.h"
+#include "loads/mirrors.h"
 
 #define EXPONENT_MOST 50.0 /* largest c dt: beyond it, exp(-c dt) is round-off */
 
