@@ -17,6 +17,11 @@ enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 /* Influence function omega(r): 1, exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
 enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
 
+/* What the energy of a bond of weight w grows with the square of: its stretch s as c w s^2 r (bond-based), its
+ * elongation e as w e^2 (ordinary state-based), the displacement eta of its ends as w |eta|^2 (with particle
+ * rotations). */
+enum bond_energy { ENERGY_OF_STRETCH, ENERGY_OF_ELONGATION, ENERGY_OF_DISPLACEMENT };
+
 /* Rules and sizes that define families and their weights. */
 struct family {
     enum space space;
@@ -25,6 +30,7 @@ struct family {
     enum surface_rule surface;
     enum shell_rule shells;
     enum influence influence;
+    enum bond_energy energy;
     real spacing;         /* lattice spacing [m] */
     real horizon;         /* delta [m] */
     real cutoff;          /* distance of the farthest neighbour, with its relative tolerance [m] */

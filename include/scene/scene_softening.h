@@ -2,8 +2,12 @@
 #ifndef CLEAVE_SCENE_SOFTENING
 #define CLEAVE_SCENE_SOFTENING
 
+#include "bonds/family.h"
 #include "data/softening_states.h"
 #include "scene/scene.h"
+
+/* Returns the complete family of a particle on the lattice of the scene s, with its horizon and weights of bonds. */
+struct family scene_family(const struct scene *s);
 
 /* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
  * over the modulus E' of uniaxial tension. */

@@ -39,6 +39,21 @@ static real influence(const struct family *f, real r)
     }
 }
 
+/* Returns the weight, but for constant factors, that a bond of length r [m] has in the elastic constants of a lattice:
+ * omega r for energies of stretches, omega r^2 for those of elongations. Energies of displacements are isotropic with
+ * any weights by direction; theirs are those of bonds without influence function. */
+static real stiffness_weight(const struct family *f, real r)
+{
+    switch (f->energy) {
+    case ENERGY_OF_STRETCH:
+        return influence(f, r) * r;
+    case ENERGY_OF_ELONGATION:
+        return f->influence == INFLUENCE_INVERSE ? r : influence(f, r) * r * (r / f->horizon);
+    default:
+        return r;
+    }
+}
+
 /* Returns the distance r [m] with the round-off of positions removed: the lattice distance spacing sqrt(k) nearest to
  * it, if it is one up to round-off, else r. Bonds of equal length then have weights that are equal to the last bit. */
 static real true_length(const struct family *f, real r)
@@ -66,7 +81,7 @@ struct lattice_sums {
     real volume;             /* sum V beta                    */
     real sigma;              /* sum r V beta times shell weight */
     real weighted;           /* sum of r^2 times the weights as bonds store them */
-    real axial[2], mixed[2]; /* sums of r V beta n1^4 and of r V beta n1^2 n2^2, by class of direction */
+    real axial[2], mixed[2]; /* sums of n1^4 and of n1^2 n2^2 times V beta stiffness_weight, by class of direction */
 };
 
 /* Adds the lattice point at xi[dim] [m] relative to the particle to the sums *s over a family, if it is within the
@@ -81,8 +96,9 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     s->volume += V * beta;
     s->sigma += r * V * family_bond_weight(f, xi, r);
     s->weighted += r * r * family_bond_weight(f, xi, r);
-    s->axial[class] += r * V * beta * fourth / dim;
-    s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
+    const real weight = stiffness_weight(f, r) * V * beta;
+    s->axial[class] += weight * fourth / dim;
+    s->mixed[class] += dim > 1 ? weight * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
 
 /* Returns the sums over all lattice points of a full family f, on which the constants of the family depend. */
@@ -102,8 +118,8 @@ static struct lattice_sums lattice_sums(const struct family *f)
 }
 
 /* Computes the factors f->shell_weight of bonds nearer the axes and of bonds nearer the diagonals such that the
- * family is isotropic: sum r n1^4 = 3 sum r n1^2 n2^2, i.e. C11 = C12 + 2 C44 with C12 = C44. Their scale keeps sum
- * r V unchanged. If there is no solution, the factors remain as they are. */
+ * family is isotropic: sum k n1^4 = 3 sum k n1^2 n2^2 with k of stiffness_weight, i.e. C11 = C12 + 2 C44 with C12 =
+ * C44. Their scale keeps sum r omega V unchanged. If there is no solution, the factors remain as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;

@@ -147,17 +147,6 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Sets the options of families (neighbours of particles within the horizon) from scene s, and computes their
- * constants. */
-static void make_family(const struct scene *s, struct bond_source *source)
-{
-    struct family *f = &source->family;
-    f->volume = s->volume, f->calibration = s->calibration, f->surface = s->surface, f->shells = s->shells;
-    f->influence = s->influence;
-    family_make_on_lattice(f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
-    source->material = s->material, source->materials = s->materials;
-}
-
 /* Creates the planes of symmetry of the scene, and the mirror images of pre-cracks, which cut bonds across these
  * planes, in `source` and `tables`. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
@@ -297,7 +286,8 @@ static status make_particles(struct run *e)
     const struct scene *s = e->scene;
     e->optional = optional_arrays(s);
     make_materials(s, &e->tables, &e->source);
-    make_family(s, &e->source);
+    e->source.family = scene_family(s);
+    e->source.material = s->material, e->source.materials = s->materials;
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
     TRY(scene_prepend_location(s, cells_without_particles_choose_for_scene(&e->frame->hollow, s, &e->source)));
     if (!e->frame->hollow.absent) TRY(scene_prepend_location(s, engine_check_memory(s, &e->part, &e->source)));

@@ -213,6 +213,25 @@ static void warn_of_horizon(const struct scene *s, struct warnings *to)
             s->horizon, 2 * s->dim);
 }
 
+#define STIFFNESS_APART 0.05 /* relative error of a bulk modulus that is worth a warning; vmpd has 0.02 */
+
+/* Adds a warning to *to if bonds of the family f, by their calibration, make a material stiffer or softer than the
+ * scene says. */
+static void warn_of_stiffness(const struct scene *s, const struct family *f, struct warnings *to)
+{
+    real c11, c12;
+    const struct material *m = &s->material[0];
+    if (s->method == METHOD_MPM || s->model != MODEL_BOND || f->calibration == CALIBRATION_LATTICE) return;
+    family_elastic_constants(f, m, &c11, &c12);
+    const int others = s->dim - 1;
+    const real ratio = (c11 + others * c12) / (m->c11 + others * m->c12);
+    if (fabs(ratio - 1) > STIFFNESS_APART)
+        warnings_add_if_new(to,
+                            "pd.calibration: %s gives bonds of this influence function and horizon %.2f times the bulk "
+                            "modulus of the material: pd.calibration: lattice is exact",
+                            f->calibration == CALIBRATION_CONTINUUM ? "continuum" : "vmpd", ratio);
+}
+
 void engine_warn_of_suspicious_input(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -223,6 +242,7 @@ void engine_warn_of_suspicious_input(struct run *e)
             s->renamed);
     warn_of_step(s, &e->clock, to);
     warn_of_horizon(s, to);
+    warn_of_stiffness(s, &e->source.family, to);
     warn_of_coupling(s, e->coupling_kind, to);
     warn_of_cells(s, e->part.n_free > 0, to);
     if (e->part.n_free > 0) warn_of_spin(s, e->grid, to);

@@ -2,7 +2,6 @@
 #ifndef CLEAVE_SCENE_PARTS
 #define CLEAVE_SCENE_PARTS
 
-#include "bonds/family.h"
 #include "scene_internal.h"
 
 /* Reads a region, a list of solids, from the node `region_node` into *region. Solids may be names of other regions,
@@ -96,9 +95,6 @@ status read_interfaces(struct reader *r, const struct yaml_node *root);
 /* Returns REFUSED, with a message, if a boundary condition applies to only one of several joined bodies. root: tree of
  * the scene. */
 status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
-
-/* Returns the complete family of a particle on the lattice of the scene s, with its horizon and weights of bonds. */
-struct family scene_family(const struct scene *s);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,
  * horizon and space of the scene s. */

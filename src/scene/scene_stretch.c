@@ -7,8 +7,14 @@
 
 struct family scene_family(const struct scene *s)
 {
-    struct family f = {
-        .volume = s->volume, .calibration = s->calibration, .shells = s->shells, .influence = s->influence};
+    struct family f = {.volume = s->volume,
+                       .calibration = s->calibration,
+                       .surface = s->surface,
+                       .shells = s->shells,
+                       .influence = s->influence,
+                       .energy = s->model == MODEL_BOND   ? ENERGY_OF_STRETCH
+                                 : s->model == MODEL_OSPD ? ENERGY_OF_ELONGATION
+                                                          : ENERGY_OF_DISPLACEMENT};
     family_make_on_lattice(&f, s->space, s->spacing, s->horizon, scene_section_or_thickness(s));
     return f;
 }

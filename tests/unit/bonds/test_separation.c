@@ -143,9 +143,30 @@ static void test_influence(void **state)
         }
 }
 
+/* Lattices have the elastic constants of the isotropic material for every influence function, since the two weights by
+ * direction, and the calibration, include it; bond-based models, with their Poisson's ratio. Tolerance: round-off of
+ * sums over some hundred bonds. */
+static void test_isotropy(void **state)
+{
+    (void)state;
+    static const enum space spaces[] = {SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
+    for (size_t k = 0; k < COUNT_OF(spaces); k++)
+        for (int influence = INFLUENCE_ONE; influence <= INFLUENCE_LINEAR; influence++) {
+            struct material m = {.young = 3.1e9, .poisson = bond_based_poisson_ratio(spaces[k]), .density = 1180};
+            struct family f = {.shells = SHELLS_ISOTROPIC, .influence = (enum influence)influence};
+            real c11, c12;
+            material_compute_derived_constants(&m, spaces[k]);
+            family_make_on_lattice(&f, spaces[k], 0.7e-3, 3.015, k == 2 ? 1 : 0.37e-3);
+            family_elastic_constants(&f, &m, &c11, &c12);
+            const real off = fmax(fabs(c11 / m.c11 - 1), fabs(c12 / m.c12 - 1));
+            if (!(off < 1e-13)) fail_msg("space %d, influence %d: off by %g", (int)spaces[k], influence, off);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_crossing), cmocka_unit_test(test_work_of_separation),
-                                       cmocka_unit_test(test_ordinary), cmocka_unit_test(test_influence)};
+                                       cmocka_unit_test(test_ordinary), cmocka_unit_test(test_influence),
+                                       cmocka_unit_test(test_isotropy)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
