@@ -17,9 +17,8 @@ enum shell_rule { SHELLS_UNIFORM, SHELLS_ISOTROPIC };
 /* Influence function omega(r): 1, exp(-r^2/delta^2), delta/r, (delta/r)^2, 1 - r/(delta + spacing). */
 enum influence { INFLUENCE_ONE, INFLUENCE_GAUSSIAN, INFLUENCE_INVERSE, INFLUENCE_INVERSE_SQUARE, INFLUENCE_LINEAR };
 
-/* What the energy of a bond of weight w grows with the square of: its stretch s as c w s^2 r (bond-based), its
- * elongation e as w e^2 (ordinary state-based), the displacement eta of its ends as w |eta|^2 (with particle
- * rotations). */
+/* Energy of a bond of weight w and length r: c w s^2 r with its stretch s (bond-based), w e^2 with its elongation e
+ * (ordinary state-based), w |eta|^2 with the displacement eta of its ends (with particle rotations). */
 enum bond_energy { ENERGY_OF_STRETCH, ENERGY_OF_ELONGATION, ENERGY_OF_DISPLACEMENT };
 
 /* Rules and sizes that define families and their weights. */
