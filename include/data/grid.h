@@ -19,6 +19,13 @@ struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };
 
+/* By which shares the velocities before a velocity update, and the increments of the update, would be larger without
+ * bulk damping [1]; 0 without damping. Supports do the work of the velocities and increments without it
+ * (step/damping.h). */
+struct damping_shares {
+    real velocities, increments;
+};
+
 /* The background grid: a box of equal square or cubic cells with values at their nodes. All arrays are owned. */
 struct grid {
     int dim;
@@ -33,7 +40,8 @@ struct grid {
     real *force[DIM_MAX];      /* nodal force [N]; after grid_move the change of velocity [m/s] */
     real *velocity[DIM_MAX];   /* nodal velocity at the end of the step [m/s] */
     int64_t walls;
-    struct wall *wall; /* prescribed velocities of this step, in order */
+    struct wall *wall;            /* prescribed velocities of this step, in order */
+    struct damping_shares damped; /* in this step, for the work of the walls */
     int64_t mirror_nodes;
     struct mirror_node *mirror_node; /* nodes beyond planes of symmetry, for this box */
     real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */

@@ -143,10 +143,11 @@ struct loads {
     int32_t *list; /* [listed] particles for which `loaded` is not 0, ascending */
     int64_t images;
     struct image *image;
-    real impulse[DIM_MAX];    /* impulse of loads and supports since the start [N s] */
-    real work;                /* work of applied forces, up to the present positions [J] */
-    real constraint_work;     /* work of supports, up to the velocities, half a step behind [J] */
-    real spacing, reach;      /* lattice spacing; reach of bonds [m] */
+    real impulse[DIM_MAX];        /* impulse of loads and supports since the start [N s] */
+    real work;                    /* work of applied forces, up to the present positions [J] */
+    real constraint_work;         /* work of supports, up to the velocities, half a step behind [J] */
+    struct damping_shares damped; /* in this step */
+    real spacing, reach;          /* lattice spacing; reach of bonds [m] */
     real centre[2], turn;     /* static, free in 2D: centre of mass [m]; angular acceleration by the moment of the loads
                                  [1/s^2], 0: none */
     real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of this, 0: not rounded [m] */

@@ -23,11 +23,11 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
             const real given = needed - dt_velocity * force[w->node];
             w->reaction = -dt_velocity * force[w->node];
             sum += given;
-            all += given * 0.5 * (before + w->velocity);
+            all += given * 0.5 * ((1 + g->damped.velocities) * before + w->velocity);
             force[w->node] = needed * inverse;
         }
         impulse[d] += sum;
-        *work += all;
+        *work += all * (1 + g->damped.increments);
     }
 }
 

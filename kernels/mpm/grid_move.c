@@ -48,7 +48,7 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
     w->reaction = given - g->mass[I] * w->change;
     impulse[d] += given;
     /* work over the motion of the wall itself: what APIC loses in the map to the nodes is no work of walls */
-    *work += given * (w->velocity - 0.5 * w->change);
+    *work += given * (w->velocity - 0.5 * w->change) * (1 + g->damped.increments);
     g->force[d][I] = w->change;
     g->velocity[d][I] = w->velocity;
 }

@@ -115,11 +115,11 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
                 load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;
-            work += reaction * dt_velocity * 0.5 * (before + target);
+            work += reaction * dt_velocity * 0.5 * ((1 + l->damped.velocities) * before + target);
         }
     }
     for (int d = 0; d < p->dim; d++) l->impulse[d] += given[d];
-    l->constraint_work += work;
+    l->constraint_work += work * (1 + l->damped.increments);
 }
 
 struct force_sum {
@@ -217,7 +217,8 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
             if (!(b->components >> d & 1)) continue;
             const real target = prescribed_velocity_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
-            l->constraint_work += given * 0.5 * (target + p->v[d][i]);
+            l->constraint_work +=
+                given * 0.5 * (target + (1 + l->damped.velocities) * p->v[d][i]) * (1 + l->damped.increments);
             p->v[d][i] = target;
         }
     }

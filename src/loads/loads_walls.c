@@ -309,7 +309,7 @@ void loads_prescribe_grid_velocities(struct loads *l, struct constrained_set *dr
                                      real dt)
 {
     struct driven_by by[BOUNDARIES_MAX];
-    g->walls = 0;
+    g->walls = 0, g->damped = l->damped;
     if (l->n == 0) return;
     if (!constrained_is_current(driven_nodes, g)) constrained_find(l, driven_nodes, g, NULL, p, false);
     driven_by_all(l, g->dim, t, dt, false, by);
@@ -391,7 +391,7 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
                             const struct mesh *mesh, real t, real dt)
 {
     struct driven_by by[BOUNDARIES_MAX];
-    g->walls = 0;
+    g->walls = 0, g->damped = l->damped;
     driven_by_all(l, g->dim, t, dt, true, by);
     constrained_walls(held, g, mesh, by, true);
 }

@@ -9,7 +9,8 @@
  * In the code kicks have the length s dt, and velocities are multiplied by D at the end of a step, by s before the
  * first kick. The loss follows from the energy that leap-frog conserves, E = 1/2 m v- . v+/s + U, with v- and v+
  * before and after a kick. With v+ of one step, v- = D v+ and w+ of the next, the forces that do the work give E' -
- * E = -1/2 m (1 - D)/s v+ . (v+ + w+). */
+ * E = -1/2 m (1 - D)/s v+ . (v+ + w+). A support that exerts the force R at the kick does the work 1/2 dt R . (v-/D +
+ * v+) beside it: its impulse s dt R over s, times the mean of the velocities that nothing has damped. */
 #include <math.h>
 #include <string.h>
 
@@ -70,6 +71,12 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_velocity_increment_factor(real rate_times_dt) { return exp(-0.5 * capped(rate_times_dt)); }
+
+struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step)
+{
+    const real half = expm1(0.5 * capped(rate_times_dt));
+    return (struct damping_shares){first_step ? half : expm1(capped(rate_times_dt)), half};
+}
 
 /* Stores what bulk damping acts on in all[2]: in all[0] the particles, in all[1] the nodes of the mesh. factor: factor
  * on their velocities [1]. Returns the number of entries: 2, or 1 if the mesh has no points. */

@@ -87,6 +87,7 @@ static void zone_damp(struct run *e, struct step *now)
 static void damping_begin(struct run *e, const struct step *now)
 {
     real *const *before = e->report->sampling.before;
+    e->loads.damped = damping_shares_of_step(now->decay, e->clock.step == 0);
     if (!(now->decay > 0)) return;
     if (e->clock.step == 0) {
         e->damped += damping_apply_first_half_return_energy_loss(&e->part, &e->frame->mesh, &e->loads, now->decay);
