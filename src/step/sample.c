@@ -454,12 +454,12 @@ static real power_last(struct run *e, real *held)
 }
 
 /* Takes the sample after the last step and writes its line of history.csv. As in all samples, the kinetic energy is m
- * v- . v+/2, with the velocities v- and v+ before and after a velocity update. Here v+ follows from the forces at the
- * end and does not move the particles. */
+ * v- . v+/2, with the velocities v- and v+ before and after a velocity update, here by the forces at the end. */
 void sample_take_after_last_step(struct run *e)
 {
     real held = 0;
     family_states_precompute(&e->bonds, &e->part, &e->source);
+    if (e->source.limit.softening && !e->source.modulus) bonds_update_softening(&e->bonds, &e->part);
     reference_frame_update_motion_and_stress(e->frame, &e->part, &e->loads);
     sample_state(e);
     sample_energies(e);

@@ -20,7 +20,9 @@ start bilinear "$work/strip.yaml" -s 'materials.0.softening=bilinear'
 start exponential "$work/strip.yaml" -s 'materials.0.softening=exponential'; wait
 start scatter "$work/strip.yaml" -s 'materials.0.scatter={modulus: 20, seed: 3}'
 start pressed "$work/strip.yaml" -s variables.start='-1*strain' -s variables.rate='-4*strain/40 us' -s duration=40us; wait
-start adaptive "$work/strip.yaml" -s method=adaptive -s particles.spacing=0.2mm; wait
+start adaptive "$work/strip.yaml" -s method=adaptive -s particles.spacing=0.2mm
+sed 's/^probes:/&\n  - point: {at: [2.5 mm, 0]}/' "$work/strip.yaml" >"$work/watched.yaml"
+start watched "$work/watched.yaml" -s particles.spacing=0.2mm -s output.frames=40; wait
 
 # The largest mean stress across the grips is the strength, within 4 % (finite plate, lattice, ramp: the page inputs/strength.md).
 strength() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /reaction.force_y/) at = k } $at + 0 > most { most = $at }
@@ -36,6 +38,12 @@ between "energy at half the step" "$(error half)" -7.5e-5 7.5e-5
 between "energy, kappa 1.1" "$(error coarse)" -5e-4 5e-4
 for run in near near_coarse; do between "energy near the critical step: $run" "$(error $run)" -3e-3 3e-3; done
 between "it breaks" "$(last one fracture)" 1e-4 1
+
+for run in bilinear exponential; do between "energy, $run" "$(error $run)" -7.5e-3 7.5e-3; done # second order: a quarter at half the step
+
+# Frames and stresses of probes change nothing.
+for run in coarse watched; do cut -d, -f1-8 "$work/$run/history.csv" >"$work/$run.csv"; done
+if cmp "$work/coarse.csv" "$work/watched.csv"; then pass; else fail "a run differs with frames and a probe of stress"; fi
 
 # Equal bits.
 same() { if cmp "$work/$1/history.csv" "$work/$2/history.csv" && cmp "$work/$1/frames/000012.hdf" "$work/$2/frames/000012.hdf"
