@@ -313,11 +313,11 @@ struct colour category_colour(const struct plot_field *field, float category_val
 /* Rectangle of a map and the options of its display. */
 struct view {
     double from[2], to[2];               /* lower left and upper right corner [m] */
-    double top;                          /* damage at the upper end of the colour scale */
+    double bottom, top;                  /* damage at the ends of the colour scale */
     const struct plot_field *field;      /* field of MAP_FIELD */
     double low, high;                    /* values of the field at the ends of the colour scale */
     int64_t beyond[2];                   /* largest number of particles of a frame below low, above high */
-    enum colour_table table;             /* colours of MAP_FIELD */
+    enum colour_table table;             /* colours of damage, cracks and MAP_FIELD */
     const struct categories *categories; /* named values of MAP_CATEGORY; borrowed */
     int64_t outside;                     /* largest number of particles of a frame outside the rectangle */
     int notches;

@@ -17,6 +17,10 @@ bool time_read(real *value, const char *text, char *message, size_t capacity);
  * message[capacity] receives the fault, as the rest of a sentence that begins with the text. */
 bool value_read_in_unit(real *value, const char *text, const char *symbol, char *message, size_t capacity);
 
+/* Writes the number `text` into joined[capacity], with the unit of the number `other` if it has none itself: `-5`
+ * beside `5 mm` becomes `-5mm`. Returns `joined`. */
+const char *number_text_with_unit_of(char *joined, size_t capacity, const char *text, const char *other);
+
 /* Returns the SI unit of numbers without a unit that are values of the key `path`, as it follows -s, such as
  * materials.glass.young: its symbol, "" if the key has none or is unknown. */
 const char *scene_key_unit(const char *path);

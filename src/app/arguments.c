@@ -61,8 +61,8 @@ status option_read_picture_size(struct picture_size *size, const char *option, c
     }
     if (!good || *at)
         return status_set(REFUSED,
-                          "%s %s: WxH from 300x226 to 10000x10000 or WmmxHmm from 53mmx40mm is expected, or the width "
-                          "alone; letters leave less no space",
+                          "%s %s: a width in pixels or mm, as 1200 or 85mm, or WxH in one of them, as 1200x800 or "
+                          "85mmx60mm, is expected: from 53mmx40mm (300x226) to 10000x10000 pixels",
                           option, printable_name(text).text);
     size->width = (int)width, size->height = (int)height;
     return OK;

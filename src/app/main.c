@@ -29,6 +29,18 @@ static bool asks_help(int argc, char **argv)
     return asks;
 }
 
+/* Returns REFUSED if a word after the command has the form --option=value, unless it is the value of an option. */
+static status check_no_value_is_joined(int argc, char **argv)
+{
+    for (int k = 2; k < argc; k++) {
+        const char *word = argv[k], *equals = strchr(word, '=');
+        if (strncmp(word, "--", 2) != 0 || !equals || (k > 2 && argv[k - 1][0] == '-')) continue;
+        return status_set(REFUSED, "%s: a value follows its option after a space: %.*s %s", printable_name(word).text,
+                          (int)(equals - word), word, printable_name(equals + 1).text);
+    }
+    return OK;
+}
+
 static status call(int argc, char **argv)
 {
     const struct command *c;
@@ -39,6 +51,7 @@ static status call(int argc, char **argv)
     if (!strcmp(argv[1], "--version")) return version_print(stdout), OK;
     TRY(command_find_by_name(argv[1], &c));
     if (asks_help(argc, argv)) return usage_print_of_command(stdout, c), OK;
+    TRY(check_no_value_is_joined(argc, argv));
     return c->call(argc - 1, argv + 1);
 }
 

@@ -115,12 +115,14 @@ static status read_range(struct plot_words *w, const char *text)
 static status read_crop(struct plot_words *w, const char *text)
 {
     char *copy = NEW("plot.crop", strlen(text) + 1, char), *rest = copy, what[256] = "X:X,Y:Y of lengths is expected";
+    char *end[4] = {0}, joined[128];
     bool read = true;
     strcpy(copy, text);
+    for (int k = 0; k < 4; k++) end[k] = strsep(&rest, k % 2 ? "," : ":");
     for (int k = 0; k < 4 && read; k++) {
-        char *word = strsep(&rest, k % 2 ? "," : ":");
         real value = 0;
-        read = word && (rest || k == 3) && length_read(&value, word, what, sizeof what);
+        read = end[3] && length_read(&value, number_text_with_unit_of(joined, sizeof joined, end[k], end[k ^ 1]), what,
+                                     sizeof what);
         w->request.crop[k / 2][k % 2] = value;
     }
     memory_free(copy);

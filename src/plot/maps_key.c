@@ -28,7 +28,9 @@ struct bar_scale {
 
 static struct bar_scale bar_scale_of(const struct view *view, enum map map)
 {
-    struct bar_scale s = {.high = view->top, .tics = view->top > 0.6 ? 0.2 : 0.1, .format = "%.1f"};
+    struct bar_scale s = {.low = view->bottom, .high = view->top, .format = "%.1f"};
+    s.tics = tic_distance(s.high - s.low, 300, 50);
+    if (s.tics < 0.099) s.format = "%g";
     snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
     if (map != MAP_FIELD) return s;
     const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);

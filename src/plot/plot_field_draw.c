@@ -66,8 +66,8 @@ static status say_field(const char *path, const struct view *view, const struct 
     if (view->categories)
         say_categories(view->categories);
     else
-        printf(", colours from %.4g to %.4g%s%s%s\n", damage ? 0 : view->low, damage ? view->top : view->high,
-               *r->projection.field->unit ? " " : "", r->projection.field->unit,
+        printf(", colours from %.4g to %.4g%s%s%s\n", damage ? view->bottom : view->low,
+               damage ? view->top : view->high, *r->projection.field->unit ? " " : "", r->projection.field->unit,
                !damage && view->beyond[0] + view->beyond[1] > 0 ? ", some values beyond" : "");
     return ferror(stdout) || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
@@ -143,6 +143,15 @@ static status projection_check(const struct plot_request *r, int dim)
                       r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 
+/* Returns REFUSED if the request has the ends or the table of a scale of colours for a field of named values, which has
+ * a colour for each value. */
+static status scale_check(const struct plot_request *r)
+{
+    if (r->projection.field->scale != CATEGORY || (!r->table && !r->range[0])) return OK;
+    return status_set(REFUSED, "plot: %s: the field %s has a colour for each value and no scale; leave the option out",
+                      r->table ? "--colours" : "--range", r->projection.field->name);
+}
+
 static status field_of_frames(struct plot_request *r, const struct run_frames *frames)
 {
     struct output_frame last;
@@ -152,6 +161,7 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     status s = projection_check(r, dim);
     if (s == OK && r->field) s = plot_field_find_by_name(&r->projection.field, r->field, dim);
     if (s == OK && !r->field) s = plot_field_choose_default(&r->projection.field, r->folder, frames);
+    if (s == OK) s = scale_check(r);
     if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
         fprintf(
             stderr,

@@ -148,13 +148,14 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
     v->field = field, v->low = field->scale == BOTH_SIGNS ? -high : low, v->high = low + high;
 }
 
-/* Reads one end of the colour scale of a field from `text`, a number with a unit of the field, into *value. Returns
- * REFUSED for other texts. */
-static status range_end_read(real *value, const char *text, const struct plot_field *field)
+/* Reads one end of the colour scale of a field from `text`, a number with a unit of the field, into *value. other: text
+ * of the other end, whose unit holds for an end that has none. Returns REFUSED for other texts. */
+static status range_end_read(real *value, const char *text, const char *other, const struct plot_field *field)
 {
-    char what[256];
-    if (value_read_in_unit(value, text, field->unit, what, sizeof what)) return OK;
-    return status_set(REFUSED, "plot: --range %s: %s", printable_name(text).text, what);
+    char what[256], end[128];
+    number_text_with_unit_of(end, sizeof end, text, other);
+    if (value_read_in_unit(value, end, field->unit, what, sizeof what)) return OK;
+    return status_set(REFUSED, "plot: --range %s: %s", printable_name(end).text, what);
 }
 
 /* Counts the particles whose values are below and above the ends of the colour scale, and stores the largest numbers
@@ -180,12 +181,12 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     v->table = r->table;
     if (r->range[0]) {
         real low, high;
-        TRY(range_end_read(&low, r->range[0], v->field));
-        TRY(range_end_read(&high, r->range[1], v->field));
+        TRY(range_end_read(&high, r->range[1], r->range[0], v->field));
+        TRY(range_end_read(&low, r->range[0], r->range[1], v->field));
         if (!(high > low))
             return status_set(REFUSED, "plot: --range %s:%s: the lower end is expected first",
                               printable_name(r->range[0]).text, printable_name(r->range[1]).text);
-        v->low = low, v->high = v->top = high;
+        v->low = v->bottom = low, v->high = v->top = high;
     }
     for (int a = 0; a < 2 && r->cropped; a++) v->from[a] = r->crop[a][0], v->to[a] = r->crop[a][1];
     if (r->cropped) v->outside = 0;
@@ -255,11 +256,9 @@ struct colour map_colour_at_scale_position(const struct view *v, enum map map, d
         map == MAP_FIELD && v->field && v->field->scale == BOTH_SIGNS && (!v->table || v->table == COLOURS_DIVERGING);
     if (signs && v->low <= 0 && v->high >= 0) /* the middle colour is that of 0 */
         a = 0.5 + 0.5 * (v->low + a * (v->high - v->low)) / fmax(-v->low, v->high);
+    if (v->table) return colour_from_table(v->table, a);
     if (map == MAP_FIELD && v->field)
-        return colour_from_table(v->table                        ? v->table
-                                 : v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING
-                                                                 : COLOURS_VIRIDIS,
-                                 a);
+        return colour_from_table(v->field->scale == BOTH_SIGNS ? COLOURS_DIVERGING : COLOURS_VIRIDIS, a);
     return colour_on_damage_scale(a);
 }
 
@@ -271,5 +270,5 @@ struct colour particle_colour(const struct view *v, const struct plotted_particl
     if (map == MAP_KIND && c->kind[i] == KIND_MPM) return colour_of_material_points();
     if (map == MAP_FIELD && c->value)
         return map_colour_at_scale_position(v, map, (c->value[i] - v->low) / (v->high - v->low));
-    return map_colour_at_scale_position(v, map, c->damage[i] / v->top);
+    return map_colour_at_scale_position(v, map, (c->damage[i] - v->bottom) / (v->top - v->bottom));
 }

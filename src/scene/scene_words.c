@@ -1,6 +1,7 @@
 /* Reads words of command lines by the grammar of scenes. */
 #include "scene/words.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/edit_distance.h"
@@ -22,6 +23,13 @@ bool value_read_in_unit(real *value, const char *text, const char *symbol, char 
     for (int k = 0; k < UNITS; k++)
         if (*symbol && strcmp(unit_rows[k].symbol, symbol) == 0) unit = (enum unit)k;
     return number_read(value, text, unit, false, message, capacity);
+}
+
+const char *number_text_with_unit_of(char *joined, size_t capacity, const char *text, const char *other)
+{
+    const char *number = "+-.0123456789eE/ ", *unit = other + strspn(other, number);
+    snprintf(joined, capacity, "%s%s", text, text[strspn(text, number)] ? "" : unit);
+    return joined;
 }
 
 const char *word_find_most_similar(const char *word, const char *const *name, int n)

@@ -122,6 +122,16 @@ drawn "the title, and that displacements are not as they are" "'It''s a strip, d
 drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
 "$cleave" plot results/strip --field speed --times last --magnify 10 --title '' $small -o untitled.png >out 2>err
 drawn "no title: the magnification alone" "set label 1 'displacements x 10' at"
+# A unit that one end has holds for both; damage has the colours and the ends that are asked for, categories have no scale.
+: >drawn
+"$cleave" plot results/strip --field damage --times last --range -0.1:0.6 --colours grey --crop 4:12mm,2mm:8 $small -o grey.pdf >out 2>err
+holds "damage by the ends of the option: $(cat err)" grep -q "colours from -0.1 to 0.6" out
+drawn "a rectangle with one unit for both ends" "set xrange \[4:12\]"
+drawn "of the other end" "set yrange \[2:8\]"
+"$cleave" plot results/strip --field stress_yy --times last --range -1:3MPa $small -o unit.png >out 2>err
+holds "one unit for both ends" grep -q "colours from -1e+06 to 3e+06 Pa" out
+refused "fragment has a colour for each value and no scale" results/strip --field fragment --colours magma
+refused "range.* fragment has a colour for each value" results/strip --field fragment --range 0:2
 refused "LOW:HIGH" results/strip --field speed --range 3
 refused "--range 5m" results/strip --field speed --range 0:5m
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
@@ -131,12 +141,14 @@ refused "nothing is in this rectangle; the body is in -0.5mm:20.5mm,-3mm:10.5" r
 holds "no empty picture" test ! -e beside.png
 refused "above 0" results/strip --magnify -3
 refused "WxH" results/strip --size 100
+refused "a width in pixels or mm, as 1200 or 85mm" results/strip --size 8.5cm
+refused "after a space: --range 0:5" results/strip --field speed --range=0:5
 refused "from 53mmx40mm" results/strip --size 52mmx60mm
 refused "from 53mmx40mm" results/strip --size 85mmx39mm
 refused "viridis" results/strip --colours rainbow
 refused "for films" results/strip --fps 10
-refused "the width alone" results/strip --size 52mm
-refused "the width alone" results/strip --size 85mmx300
+refused "a width in pixels or mm" results/strip --size 52mm
+refused "a width in pixels or mm" results/strip --size 85mmx300
 refused "magnified" --scene strip.yaml --magnify 3
 # What happens in the run is drawn: damage where bonds break, else plastic strain or stress, also with a slit that does
 # not grow.
