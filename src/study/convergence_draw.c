@@ -9,13 +9,12 @@
 #include "output/history.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
-#include "plot/plot.h"
-#include "study/convergence_study.h"
+#include "convergence_units.h"
 #include "study_internal.h"
 
 /* Largest number of figures that are drawn, and of panels side by side; largest number of crack tips that are
- * followed. */
-enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16 };
+ * followed, and of intervals of an axis of spacings. */
+enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
 /* Returns the path of picture `key` of the study in `folder`, with the ending of the format that was chosen. */
@@ -37,63 +36,84 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
-/* Returns the unit in which a figure (a number in summary.json of the runs) is drawn. */
-static struct unit figure_unit(const struct scalar_result_study *f)
+/* Returns the unit of the spacings in the pictures of the study. */
+static struct unit spacing_unit(const struct convergence_study *s)
 {
-    return unit_for_largest_value_if_prefixable(f->unit,
-                                                fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
+    return unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
 }
 
 /* Sends three data blocks to gnuplot for the figure f, a number in summary.json. Their names are $r, $m and $e followed
- * by the number `panel`. $r: spacing [mm] and figure of every run. $m: spacing [mm], mean and half-width of the 95 %
- * interval of every spacing level. $e: spacing 0, the extrapolated figure, and mean and half-width of the finest
+ * by the number `panel`. $r: spacing and figure of every run. $m: spacing, mean and half-width of the 95 % interval of
+ * every spacing level. $e: spacing 0, the extrapolated figure, and mean and half-width of the finest
  * level. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
-    const double factor = figure_unit(f).factor;
+    const double factor = scalar_result_unit(f).factor, metre = spacing_unit(s).factor;
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
-            fprintf(to, "%.8g %.10g\n", 1e3 * s->point[k].spacing, s->table.value[at][k] / factor);
+            fprintf(to, "%.8g %.10g\n", s->point[k].spacing / metre, s->table.value[at][k] / factor);
     fprintf(to, "EOD\n$m%d << EOD\n", panel);
     for (int k = 0; k < f->c.levels; k++)
-        fprintf(to, "%.8g %.10g %.10g\n", 1e3 * f->c.level[k].spacing, f->c.level[k].mean / factor,
+        fprintf(to, "%.8g %.10g %.10g\n", f->c.level[k].spacing / metre, f->c.level[k].mean / factor,
                 f->c.uncertainty[k] / factor);
     fprintf(to, "EOD\n$e%d << EOD\n0 %.10g %.10g %.10g\nEOD\n", panel, f->c.extrapolated / factor,
             f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
 }
 
-static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel)
+/* Returns true if a curve to the value at spacing 0 is drawn. */
+static bool is_extrapolated(const struct convergence *c)
+{
+    return (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
+}
+
+/* Plots the figure f: its runs, the means with their intervals and, if it converges, the curve to spacing 0. metre:
+ * unit of the spacings [m]. */
+static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel, double metre)
 {
     const struct convergence *c = &f->c;
-    const struct unit unit = figure_unit(f);
-    const bool seen = (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
+    const struct unit unit = scalar_result_unit(f);
     char title[256];
     snprintf(title, sizeof title, *f->unit ? "%.200s [%s]" : "%.200s%s", f->name, unit.name);
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, title);
     fputs("\nplot ", to);
-    if (seen) {
+    if (is_extrapolated(c)) {
         fprintf(to, "x < 0 ? NaN : %.10g + %.10g*(x/%.10g)**%.6g with lines lw 1.6 dt (6,4) lc rgb '%s' notitle, ",
                 c->extrapolated / unit.factor, (c->level[0].mean - c->extrapolated) / unit.factor,
-                1e3 * c->level[0].spacing, c->order_likely, curve_colour[1]);
-        fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated', ", panel,
-                curve_colour[1]);
+                c->level[0].spacing / metre, c->order_likely, curve_colour[1]);
+        fprintf(to, "$e%d using 1:2 with points pt 6 ps 1.3 lw 2 lc rgb '%s' notitle, ", panel, curve_colour[1]);
     }
     fprintf(to,
-            "$e%d using 1:3:4 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' title 'finest mean', "
-            "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' title 'runs', "
-            "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' title 'means, 95 %% intervals'\n",
+            "$e%d using 1:3:4 with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' notitle, "
+            "$r%d using 1:2 with points pt 7 ps 0.5 lc rgb '%s' notitle, "
+            "$m%d using 1:2:3 with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' notitle\n",
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Returns the distance of tics of an axis, 1, 2 or 5 times a power of ten, with which three to seven tics are between 0
- * and `most`. */
-static double tics_apart(double most)
+/* Sends the distances of the tics of a panel of wide x high pixels that shows the figure f, so that their numbers do
+ * not touch. coarsest: in the unit of the horizontal axis. */
+static void send_tics_of_panel(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f,
+                               double coarsest, double wide, double high)
 {
-    const double decade = pow(10, floor(log10(most / 3))), lead = most / 3 / decade;
-    return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+    const bool narrow = picture_is_too_narrow_for_key();
+    const double *value = s->table.value[study_index_of_result(&s->table, f->name)];
+    double low = INFINITY, end = -INFINITY;
+    for (int k = 0; k < f->c.levels; k++) {
+        low = fmin(low, f->c.level[k].mean - f->c.uncertainty[k]);
+        end = fmax(end, f->c.level[k].mean + f->c.uncertainty[k]);
+    }
+    for (int k = 0; k < s->study.n; k++)
+        if (s->point[k].level >= 0 && isfinite(value[k])) low = fmin(low, value[k]), end = fmax(end, value[k]);
+    const double range = 1.2 * (end - low) / scalar_result_unit(f).factor;
+    const int across = (int)fmin(fmax(wide / (narrow ? 46 : 60), 1), TICS_MOST),
+              up = (int)fmax(high / (narrow ? 22 : 28), 2);
+    fprintf(to, "set xtics %g\n", axis_tick_distance(1.1 * coarsest, across));
+    if (range > 0 && isfinite(range))
+        fprintf(to, "set ytics %g\n", axis_tick_distance(range, up));
+    else
+        fputs("set ytics autofreq\n", to);
 }
 
 /* Layout of the panels of figures [pixel]: size of the picture; columns of panels, and the width and height of one with
@@ -116,8 +136,15 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     struct figures_layout best = {.width = g ? g->width : KEY_WIDE + CELL_WIDE * wide, .columns = wide};
     double largest = 0;
     best.height = g ? g->height : CELL_HIGH * rows;
-    best.left = narrow ? 76 : 106, best.right = narrow ? 16 : 24, best.title = narrow ? 34 : 44,
-    best.below = narrow ? 52 : 68;
+    best.left = narrow ? 76 : 106, best.right = narrow ? 20 : 24, best.title = narrow ? 40 : 44,
+    best.below = narrow ? 56 : 68;
+    if (narrow && !g) {
+        best.width = picture_size_get().width, best.columns = 1 + (shown > 2);
+        best.rows = (shown + best.columns - 1) / best.columns;
+        const double panel = (double)best.width / best.columns - best.left - best.right;
+        best.height = (int)(KEY_HIGH + best.rows * (best.title + 0.6 * panel + best.below));
+        return best;
+    }
     for (int columns = 1; columns <= shown; columns++) {
         struct figures_layout l = best;
         l.columns = columns, l.rows = (shown + columns - 1) / columns;
@@ -132,8 +159,7 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     return best;
 }
 
-/* Writes the gnuplot commands for the margins of panel number k, and with panel 0 the position of the key, which serves
- * all panels. */
+/* Writes the gnuplot commands for the margins of panel number k. */
 static void figure_place(FILE *to, const struct figures_layout *l, int k)
 {
     const double x = k % l->columns * l->cell_wide, y = l->height - k / l->columns * l->cell_high;
@@ -142,34 +168,55 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
             "set bmargin at screen %.5f\n",
             (x + l->left) / l->width, (x + l->cell_wide - l->right) / l->width, (y - l->title) / l->height,
             (y - l->cell_high + l->below) / l->height);
-    if (k > 0)
-        fputs("unset key\n", to);
-    else if (picture_is_too_narrow_for_key())
-        fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2 width -3\n", 8.0 / l->width,
+}
+
+/* Draws the key of all panels, on their right or in a narrow picture below them. It is a panel of its own, as large as
+ * the picture, because gnuplot makes no key wider than its panel. extrapolated: a panel has a curve to spacing 0. */
+static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extrapolated)
+{
+    fputs("unset border\nunset tics\nunset title\nunset xlabel\nunset grid\nset offsets\nset lmargin at screen 0\n"
+          "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
+          to);
+    if (picture_is_too_narrow_for_key())
+        fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols 2 maxrows 2\n", 8.0 / l->width,
                 (KEY_HIGH - 4.0) / l->height);
     else
         fprintf(to, "set key at screen %.5f,%.5f left top\n", 1 - (double)KEY_WIDE / l->width,
                 1 - l->title / l->height);
+    fprintf(to,
+            "$none << EOD\nNaN NaN NaN\nEOD\nplot [0:1] [0:1] $none with yerrorbars pt 7 ps 0.9 lw 1.8 lc rgb '%s' "
+            "title 'means, 95 %% intervals', $none with points pt 7 ps 0.5 lc rgb '%s' title 'runs', "
+            "$none with yerrorbars pt 0 lw 5 lc rgb '#bbbbbb' title 'finest mean'",
+            curve_colour[0], curve_colour[5]);
+    if (extrapolated)
+        fprintf(to, ", $none with points pt 6 ps 1.3 lw 2 lc rgb '%s' title 'extrapolated'", curve_colour[1]);
+    putc('\n', to);
 }
 
 static status draw_figures(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < SHOWN_MOST ? figures : SHOWN_MOST;
+    bool extrapolated = false;
     const struct figures_layout usual = figures_layout_make(shown, NULL);
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence");
-    const double coarsest = 1e3 * s->spacings.at[s->spacings.levels - 1][0]; /* [mm] */
+    const struct unit metre = spacing_unit(s);
+    const double coarsest = s->spacings.at[s->spacings.levels - 1][0] / metre.factor;
     TRY(gnuplot_open(&g, picture.text, picture_size_get().format, usual.width, usual.height));
     const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
             "set multiplot\nset format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\nset pointintervalbox 0\n"
-            "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [mm]'\nset xtics %g\n",
-            -0.05 * coarsest, tics_apart(coarsest));
+            "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [%s]'\n",
+            -0.05 * coarsest, metre.name);
     for (int k = 0; k < shown; k++) {
         figure_place(g.to, &l, k);
-        plot_figure(g.to, &figure[k], k);
+        send_tics_of_panel(g.to, s, &figure[k], coarsest, l.cell_wide - l.left - l.right,
+                           l.cell_high - l.title - l.below);
+        plot_figure(g.to, &figure[k], k, metre.factor);
+        extrapolated |= is_extrapolated(&figure[k].c);
     }
+    draw_figures_key(g.to, &l, extrapolated);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }
@@ -236,7 +283,7 @@ static void longest_free(struct longest *l)
     memory_free(l->tip);
 }
 
-/* Sends the paths of the longest crack tips of run k to gnuplot as the data block $wK (K is the number k) [mm], each
+/* Sends the paths of the longest crack tips of run k to gnuplot as the data block $wK (K is the number k) [m], each
  * path as a separate line. Extends the bounding box *e [m] by them. Returns false if the run has no path. */
 static bool send_path(FILE *to, const struct convergence_study *s, int k, struct extent *e)
 {
@@ -249,7 +296,7 @@ static bool send_path(FILE *to, const struct convergence_study *s, int k, struct
     for (int tip = 0; tip < l.tips; tip++) {
         for (int64_t i = 0; i < l.n; i++) {
             if (l.tip[i] != tip) continue;
-            fprintf(to, "%.7g %.7g\n", 1e3 * l.x[i], 1e3 * l.y[i]);
+            fprintf(to, "%.7g %.7g\n", l.x[i], l.y[i]);
             e->low[0] = fmin(e->low[0], l.x[i]), e->high[0] = fmax(e->high[0], l.x[i]);
             e->low[1] = fmin(e->low[1], l.y[i]), e->high[1] = fmax(e->high[1], l.y[i]);
         }
@@ -274,14 +321,35 @@ static void extent_widen(struct extent *e)
     }
 }
 
-/* Height of a picture of paths, PATHS_WIDE wide, and the margins of its panel [pixel]. */
-enum { PATHS_WIDE = 900, PATHS_LEFT = 90, PATHS_RIGHT = 150, PATHS_ABOVE = 50, PATHS_BELOW = 70, PATHS_HIGH = 900 };
-enum { PATHS_LEFT_NARROW = 74, PATHS_RIGHT_NARROW = 100, PATHS_ABOVE_NARROW = 40, PATHS_BELOW_NARROW = 54 };
+/* Width and greatest height of a picture of paths, and the margins of its panel [pixel]. *_NARROW: of a narrow picture,
+ * which has the key below the panel; PATHS_SAMPLE: width of an entry of the key without its text. */
+enum { PATHS_WIDE = 900, PATHS_LEFT = 90, PATHS_RIGHT = 160, PATHS_ABOVE = 50, PATHS_BELOW = 70, PATHS_HIGH = 900 };
+enum { PATHS_LEFT_NARROW = 74, PATHS_RIGHT_NARROW = 18, PATHS_ABOVE_NARROW = 40, PATHS_BELOW_NARROW = 60 };
+enum { PATHS_KEY_ROW = 20, PATHS_ENTRY = 118 };
 
-static int paths_height(const struct extent *e)
+/* Margins of the panel of a picture of paths [pixel], and columns and lines of its key. */
+struct paths_layout {
+    double left, right, above, below;
+    int key_columns, key_lines;
+};
+
+/* Returns the layout of a picture of paths. levels: number of entries of the key, one for each spacing. */
+static struct paths_layout paths_layout_make(int levels)
+{
+    if (!picture_is_too_narrow_for_key())
+        return (struct paths_layout){PATHS_LEFT, PATHS_RIGHT, PATHS_ABOVE, PATHS_BELOW, 1, levels};
+    struct paths_layout l = {PATHS_LEFT_NARROW, PATHS_RIGHT_NARROW, PATHS_ABOVE_NARROW, PATHS_BELOW_NARROW, 1, 1};
+    l.key_columns = (int)fmax((picture_size_get().width - l.left - l.right) / PATHS_ENTRY, 1);
+    l.key_lines = (levels + l.key_columns - 1) / l.key_columns;
+    l.below += PATHS_KEY_ROW * l.key_lines;
+    return l;
+}
+
+/* Returns the height of a picture of the given width [pixel] in which the paths fill the panel. */
+static int paths_height(const struct extent *e, const struct paths_layout *l, int width)
 {
     const double aspect = (e->high[1] - e->low[1]) / (e->high[0] - e->low[0]);
-    const double height = (PATHS_WIDE - PATHS_LEFT - PATHS_RIGHT) * aspect + PATHS_ABOVE + PATHS_BELOW;
+    const double height = (width - l->left - l->right) * aspect + l->above + l->below;
     return isfinite(height) ? (int)fmin(height, PATHS_HIGH) : PATHS_HIGH / 2;
 }
 
@@ -293,18 +361,21 @@ struct path_plots {
 };
 
 /* Sends the crack paths of all runs of a study to the stream `to`, and appends the gnuplot arguments that plot them to
- * *p. Extends the bounding box *e by the paths. */
+ * *p, in which `metre` is the unit of the axes. Extends the bounding box *e by the paths. */
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};
+    const struct unit metre = spacing_unit(s);
     for (int k = 0; k < s->study.n; k++) {
         const int level = s->point[k].level;
         if (level < 0 || !send_path(to, s, k, e)) continue;
         char title[64] = "";
-        if (!named[level]) snprintf(title, sizeof title, "title '%.4g mm'", 1e3 * s->spacings.at[level][0]);
-        const int more = snprintf(p->text + p->used, sizeof p->text - p->used,
-                                  "%s$w%d with lines lw 1.6 lc rgb '%s' %s", p->drawn > 0 ? ", " : "", k,
-                                  curve_colour[level % CURVE_COLOURS], named[level] ? "notitle" : title);
+        if (!named[level])
+            snprintf(title, sizeof title, "title '%.4g %s'", s->spacings.at[level][0] / metre.factor, metre.name);
+        const int more =
+            snprintf(p->text + p->used, sizeof p->text - p->used,
+                     "%s$w%d using ($1/metre):($2/metre) with lines lw 1.6 lc rgb '%s' %s", p->drawn > 0 ? ", " : "", k,
+                     curve_colour[level % CURVE_COLOURS], named[level] ? "notitle" : title);
         if (more < 0 || p->used + (size_t)more >= sizeof p->text) break;
         p->used += (size_t)more;
         named[level] = true;
@@ -312,17 +383,30 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
     }
 }
 
-/* Writes the ranges of the axes of the paths, which have one scale, and their tics, so far apart that numbers do not
- * touch. wide, high: room of the panel [pixel]. */
-static void paths_write_axes(FILE *to, const struct extent *e, double wide, double high)
+/* Writes the margins of the panel of paths, the ranges of its axes, which have one scale, their labels, and their tics,
+ * so far apart that numbers do not touch; and the place of the key. */
+static void paths_write_axes(const struct gnuplot *g, const struct extent *e, const struct paths_layout *l)
 {
+    const bool narrow = picture_is_too_narrow_for_key();
     const double range[2] = {e->high[0] - e->low[0], e->high[1] - e->low[1]};
+    const double wide = g->width - l->left - l->right, high = g->height - l->above - l->below;
     const double scale = fmin(wide / range[0], high / range[1]);
+    const struct unit metre = unit_for_length(fmax(range[0], range[1]));
+    fprintf(g->to, "metre = %g\n", metre.factor);
     for (int d = 0; d < 2; d++) {
-        const double low = 1e3 * e->low[d], high_end = 1e3 * e->high[d], numbers = scale * range[d] / (d ? 20 : 52);
-        fprintf(to, "set %crange [%.7g:%.7g]\nset %ctics %.9g\n", "xy"[d], low, high_end, "xy"[d],
-                axis_tick_distance(high_end - low, (int)fmax(numbers, 1)));
+        const double low = e->low[d] / metre.factor, end = e->high[d] / metre.factor;
+        fprintf(g->to, "set %crange [%.7g:%.7g]\nset %ctics %.9g\nset %clabel '%c [%s]'\n", "xy"[d], low, end, "xy"[d],
+                axis_tick_distance(end - low, (int)fmax(scale * range[d] / (d ? 24 : 52), 1)), "xy"[d], "xy"[d],
+                metre.name);
     }
+    fprintf(g->to,
+            "set size ratio -1\nset title 'paths of the longest tip, all runs'\nset lmargin at screen %.4f\n"
+            "set rmargin at screen %.4f\nset tmargin at screen %.4f\nset bmargin at screen %.4f\n",
+            l->left / g->width, 1 - l->right / g->width, 1 - l->above / g->height, l->below / g->height);
+    fprintf(g->to, "set key at screen %.4f,%.4f left top horizontal maxcols %d maxrows %d\n",
+            narrow ? 8.0 / g->width : 1 - (l->right - 8) / g->width,
+            narrow ? (PATHS_KEY_ROW * l->key_lines + 6.0) / g->height : 1 - l->above / g->height, l->key_columns,
+            l->key_lines);
 }
 
 /* Draws the crack paths of all runs in one picture. Their data are composed before the picture is opened, since their
@@ -340,25 +424,17 @@ static status draw_paths(const struct convergence_study *s)
     paths_send(to, s, &e, &plots);
     if (fclose(to) != 0) return status_set(FAILED, "%s: out of memory", picture.text);
     if (plots.drawn > 0) extent_widen(&e);
-    const int height = paths_height(&e);
-    status done = gnuplot_open(&g, picture.text, picture_size_get().format, PATHS_WIDE, height);
+    const struct paths_layout l = paths_layout_make(s->spacings.levels);
+    const int width = picture_is_too_narrow_for_key() ? picture_size_get().width : PATHS_WIDE;
+    status done = gnuplot_open(&g, picture.text, picture_size_get().format, width, paths_height(&e, &l, width));
     if (done == OK) {
-        const bool narrow = picture_is_too_narrow_for_key();
-        const double left = narrow ? PATHS_LEFT_NARROW : PATHS_LEFT, above = narrow ? PATHS_ABOVE_NARROW : PATHS_ABOVE;
-        const double right = narrow ? PATHS_RIGHT_NARROW : PATHS_RIGHT,
-                     below = narrow ? PATHS_BELOW_NARROW : PATHS_BELOW;
         fputs(data, g.to);
-        fprintf(g.to,
-                "set size ratio -1\nset xlabel 'x [mm]'\nset ylabel 'y [mm]'\nset title 'paths of the longest tip, all "
-                "runs'\nset lmargin at screen %.4f\nset rmargin at screen %.4f\nset tmargin at screen %.4f\n"
-                "set bmargin at screen %.4f\n",
-                left / g.width, 1 - right / g.width, 1 - above / g.height, below / g.height);
-        if (plots.drawn > 0) paths_write_axes(g.to, &e, g.width - left - right, g.height - above - below);
-        fprintf(g.to,
-                plots.drawn > 0 ? "plot %s\n"
-                                : "set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 "
-                                  "center\nplot NaN notitle%s\n",
-                plots.text);
+        if (plots.drawn > 0) {
+            paths_write_axes(&g, &e, &l);
+            fprintf(g.to, "plot %s\n", plots.text);
+        } else
+            fputs("set xrange [0:1]\nset yrange [0:1]\nset label 'no crack grew' at 0.5,0.5 center\nplot NaN notitle\n",
+                  g.to);
         done = gnuplot_close(&g);
     }
     free(data);

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 #include "output/output_files.h"
-#include "study/convergence_study.h"
+#include "convergence_units.h"
 #include "study/uncertainty.h"
 
 /* Largest number of figures that are printed. */
@@ -299,14 +299,32 @@ static void order_print(const struct scalar_result_study *f)
     printf(", %s%s", limit_is_impossible(f) ? "no limit, which would be negative: " : "limit ", text);
 }
 
-static void figure_print(const struct scalar_result_study *f, int own)
+/* Returns the figure f in the unit in which it is printed. */
+static struct scalar_result_study figure_in_printed_unit(const struct scalar_result_study *f)
 {
+    const struct unit unit = scalar_result_unit(f);
+    struct scalar_result_study p = *f;
+    snprintf(p.unit, sizeof p.unit, "%.15s", unit.name);
+    for (int k = 0; k < p.c.levels; k++) {
+        struct level_figures *level = &p.c.level[k];
+        level->mean /= unit.factor, level->error /= unit.factor, level->deviation /= unit.factor;
+        p.c.uncertainty[k] /= unit.factor, p.c.discretisation[k] /= unit.factor;
+    }
+    p.c.extrapolated /= unit.factor;
+    return p;
+}
+
+/* Prints the means of a figure at all spacings, how it converges, and its value with its interval. own: level of the
+ * scene's own spacing, -1 if there is none; metre: unit of the spacings. */
+static void figure_print(const struct scalar_result_study *figure, int own, const struct unit *metre)
+{
+    const struct scalar_result_study shown = figure_in_printed_unit(figure), *f = &shown;
     const struct convergence *c = &f->c;
     char text[40];
     printf(*f->unit ? "%s [%s]\n " : "%s%s\n ", f->name, f->unit);
     for (int k = c->levels - 1; k >= 0; k--) {
         certain_digits(text, sizeof text, c->level[k].mean, c->uncertainty[0] / 4);
-        printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
+        printf(" %s (%.4g %s)%s", text, c->level[k].spacing / metre->factor, metre->name, k > 0 ? "," : "");
     }
     printf("; %s", verdict_name[c->verdict]);
     order_print(f);
@@ -316,7 +334,8 @@ static void figure_print(const struct scalar_result_study *f, int own)
            c->level[0].error, c->discretisation[0]);
     if (own > 0 && own < c->levels) {
         certain_digits(text, sizeof text, c->level[own].mean, c->uncertainty[own]);
-        printf("; at the scene's own %.4g mm %s +- %.2g", 1e3 * c->level[own].spacing, text, c->uncertainty[own]);
+        printf("; at the scene's own %.4g %s %s +- %.2g", c->level[own].spacing / metre->factor, metre->name, text,
+               c->uncertainty[own]);
     }
     if (c->level[0].runs > 1 || c->level[0].deviation > 0)
         printf("; a single run differs from its mean by up to %.2g", 2 * c->level[0].deviation);
@@ -328,12 +347,13 @@ static void figure_print(const struct scalar_result_study *f, int own)
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
+    const struct unit metre = unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
     int lost = 0;
     printf(
         "for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, its "
-        "value at %.4g mm +- the distance within which the true value lies with a probability of 95 %%\n",
-        1e3 * s->spacings.at[0][0]);
-    for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own);
+        "value at %.4g %s +- the distance within which the true value lies with a probability of 95 %%\n",
+        s->spacings.at[0][0] / metre.factor, metre.name);
+    for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own, &metre);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
     if (lost > 0)
         printf("%d of %d figures do not converge at these spacings: their +- is an upper bound of the error, not an "

@@ -9,6 +9,7 @@
 #include "base/team.h"
 #include "output/output_files.h"
 #include "output/summary_read.h"
+#include "convergence_units.h"
 #include "scene/scene_read.h"
 
 enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
@@ -174,10 +175,12 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     TRY(study_execute_waiting_runs(&s->study, options));
     const struct study_case *run = &s->study.at[s->first];
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
+    const double coarsest = s->point[s->first].spacing;
+    const struct unit metre = unit_for_spacings(coarsest);
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
         return status_set(REFUSED,
-                          "--budget %.3g s is too small: one run at %.4g mm, the coarsest spacing, takes longer",
-                          s->budget, 1e3 * s->point[s->first].spacing);
+                          "--budget %.3g s is too small: one run at %.4g %s, the coarsest spacing, takes longer",
+                          s->budget, coarsest / metre.factor, metre.name);
     if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
     return summary_read_number(study_case_folder(&s->study, run).text, "wall_seconds", &s->spent);
@@ -275,16 +278,18 @@ static void runs_add_all(struct convergence_study *s)
 
 static void plan_print(const struct convergence_study *s)
 {
+    const struct unit metre = unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
     fprintf(stderr, "spacings");
     for (int k = s->spacings.levels - 1; k >= 0; k--)
-        fprintf(stderr, " %.4g mm (%d runs)%s", 1e3 * s->spacings.at[k][0], s->runs[k], k > 0 ? "," : "");
+        fprintf(stderr, " %.4g %s (%d runs)%s", s->spacings.at[k][0] / metre.factor, metre.name, s->runs[k],
+                k > 0 ? "," : "");
     fprintf(stderr, ": about %.3g s of a budget of %.3g s\n", s->expected + s->spent, s->budget);
     if (s->own < 0)
         fprintf(
             stderr,
-            "warning: runs at the scene's own spacing, %.4g mm, would take longer than the budget: the results are for "
-            "%.4g mm\n",
-            1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
+            "warning: runs at the scene's own spacing, %.4g %s, would take longer than the budget: the results are for "
+            "%.4g %s\n",
+            s->scene.spacing / metre.factor, metre.name, s->spacings.at[0][0] / metre.factor, metre.name);
 }
 
 /* Plans the runs of a convergence study such that they fit into the budget of the request w, makes them, and reads

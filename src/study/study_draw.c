@@ -15,6 +15,12 @@ enum { LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST 
  * width of the numbers at an axis; height of a title; height of tics and label below the axis; width of a colour bar.
  */
 enum { WIDE = 320, HIGH = 220, LEAST = 60, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
+enum {
+    COLOURS_NARROW = 88,
+    SAMPLE = 50,
+    TICS_UP = 26
+}; /* of an entry of the key without its text; least distance of
+    * tics of a vertical axis */
 
 /* Returns the width of a character in the pictures of a study [pixel]. */
 static int character(void) { return picture_is_too_narrow_for_key() ? 8 : 10; }
@@ -184,48 +190,74 @@ static void size_settle(struct study_picture *p)
 {
     const struct picture_size given = picture_size_get();
     const int around = TITLE + p->below, rows = panel_rows(p);
+    const int under = p->notes * ROW + p->strip;
     p->width = p->columns * (p->left + p->wide + p->right) + p->legend;
     if (given.width) {
         p->width = given.width;
         p->wide = (int)fmax((given.width - p->legend) / p->columns - p->left - p->right, LEAST);
-        p->high = (int)fmax(given.height ? (given.height - p->notes * ROW) / rows - around : 0.7 * p->wide, LEAST);
+        p->high = (int)fmax(given.height ? (given.height - under) / rows - around : 0.7 * p->wide, LEAST);
     }
-    p->height = given.height ? given.height : rows * (around + p->high) + p->notes * ROW;
+    p->height = given.height ? given.height : rows * (around + p->high) + under;
     for (int k = 0; k < p->notes && !given.width; k++) {
         const int wide = ((int)strlen(p->note[k]) + 2) * character();
         p->width = wide > p->width ? wide : p->width;
     }
 }
 
-/* Computes the margins of the panels, the width of the legend and the size of the picture from the lengths of their
- * texts. up: key along the vertical axis of a map; NULL for a picture with lines. */
-static void room_find(struct study_picture *p, const struct varied_key *up)
+/* Sets the margins of the panels for the texts at their axes. up: key along the vertical axis of a map; NULL for a
+ * picture with lines. */
+static void margins_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
-    panels_arrange(p);
-    const struct varied_key *across = &p->key[p->across];
-    const int along = study_longest_label_length(across) * character();
-    const bool words = up || !p->numbers;
-    p->left = up                                ? (study_longest_label_length(up) + 7) * character()
-              : picture_is_too_narrow_for_key() ? 8 * character()
-                                                : NUMBERS;
-    p->right = up ? COLOURS : words ? 2 * character() + along / 2 : 3 * character();
-    p->below = BELOW;
-    if (words && words_touch(p, across)) {
-        p->below += (int)(slope * along) - ROW / 2;
-        if (!up) p->right = 2 * character();
-        if (p->left < (int)(run * along)) p->left = (int)(run * along);
-    }
+    const bool narrow = picture_is_too_narrow_for_key();
+    const int along = study_longest_label_length(&p->key[p->across]) * character();
+    p->left = up       ? (study_longest_label_length(up) + (narrow ? 6 : 7)) * character()
+              : narrow ? 8 * character()
+                       : NUMBERS;
+    p->right = up           ? (narrow ? COLOURS_NARROW : COLOURS)
+               : p->numbers ? 3 * character()
+               : p->slanted ? 2 * character()
+                            : 2 * character() + along / 2;
+    p->below = BELOW + (p->slanted ? (int)(slope * along) - ROW / 2 : 0);
+    if (p->slanted && p->left < (int)(run * along)) p->left = (int)(run * along);
+}
+
+/* Computes the space of the key of the lines: its width beside the panels, or in a narrow picture its columns and its
+ * height below them. */
+static void key_space_find(struct study_picture *p)
+{
     char text[256];
-    int longest = 0;
     keys_text(text, sizeof text, p, ROLE_LINES, false);
-    if (!up && p->lines > 1) longest = (int)strlen(text);
-    for (int l = 0; l < p->lines && !up && p->lines > 1; l++) {
+    int longest = 0;
+    const int title = (int)strlen(text);
+    for (int l = 0; l < p->lines; l++) {
         line_title(text, sizeof text, p, l);
-        longest = (int)strlen(text) + 5 > longest ? (int)strlen(text) + 5 : longest;
+        longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
     }
-    p->legend = longest > 0 ? (longest + 2) * character() : 0;
+    if (picture_is_too_narrow_for_key()) {
+        const int columns = (picture_size_get().width - 2 * character()) / (SAMPLE + longest * character());
+        p->key_columns = columns < 1 ? 1 : columns < p->lines ? columns : p->lines;
+        p->strip = (1 + (p->lines + p->key_columns - 1) / p->key_columns) * ROW;
+    } else {
+        p->key_columns = 1;
+        p->legend = ((longest + 5 > title ? longest + 5 : title) + 2) * character();
+    }
+}
+
+/* Computes the margins of the panels, the space of the key and the size of the picture from the lengths of their texts.
+ * up: key along the vertical axis of a map; NULL for a picture with lines. */
+static void room_find(struct study_picture *p, const struct varied_key *up)
+{
+    p->legend = p->strip = 0;
+    p->slanted = false;
+    panels_arrange(p);
+    if (!up && p->lines > 1) key_space_find(p);
     notes_find(p, up != NULL);
+    margins_find(p, up);
+    size_settle(p);
+    if (p->numbers && !up) return;
+    p->slanted = words_touch(p, &p->key[p->across]);
+    margins_find(p, up);
     size_settle(p);
 }
 
@@ -309,23 +341,60 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
         fprintf(to, "%s$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, $p%d_%d using ",
                 l > 0 ? ", " : "", panel, l, curve_colour[l], panel, l);
         fprintf(to,
-                p->chance ? "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' "
-                          : "1:2 with points pt 7 ps 0.9 lc rgb '%s' ",
+                p->chance ? "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' notitle"
+                          : "1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle",
                 curve_colour[l]);
-        if (p->lines < 2 || panel > 0) {
-            fputs("notitle", to);
-            continue;
-        }
-        char text[256];
+    }
+    putc('\n', to);
+}
+
+/* Draws the key of the lines and its heading, the names of their keys: on the right of the panels or, in a narrow
+ * picture, below them. It is a panel of its own, as large as the picture, because gnuplot makes no key wider than its
+ * panel. */
+static void draw_key(FILE *to, const struct study_picture *p)
+{
+    char text[256];
+    const bool below = p->strip > 0;
+    const int x = below ? character() : p->width - p->legend + character();
+    const int y = below ? p->notes * ROW + p->strip : p->height - TITLE + ROW;
+    keys_text(text, sizeof text, p, ROLE_LINES, false);
+    fputs("unset border\nunset tics\nunset title\nunset grid\nset offsets\nset lmargin at screen 0\n"
+          "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
+          to);
+    screen_label(to, p, text, x, y - 0.5 * ROW, "left");
+    fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols %d maxrows %d\nplot [0:1] [0:1] ",
+            (double)x / p->width, (double)(y - ROW) / p->height, p->key_columns,
+            (p->lines + p->key_columns - 1) / p->key_columns);
+    for (int l = 0; l < p->lines; l++) {
         line_title(text, sizeof text, p, l);
-        fputs("title ", to);
+        fprintf(to, "%sNaN with linespoints lw 1.6 pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "", curve_colour[l]);
         gnuplot_write_quoted_string(to, text);
     }
     putc('\n', to);
 }
 
-static void send_number_tics(FILE *to, const struct varied_key *key)
+/* Sends the distance of the tics of the vertical axis of panel number `panel`, so that their numbers do not touch. */
+static void send_figure_tics(FILE *to, const struct study_picture *p, int panel)
 {
+    struct point_of *point = means_find(p, p->figure[panel]);
+    double low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < p->lines * p->key[p->across].values; k++) {
+        if (point[k].runs == 0) continue;
+        low = fmin(low, point[k].mean - point[k].scatter), high = fmax(high, point[k].mean + point[k].scatter);
+    }
+    memory_free(point);
+    if (high > low)
+        fprintf(to, "set ytics %.10g\n",
+                axis_tick_distance(1.2 * (high - low) / panel_unit(p, panel).factor, (int)fmax(p->high / TICS_UP, 2)));
+    else
+        fputs("set ytics autofreq\n", to);
+}
+
+/* Sends the distance of the tics of a horizontal axis with the values of the key across. */
+static void send_number_tics(FILE *to, const struct study_picture *p)
+{
+    const struct varied_key *key = &p->key[p->across];
+    const int most = (int)fmin(fmax(p->wide / (7 * character()), 1), STEPS_MOST);
     double low = INFINITY, high = -INFINITY;
     const char *unit;
     for (int v = 0; v < key->values; v++) {
@@ -333,14 +402,14 @@ static void send_number_tics(FILE *to, const struct varied_key *key)
         high = fmax(high, value_read_number_and_unit(key->value[v], &unit));
     }
     if (high > low)
-        fprintf(to, "set xtics norotate %.10g\n", axis_tick_distance(high - low, STEPS_MOST));
+        fprintf(to, "set xtics norotate %.10g\n", axis_tick_distance(high - low, most));
     else
         fputs("set xtics norotate autofreq\n", to);
 }
 
 static status draw_lines(struct study_picture *p)
 {
-    char name[PICTURE_NAME_ROOM], text[256];
+    char name[PICTURE_NAME_ROOM];
     struct gnuplot g;
     roles_assign_to_keys(p, LINES_MOST);
     room_find(p, NULL);
@@ -348,19 +417,16 @@ static status draw_lines(struct study_picture *p)
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (p->numbers)
-        send_number_tics(g.to, &p->key[p->across]);
+        send_number_tics(g.to, p);
     else
-        send_tics(g.to, "x", &p->key[p->across], words_touch(p, &p->key[p->across]));
-    keys_text(text, sizeof text, p, ROLE_LINES, false);
-    const int x = p->width - p->legend + character();
-    if (p->lines > 1) screen_label(g.to, p, text, x, p->height - 0.6 * TITLE, "left");
-    fprintf(g.to, "set key at screen %.5f,%.5f left top vertical maxrows %d\n", (double)x / p->width,
-            1 - (double)TITLE / p->height, LINES_MOST);
+        send_tics(g.to, "x", &p->key[p->across], p->slanted);
     for (int panel = 0; panel < p->panels; panel++) {
         panel_begin(g.to, p, panel, NULL);
+        send_figure_tics(g.to, p, panel);
         plot_panel(g.to, p, panel);
         fputs("unset label\n", g.to);
     }
+    if (p->lines > 1) draw_key(g.to, p);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
 }
@@ -382,7 +448,7 @@ static status draw_study_map(struct study_picture *p, int up)
     char picture[PICTURE_NAME_ROOM];
     study_picture_name(picture, "map");
     TRY(picture_open(&g, p, picture));
-    send_tics(g.to, "x", across, words_touch(p, across));
+    send_tics(g.to, "x", across, p->slanted);
     send_tics(g.to, "y", key_up, false);
     fputs("unset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset offsets\n", g.to);
     fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, key_up->values - 0.5);

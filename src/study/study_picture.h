@@ -23,10 +23,12 @@ struct study_picture {
     int figure[PANELS_MOST], panels;
     bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
     const char *unit;
-    const char *header;                     /* header of history.csv with the units of figures */
-    int columns, wide, high;                /* columns of panels; width and height of a panel [pixel] */
-    int left, right, below, legend, height; /* margins of a panel; width right of all panels; height of the picture
-                                             * [pixel] */
+    const char *header;             /* header of history.csv with the units of figures */
+    int columns, wide, high;        /* columns of panels; width and height of a panel [pixel] */
+    int left, right, below, height; /* margins of a panel; height of the picture [pixel] */
+    int legend, strip, key_columns; /* width of the key right of all panels, or its height below them [pixel]; number of
+                                     * its columns */
+    bool slanted;                   /* the labels of values at the horizontal axis are slanted */
     int width, notes;
     char note[2][NOTE_ROOM];
 };

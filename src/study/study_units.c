@@ -1,11 +1,12 @@
 /* Units of the figures of summary.json, which are all in SI. The unit of a figure that is also a column of history.csv
  * is read from the header of that file; this table has the others. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "output/history.h"
 #include "output/output_files.h"
-#include "study/study.h"
+#include "convergence_units.h"
 
 /* Units of figures. begin, end: beginning and end of the last part of a figure's name (after its last point); unit:
  * unit of the figure. The first entry that matches a name applies. */
@@ -73,4 +74,16 @@ void study_write_unit_of_result(char *unit, size_t capacity, const char *header,
             snprintf(unit, capacity, "%s", unit_of_name[k].unit);
             return;
         }
+}
+
+struct unit unit_for_spacings(double coarsest)
+{
+    static const double SPACINGS = 10; /* of a small body */
+    return unit_for_length(SPACINGS * coarsest);
+}
+
+struct unit scalar_result_unit(const struct scalar_result_study *f)
+{
+    return unit_for_largest_value_if_prefixable(f->unit,
+                                                fmax(fabs(f->c.level[0].mean), fabs(f->c.level[f->c.levels - 1].mean)));
 }

@@ -111,7 +111,7 @@ printf '#!/bin/sh\nexec tee -a "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v g
 chmod +x bin/gnuplot
 PATH=$work/bin:$PATH "$cleave" converge "$inputs/plate_crack.yaml" -o tips --runs 1 -q >out
 is "both ends are drawn, no line between them" "$(awk '/^\$w/ { last = "" } /^(EOD)?$/ { last = ""; next }
-    NF == 2 && $1 ~ /^-?[0-9.]+$/ && path { side = $1 < 0; if (last != "" && side != last) jumps++; last = side; seen[side] = 1 }
+    NF == 2 && $1 ~ /^-?[0-9.e-]+$/ && path { side = $1 < 0; if (last != "" && side != last) jumps++; last = side; seen[side] = 1 }
     /<< EOD/ { path = /^\$w/ } END { print jumps + 0, seen[0] + seen[1] }' drawn)" "0 2"
 
 # Means of single runs are the runs; spacings are in millimetres.

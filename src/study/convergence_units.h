@@ -1,0 +1,15 @@
+/* Units in which a convergence study prints and draws its spacings and figures. */
+#ifndef CLEAVE_CONVERGENCE_UNITS
+#define CLEAVE_CONVERGENCE_UNITS
+
+#include "plot/plot.h"
+#include "study/convergence_study.h"
+
+/* Returns the unit in which spacings up to `coarsest` [m] are printed and drawn: that of a body of ten such spacings.
+ */
+struct unit unit_for_spacings(double coarsest);
+
+/* Returns the unit in which the means and errors of a figure are printed and drawn. */
+struct unit scalar_result_unit(const struct scalar_result_study *f);
+
+#endif
