@@ -23,6 +23,8 @@ struct plot_words {
 /* Largest number of frames of a film; still images have PANELS_MAX. */
 enum { FILM_FRAMES_MAX = 100000 };
 
+enum { TITLE_MOST = TITLE_LENGTH - 64 }; /* longest title; other words may follow it in a picture */
+
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
 /* Reads the value of --frames, which is `all`, `last`, or the number of frames. Returns REFUSED for other texts. */
@@ -174,7 +176,15 @@ static status read_colours(struct plot_words *w, const char *text)
     return OK;
 }
 
-static status read_title(struct plot_words *w, const char *text) { return w->request.title = text, OK; }
+/* Reads the value of --title. Returns REFUSED for one that no picture has space for. */
+static status read_title(struct plot_words *w, const char *text)
+{
+    w->request.title = text;
+    return strlen(text) <= TITLE_MOST
+               ? OK
+               : status_set(REFUSED, "plot: --title is %d bytes long; a picture has space for %d",
+                            (int)strlen(text), TITLE_MOST);
+}
 static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
 static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }
 static status read_scene_option(struct plot_words *w, const char *text) { return w->scene.scene = text, OK; }

@@ -6,7 +6,7 @@
 
 /* Margins of a picture as wide as a text page, and of a narrower one [pixel]. */
 enum { LEFT = 100, RIGHT = 24, AXIS = 100, ABOVE = 60, BELOW = 74 };
-enum { LEFT_NARROW = 80, RIGHT_NARROW = 18, AXIS_NARROW = 80, ABOVE_NARROW = 42, BELOW_NARROW = 52, UNTITLED = 18 };
+enum { LEFT_NARROW = 80, RIGHT_NARROW = 18, AXIS_NARROW = 80, ABOVE_NARROW = 42, BELOW_NARROW = 60, UNTITLED = 18 };
 
 /* Sizes in a picture of curves [pixel]. sample: width of an entry of the key without its text; letter: mean width of a
  * letter; row: distance of the lines of the key; tics: least distance of tics of a vertical axis; lower: least height

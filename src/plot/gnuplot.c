@@ -244,6 +244,16 @@ static size_t break_of(const char *text)
     return best;
 }
 
+/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]; if they are more than `most`
+ * characters, as many as fit before `...`. */
+static void write_title_line(char *part, const char *text, size_t length, int most)
+{
+    const bool cut = letters_of(text, length) > most;
+    while (length > 0 && letters_of(text, length) > most - 3 * cut) length--;
+    while (length > 0 && (text[length] & 0xc0) == 0x80) length--; /* no character is cut in two */
+    snprintf(part, TITLE_ROOM, "%.*s%s", (int)length, text, cut ? "..." : "");
+}
+
 void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin)
 {
     g->untitled = !*text;
@@ -253,10 +263,12 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
     const size_t cut = LETTER_WIDE * TITLE_ONE_LINE * letters_of(text, length) > room ? break_of(text) : length;
     const int longer = (int)fmax(letters_of(text, cut), letters_of(text + cut, length - cut));
     const double size = fmax(fmin(most, room / (LETTER_WIDE * fmax(longer, 1))), TITLE_SMALL);
-    const double upper = picture_is_too_narrow_for_key() ? 20 : 28;
+    const double upper = picture_is_too_narrow_for_key() ? 20 : 28,
+                 letter = LETTER_WIDE * size * (picture_is_too_narrow_for_key() ? NARROW_LETTERS : 1);
+    const int letters_most = size > TITLE_SMALL ? TITLE_ROOM : (int)(room / letter);
     for (int line = 0; line < 1 + (cut < length); line++) {
         char part[TITLE_ROOM];
-        snprintf(part, sizeof part, "%.*s", (int)(line ? length - cut - 1 : cut), line ? text + cut + 1 : text);
+        write_title_line(part, line ? text + cut + 1 : text, line ? length - cut - 1 : cut, letters_most);
         fprintf(g->to, "set label %d ", 1 + line);
         gnuplot_write_quoted_string(g->to, part);
         fprintf(g->to, " at screen %.6g,%.6g left font ',%.3g' textcolor rgb '#111111'\n", left_margin / g->width,

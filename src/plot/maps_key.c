@@ -12,6 +12,7 @@ enum { BAR_STEPS = 256, BAR_ACROSS = 2, BAR_HIGHEST = 360 };
 /* Positions beside or below the bar [pixel]. NUMBERS: width of tics and blanks beside the numbers of a vertical bar;
  * LABEL_HALF: half height of a line of its label; UNDER_LABEL: of the label of a bar below the panels, from its upper
  * edge; BAR_LOW: height of such a bar. */
+enum { BEYOND_WIDE = 84 }; /* width of `0.14 % above` */
 enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12 };
 
 static double letter_wide(void) { return picture_is_too_narrow_for_key() ? 7.4 : 9; }
@@ -120,9 +121,10 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
                    x + BAR_WIDE + (picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS) +
                        tic_numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
+    const bool edge = x - 6 + BEYOND_WIDE > l->width;
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)
-        draw_beyond(to, l, m->view, particles, end, picture_is_too_narrow_for_key() ? l->width - 4 : x - 6,
-                    end ? l->above - 12 : l->above + length + 14, picture_is_too_narrow_for_key() ? "right" : "left");
+        draw_beyond(to, l, m->view, particles, end, edge ? l->width - 4 : x - 6,
+                    end ? l->above - 12 : l->above + length + 14, edge ? "right" : "left");
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
 }
 

@@ -7,10 +7,12 @@
 
 /* Margins of the panels, and gaps between them, in usual and in narrow pictures [pixel]. *_OUTSIDE: of outside views,
  * which have no axes at their left, and their directions below them; *_UNTITLED: without a title; EDGE: on the right
- * without a bar or key; RIGHT_MOST: with a key of long names. */
+ * without a bar or key; RIGHT_MOST: with a key of long names; BETWEEN_NUMBERS: between the numbers of neighbouring
+ * columns. */
 enum { LEFT = 104, LEFT_OUTSIDE = 40, RIGHT = 136, RIGHT_MOST = 420, EDGE = 34, ABOVE = 84, UNTITLED = 56, BELOW = 70 };
 enum { GAP_X = 34, GAP_NARROW = 26 };
 enum { LEFT_NARROW = 74, LEFT_OUTSIDE_NARROW = 14, EDGE_NARROW = 22, ABOVE_NARROW = 62, UNTITLED_NARROW = 40 };
+enum { BETWEEN_NUMBERS = 16 };
 enum { BELOW_NARROW = 62, BELOW_OUTSIDE_NARROW = 78 };
 
 /* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
@@ -22,10 +24,12 @@ static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger
 bool map_has_colour_bar(enum map map) { return map != MAP_FRAGMENT && map != MAP_CATEGORY; }
 
 /* Returns a layout in which only the margins of the panels are set: above for the title, left for the axis, and right
- * for the colour bar or the key. The lower margin is set by strip_set. under: the colour bar, or the key of a map of
- * named values, is below the panels; panels: height of all rows of panels [pixel]. */
-static struct layout margins_of(const struct maps_shown *m, bool under, int panels)
+ * for the colour bar or the key, with the distance of columns. The lower margin is set by strip_set. under: the colour
+ * bar, or the key of a map of named values, is below the panels; before: layout with the size of the panels, on which
+ * the widths of numbers and of the bar depend, or NULL if it is not known yet. */
+static struct layout margins_of(const struct maps_shown *m, bool under, const struct layout *before)
 {
+    const int panels = before ? before->rows * before->panel_height + (before->rows - 1) * GAP_Y : 0;
     const bool narrow = picture_is_too_narrow_for_key(), bar = map_has_colour_bar(m->map), titled = m->title[0];
     const double letter = narrow ? KEY_LETTER_NARROW : KEY_LETTER;
     size_t longest = 0;
@@ -42,6 +46,10 @@ static struct layout margins_of(const struct maps_shown *m, bool under, int pane
                             .axes = m->outside ? BELOW_OUTSIDE_NARROW : BELOW_NARROW,
                             .right = under || !bar ? EDGE_NARROW : colour_bar_width_beside_panels(m, panels),
                             .gap = GAP_NARROW};
+    if (before && !m->outside) {
+        l.left = (int)fmax(l.left, panel_margin_of_numbers(m->view, before->panel_height));
+        l.gap = (int)fmax(l.gap, panel_numbers_width(m->view, before->panel_width) + BETWEEN_NUMBERS);
+    }
     l.title = l.left;
     l.entry = (int)(KEY_SQUARE + letter * (double)longest);
     l.bar_under = bar && under;
@@ -78,6 +86,7 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
     l.width = l.left + l.right + between_x + columns * l.panel_width;
     const int more = given.width - l.width;
     if (given.width) l.width = given.width, l.left += more / 2, l.right += more - more / 2; /* centred */
+    l.spare = given.width ? more : 0;
     strip_set(&l, l.width);
     l.height = given.height ? given.height : l.above + l.below + between_y + l.rows * l.panel_height;
     return l;
@@ -88,8 +97,8 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
  * the colour bar or key is below the panels; aspect: height over width of a panel. */
 static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect)
 {
-    struct layout margins = margins_of(m, under, 0), l = layout_of(columns, panels, aspect, &margins);
-    margins = margins_of(m, under, l.rows * l.panel_height + (l.rows - 1) * GAP_Y);
+    struct layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, &margins);
+    margins = margins_of(m, under, &l);
     return layout_of(columns, panels, aspect, &margins);
 }
 
@@ -107,7 +116,7 @@ struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count
             const double area = (double)l.panel_width * l.panel_height;
             const double tall = log((double)l.height / l.width / SHAPE_WANTED);
             const double shape = fixed ? 0 : picture_size_get().width ? fmax(tall, 0) : fabs(tall);
-            double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER;
+            double cost = shape - 0.5 * log(area) + under * BESIDE_BETTER + (fixed ? (double)l.spare / l.width : 0);
             cost += 0.2 * (l.rows * l.columns - panel_count); /* empty panels */
             if (cost >= best_cost) continue;
             best_cost = cost;

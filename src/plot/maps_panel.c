@@ -7,6 +7,10 @@
 
 /* Least distance of tics of the vertical axis [pixel]. */
 enum { TICS_Y = 36, TICS_Y_NARROW = 22 };
+#define TIC_NUMBERS                                                                                                    \
+    "%.9g" /* format of the numbers at axes: those of a small body far from the origin have many digits */
+enum { NUMBERS_APART = 14, NUMBERS_APART_LEAST = 8 };     /* blank between numbers of a horizontal axis [pixel] */
+enum { BESIDE_NUMBERS = 50, BESIDE_NUMBERS_NARROW = 44 }; /* label of a vertical axis beside its numbers [pixel] */
 
 void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
                        double height)
@@ -50,11 +54,47 @@ static double tics_within(double low, double high, double tics) { return floor(h
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width)
 {
     double apart = 20, tics = tic_distance(high - low, axis_width, apart);
-    while (apart < axis_width && tic_numbers_width(low, high, tics, "%g") + 14 > tics / (high - low) * axis_width)
+    const double pixels = axis_width / (high - low);
+    while (apart < axis_width && tic_numbers_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART > tics * pixels)
         tics = tic_distance(high - low, axis_width, apart *= 1.3);
     if (tics_within(low, high, tics) > 1) return tics;
+    const double single = tics;
     while (apart > 1 && tics_within(low, high, tics) < 2) tics = tic_distance(high - low, axis_width, apart /= 1.3);
-    return tics_within(low, high, 2 * tics) < 2 ? tics : 2 * tics;
+    if (tics_within(low, high, 2 * tics) > 1) tics *= 2;
+    const bool touch = tic_numbers_width(low, high, tics, TIC_NUMBERS) + NUMBERS_APART_LEAST > tics * pixels;
+    return touch && tics_within(low, high, single) > 0 ? single : tics;
+}
+
+struct unit panel_axis_unit(const struct view *v)
+{
+    return unit_for_length(fmax(v->to[0] - v->from[0], v->to[1] - v->from[1]));
+}
+
+/* Ends of an axis of a panel and distance of its tics, in the unit of the axis. */
+struct panel_scale {
+    double low, high, tics;
+};
+
+static struct panel_scale panel_scale_of(const struct view *v, int axis, double length)
+{
+    const double factor = panel_axis_unit(v).factor;
+    struct panel_scale s = {v->from[axis] / factor, v->to[axis] / factor, 0};
+    s.tics = axis == 0 ? tic_distance_on_horizontal_axis(s.low, s.high, length)
+                       : tic_distance(s.high - s.low, length, picture_is_too_narrow_for_key() ? TICS_Y_NARROW : TICS_Y);
+    return s;
+}
+
+double panel_numbers_width(const struct view *view, double width)
+{
+    const struct panel_scale s = panel_scale_of(view, 0, width);
+    return tic_numbers_width(s.low, s.high, s.tics, TIC_NUMBERS);
+}
+
+double panel_margin_of_numbers(const struct view *view, double height)
+{
+    const struct panel_scale s = panel_scale_of(view, 1, height);
+    return tic_numbers_width(s.low, s.high, s.tics, TIC_NUMBERS) +
+           (picture_is_too_narrow_for_key() ? BESIDE_NUMBERS_NARROW : BESIDE_NUMBERS);
 }
 
 void panel_write_axes(FILE *gnuplot, const struct layout *l, const struct view *view,
@@ -63,12 +103,9 @@ void panel_write_axes(FILE *gnuplot, const struct layout *l, const struct view *
 {
     const int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) {
-        const double low = view->from[k] / axis_unit->factor, high = view->to[k] / axis_unit->factor;
         const bool labelled = k == 0 ? is_lowest : column == 0;
-        const double tics =
-            k == 0 ? tic_distance_on_horizontal_axis(low, high, size[0])
-                   : tic_distance(high - low, size[1], picture_is_too_narrow_for_key() ? TICS_Y_NARROW : TICS_Y);
-        fprintf(gnuplot, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, tics, labelled ? "%g" : "", 'x' + k);
+        fprintf(gnuplot, "set %ctics %.9g format '%s'\nset %clabel '", 'x' + k, panel_scale_of(view, k, size[k]).tics,
+                labelled ? TIC_NUMBERS : "", 'x' + k);
         if (labelled) fprintf(gnuplot, "%c [%s]", 'x' + particles->axis[k], axis_unit->name);
         fputs("'\n", gnuplot);
     }

@@ -28,6 +28,7 @@ struct layout {
     int left, above, below, gap;   /* margins of the panels; distance of columns [pixel] */
     int title;                     /* distance of the title from the left edge [pixel] */
     int right;                     /* width of the colour bar or key on the right [pixel] */
+    int spare;                     /* blank beside panels that fill the height before the width [pixel] */
     bool bar_under, key_beside; /* colour bar below the panels, else on their right; key on their right, else below */
     int axes;                   /* height of tics and label below the panels [pixel] */
     int entries, entry;         /* number of entries of the key below the panels; width of one [pixel] */
@@ -55,7 +56,7 @@ bool map_has_colour_bar(enum map map);
 double tic_numbers_width(double low, double high, double tics, const char *format);
 
 /* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
- * that there are two at least: a single one gives no scale. */
+ * that there are two at least, since a single one gives no scale; one if two have no space. */
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
 /* Returns the width that a colour bar with its numbers and its label takes on the right of panels in a narrow picture
@@ -82,6 +83,15 @@ void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_e
 /* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, upper_edge:
  * position of its upper left corner, from the left and upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge);
+
+/* Returns the unit of length of the axes of panels: that of the longer edge of the view, wherever the body is. */
+struct unit panel_axis_unit(const struct view *view);
+
+/* Returns the width of the longest number at the tics of the horizontal axis of a panel of the given width [pixel]. */
+double panel_numbers_width(const struct view *view, double width);
+
+/* Returns the width of the numbers and of the label at the vertical axis of a panel of the given height [pixel]. */
+double panel_margin_of_numbers(const struct view *view, double height);
 
 /* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. particles: particles
  * of the panel; axis_unit: unit of the axes; column: column of the panel, from 0 (the vertical axis has labels in

@@ -204,7 +204,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
     int at = history_find_column(&h[0], "x");
     double half = h[0].rows > 1 ? 0.5 * fabs(history_value_at(&h[0], 1, at) - history_value_at(&h[0], 0, at)) : 0;
-    struct unit metre = unit_for_length(fmax(-x.low, x.high));
+    struct unit metre = unit_for_length(x.high - x.low);
     int height = 110 + 250 * panels;
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_frame(g.to, &h[k], k, metre.factor, scale);

@@ -346,13 +346,13 @@ static struct value_range profile_extent(const struct output_frame *frame, int f
 /* Chooses unit[3], the units of position, velocity and stress, for the largest values in frame[frames]. */
 static void choose_units(struct unit *unit, const struct output_frame *frame, int frames)
 {
-    double largest[3] = {0};
+    double largest[3] = {0}, from = INFINITY, end = -INFINITY;
     for (int k = 0; k < frames; k++) {
-        largest[0] = fmax(largest[0], largest_in(frame[k].X[0], frame[k].n));
+        for (int64_t i = 0; i < frame[k].n; i++) from = fmin(from, frame[k].X[0][i]), end = fmax(end, frame[k].X[0][i]);
         largest[1] = fmax(largest[1], largest_in(frame[k].v[0], frame[k].n));
         largest[2] = fmax(largest[2], largest_in(frame[k].stress[0], frame[k].n));
     }
-    unit[0] = unit_for_length(largest[0]);
+    unit[0] = unit_for_length(end - from);
     unit[1] = unit_for_largest_value(largest[1], "m/s");
     unit[2] = unit_for_largest_value(largest[2], "Pa");
 }

@@ -15,10 +15,9 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
 {
     const struct view *view = shown->view;
     int column = place % l->columns, row = place / l->columns;
-    double from[2], step[2], largest = 0;
+    double from[2], step[2];
     int size[2] = {l->panel_width, l->panel_height};
-    for (int k = 0; k < 2; k++) largest = fmax(largest, fmax(fabs(view->from[k]), fabs(view->to[k])));
-    struct unit metre = unit_for_length(largest);
+    const struct unit metre = panel_axis_unit(view);
     const double left = l->left + column * (l->panel_width + l->gap),
                  above = l->above + row * (l->panel_height + GAP_Y);
     panel_write_margins(to, l, left, above);

@@ -281,9 +281,9 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
     struct gnuplot g;
     const int n = find_tip_paths(path, folder, h);
     if (n == 0) return OK;
-    const struct unit metre = unit_for_length(fmax(fabs(path[0].to[0]), fabs(path[0].to[1])));
     double low[2], high[2], low_end[2];
     paths_extent(path, n, low, high);
+    const struct unit metre = unit_for_length(fmax(high[0] - low[0], high[1] - low[1]));
     size_t longest = strlen("crack at the start");
     int entries = 1;
     for (int k = 0; k < n; k++) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "plot/plot.h"
+#include "maps_parts.h"
 #include "scene/words.h"
 
 enum { SAMPLE_MOST = 100000 }; /* number of values of which quantiles are computed */
@@ -212,10 +212,9 @@ static status view_check_crop(const struct view *v, const struct view *around, c
                               const struct plotted_particles *cloud, int clouds)
 {
     if (!r->cropped || view_shows_any(v, cloud, clouds)) return OK;
-    const struct unit metre = unit_for_length(
-        fmax(fmax(fabs(around->from[0]), fabs(around->to[0])), fmax(fabs(around->from[1]), fabs(around->to[1]))));
+    const struct unit metre = panel_axis_unit(around);
     const double f = metre.factor;
-    return status_set(REFUSED, "plot: --crop: nothing is in this rectangle; the body is in %.4g%s:%.4g%s,%.4g%s:%.4g%s",
+    return status_set(REFUSED, "plot: --crop: nothing is in this rectangle; the body is in %.6g%s:%.6g%s,%.6g%s:%.6g%s",
                       around->from[0] / f, metre.name, around->to[0] / f, metre.name, around->from[1] / f, metre.name,
                       around->to[1] / f, metre.name);
 }

@@ -207,12 +207,14 @@ static struct layout scene_layout(const struct view *v, const struct marks *m, b
     const struct picture_size given = picture_size_get();
     struct layout l = {.columns = 1, .rows = 1, .left = PICTURE_LEFT, .above = PICTURE_ABOVE, .right = PICTURE_KEY};
     l.below = PICTURE_BELOW;
+    const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
     if (narrow) l.left = outside ? RIGHT_NARROW : LEFT_NARROW, l.above = ABOVE_NARROW, l.right = RIGHT_NARROW;
+    if (!outside)
+        l.left = (int)fmax(l.left, panel_margin_of_numbers(v, aspect * (narrow ? given.width - l.left : PANEL_WIDEST)));
     l.key_columns = narrow ? key_columns(m, given.width - l.left - l.right) : 1;
     const int lines = (m->keys + l.key_columns - 1) / l.key_columns;
     if (narrow) l.below = BELOW_NARROW + KEY_LINE_NARROW * lines;
     if (untitled) l.above = ABOVE_UNTITLED;
-    const double aspect = (v->to[1] - v->from[1]) / (v->to[0] - v->from[0]);
     const double widest = given.width ? given.width - l.left - l.right : PANEL_WIDEST;
     const double highest = given.height ? given.height - l.above - l.below : PANEL_HIGHEST;
     const double width = fmin(widest, highest / aspect);
@@ -327,7 +329,7 @@ static status draw_scene(struct sheet sheet, struct run *e, struct plotted_parti
     size_t length = 0, bytes = 0;
     const double arrow = arrow_length(c);
     const struct view v = scene_view(c, arrow);
-    const struct unit metre = unit_for_length(fmax(fabs(v.from[0]), fabs(v.to[0])));
+    const struct unit metre = panel_axis_unit(&v);
     struct marks m = {.to = memory_stream_open(&data, &bytes),
                       .plot = memory_stream_open(&elements, &length),
                       .engine = e,

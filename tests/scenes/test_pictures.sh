@@ -132,6 +132,9 @@ drawn "of the other end" "set yrange \[2:8\]"
 holds "one unit for both ends" grep -q "colours from -1e+06 to 3e+06 Pa" out
 refused "fragment has a colour for each value and no scale" results/strip --field fragment --colours magma
 refused "range.* fragment has a colour for each value" results/strip --field fragment --range 0:2
+refused "a picture has space for 192" results/strip --title "$(printf '%0200d' 0)"
+"$cleave" plot results/strip --field speed --times last --title "a title of $(printf '%0150d' 0)" --size 60mm -o long.png >out 2>err
+drawn "what has no space of a title" "0[.][.][.]' at screen"
 refused "LOW:HIGH" results/strip --field speed --range 3
 refused "--range 5m" results/strip --field speed --range 0:5m
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
@@ -364,6 +367,13 @@ END
     holds "no numbers of particles" grep -a -q "title 'grip: held x y'" all
     holds "two columns" grep -a -q "set key .*maxcols 2" all
     uncut figure.png
+    # A body far from the origin has the unit of its extent, and the space that its numbers need.
+    : >all
+    "$cleave" plot --scene strip.yaml -s cracks=[] -s boundary=[] -s probes=[] --size 85mm -o far.png \
+        -s 'bodies=[{name: plate, shape: {box: {from: [105 m, 200 m], to: [105.02 m, 200.01 m]}}}]' >out 2>err
+    is "plot --scene far from the origin: $(cat err)" $? 0
+    holds "in the unit of its extent" grep -a -q "set ylabel 'y \[mm\]'" all
+    uncut far.png
     for size in 85mmx150mm 180mmx250mm; do
         : >all
         "$cleave" plot both --field kind --size $size -o "keys$size.png" >out 2>err
