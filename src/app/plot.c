@@ -182,8 +182,8 @@ static status read_title(struct plot_words *w, const char *text)
     w->request.title = text;
     return strlen(text) <= TITLE_MOST
                ? OK
-               : status_set(REFUSED, "plot: --title is %d bytes long; a picture has space for %d",
-                            (int)strlen(text), TITLE_MOST);
+               : status_set(REFUSED, "plot: --title is %d bytes long; a picture has space for %d", (int)strlen(text),
+                            TITLE_MOST);
 }
 static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
 static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }

@@ -94,3 +94,11 @@ void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, dou
     if (high > low)
         fprintf(gnuplot, "set %stics %.9g\n", vertical_axis, tic_distance(high - low, panel_height, sizes_now()->tics));
 }
+
+void title_compose_with_particles_outside(char *text, const char *title, int64_t outside)
+{
+    int length = snprintf(text, TITLE_LENGTH, "%.*s", TITLE_LENGTH - 64, title);
+    if (outside > 0)
+        snprintf(text + length, TITLE_LENGTH - (size_t)length, "%s(%lld particle%s outside the picture)",
+                 length > 0 ? " " : "", (long long)outside, outside > 1 ? "s are" : " is");
+}

@@ -12,6 +12,7 @@ struct series {
     enum picture_format format;
     const char *pictures; /* folder of the pictures */
     bool bar;             /* the run has one dimension */
+    bool equilibrium;     /* the run computes one equilibrium */
 };
 
 /* Returns the largest absolute value in the column with index `column_index` of `history`; 0 if the column has no
@@ -87,6 +88,10 @@ enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
  */
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
+/* Writes the title of a picture into text[TITLE_LENGTH], and after it the number `outside` of particles outside the
+ * picture unless that is 0. */
+void title_compose_with_particles_outside(char *text, const char *title, int64_t outside);
+
 /* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
  * range and label. series: history that is drawn. */
 void curves_write_time_axis(FILE *gnuplot, const struct series *series);
@@ -105,11 +110,10 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 bool run_has_load_steps(const char *folder);
 
 /* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
- * marked, to the file `sheet`. title: heading of the picture; history: history of the run; has_load_steps: true for a
- * run with load steps. If no support or body carries a force or moves, prints this instead of drawing, and names the
- * probe that would record it. Returns FAILED if gnuplot fails. */
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history,
-                              bool has_load_steps);
+ * marked, to the file `sheet`. title: heading of the picture; history: history of the run. If no support or body
+ * carries a force or moves, prints this instead of drawing, and names the probe that would record it. Returns FAILED if
+ * gnuplot fails. */
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve) to the file `sheet`, with
  * lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;

@@ -64,7 +64,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
         const int number = frames->list[k].number;
         status s = plotted_particles_read(&c, r->folder, &frames->list[k], &r->projection);
         if (s != OK) return s;
-        if (has->damage || view->notches > 0)
+        if (has->damage)
             s = draw_map(r, picture_path_of_frame(r->pictures, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
         if (s == OK && has->kinds)
             s = draw_map(r, picture_path_of_frame(r->pictures, DRAWN_KIND, number).text, MAP_KIND, view, &c, 1);
@@ -86,16 +86,17 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 {
     struct view view;
     const struct plotted_particles *last = &cloud[frames->shown - 1];
-    const struct contents has = contents_of(cloud, frames->shown);
+    struct contents has = contents_of(cloud, frames->shown);
     TRY(view_make_for_request(&view, r, cloud, frames->shown));
     const enum map map = map_of_field(view.field);
+    has.damage = map == MAP_DAMAGE && (has.damage || view.notches > 0); /* pre-cracks alone are not of interest */
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST),
                       field = picture_path_of_field(r->pictures, view.field->name, picture_ending[r->format]);
-    const bool damaged = has.damage || view.notches > 0, something = damaged || map == MAP_FIELD;
-    TRY(damaged ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
-                : report_picture_not_drawn(damage.text,
-                                           "no bond is broken; --field von_mises, speed, ... draw other fields"));
+    const bool something = has.damage || map == MAP_FIELD;
+    TRY(has.damage
+            ? draw_map(r, damage.text, MAP_DAMAGE, &view, cloud, frames->shown)
+            : report_picture_not_drawn(damage.text, "no bond breaks; --field von_mises, speed, ... draw other fields"));
     if (map == MAP_FIELD) TRY(draw_map(r, field.text, map, &view, cloud, frames->shown));
     TRY(has.kinds ? draw_map(r, kind.text, MAP_KIND, &view, cloud, frames->shown)
                   : report_picture_not_drawn(kind.text, "all particles are of one method"));

@@ -1,4 +1,4 @@
-/* Curves: crack length and PD share, energies, profiles along a bar. */
+/* Curves: crack growth and PD share, energies. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,8 +84,8 @@ static bool column_varies(const struct history *h, int column)
     return false;
 }
 
-/* Draws the crack length and the share of peridynamic particles over time, each only if it changes. The crack length of
- * a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
+/* Draws the growth of the longest crack and the share of peridynamic particles over time, each only if it changes. The
+ * crack growth of a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -105,14 +105,14 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     const struct curves_layout l = curves_layout_make(&g, both ? 2 : 0, strlen("peridynamic share (right)"), both);
     curves_write_margins_and_key(g.to, &l);
     const double pixels = curves_layout_height_of_all_panels(&l);
-    snprintf(label, sizeof label, "crack length [%s]", metre.name);
+    snprintf(label, sizeof label, "crack growth [%s]", metre.name);
     if (shown[0]) set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0], pixels);
     if (shown[1])
         set_axis(g.to, shown[0] ? "y2" : "y", "peridynamic share [%]", 1,
                  fmin(1.25 * largest[1] / factor[1], SHARE_TOP), pixels);
     fprintf(g.to, "set border %d\n%splot ", both ? 11 : 3, both ? "" : "unset key\n");
     if (shown[0])
-        fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack length (left)'%s", curve_colour[0],
+        fprintf(g.to, "$data using 1:2 with lines lw 2.4 lc rgb '%s' title 'crack growth (left)'%s", curve_colour[0],
                 both ? ", " : "\n");
     if (shown[1])
         fprintf(g.to,
@@ -194,13 +194,15 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
 }
 
 /* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
- * all energies are 0. Returns FAILED if gnuplot fails. */
+ * all energies are 0 or the run has one equilibrium. Returns FAILED if gnuplot fails. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {
     struct energies e;
     struct gnuplot g;
     int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
+    if (s->equilibrium)
+        return report_picture_not_drawn(sheet.path, "the run has one equilibrium; summary.json has its energies");
     choose_energies(&e, s->h);
     if (e.n == 0) return report_picture_not_drawn(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
@@ -241,7 +243,8 @@ static status draw_curves(const struct plot_request *r, const char *title, const
     TRY(draw_energy((struct sheet){energy.text, r->format}, title, s));
     TRY(sif_curves_draw(title, s));
     TRY(crack_paths_draw(r->folder, title, s));
-    TRY(load_displacement_draw((struct sheet){load.text, r->format}, title, s->h, in_steps));
+    TRY(s->equilibrium ? report_picture_not_drawn(load.text, "the run has one equilibrium; history.csv has its forces")
+                       : load_displacement_draw((struct sheet){load.text, r->format}, title, s->h));
     return in_steps ? r_curve_draw((struct sheet){r_curve.text, r->format}, r->folder, title, s->h) : OK;
 }
 
@@ -256,7 +259,8 @@ status history_curves_draw(const struct plot_request *request, const char *title
                        .second = {1, ""},
                        .format = request->format,
                        .pictures = request->pictures,
-                       .bar = scene && scene->dim == 1};
+                       .bar = scene && scene->dim == 1,
+                       .equilibrium = scene && scene_is_single_equilibrium(scene)};
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
         if (!in_steps) s.second = unit_for_largest_value(history_value_at(&h, h.rows - 1, s.time), "s");
@@ -264,199 +268,4 @@ status history_curves_draw(const struct plot_request *request, const char *title
     }
     history_free(&h);
     return result;
-}
-
-/* ---- profiles ---------------------------------------------------------------------------------------------------- */
-
-/* Writes the colour of the curve of the k-th of `frames` frames into text[capacity]: one of the fixed colours if they
- * suffice, else a shade of a scale from dark to light. */
-static void frame_colour(char *text, size_t capacity, int k, int frames)
-{
-    const struct colour c = colour_on_sequential_scale(0.88 * k / fmax(frames - 1, 1));
-    if (frames <= CURVE_COLOURS)
-        snprintf(text, capacity, "%s", curve_colour[k]);
-    else
-        snprintf(text, capacity, "#%02x%02x%02x", c.red, c.green, c.blue);
-}
-
-struct station {
-    float x, velocity, stress, damage;
-};
-
-static int plot_curves_by_place(const void *a, const void *b)
-{
-    float x = ((const struct station *)a)->x, y = ((const struct station *)b)->x;
-    return (x > y) - (x < y);
-}
-
-/* Sets the range of the axis along the bar to the current positions of the particles in frame[frames], extended by half
- * a spacing at both ends. metre: unit of the axis [m]. */
-static void profile_range(FILE *to, const struct output_frame *frame, int frames, double metre)
-{
-    const double half = 0.5 * frame_particle_spacing(&frame[0]);
-    double from = INFINITY, end = -INFINITY;
-    for (int k = 0; k < frames; k++)
-        for (int64_t i = 0; i < frame[k].n; i++) {
-            const double x = (double)frame[k].X[0][i] + frame[k].u[0][i];
-            from = fmin(from, x - half), end = fmax(end, x + half);
-        }
-    const double beside = 1e-3 * (end - from); /* avoids that rounding removes the tics at the ends */
-    if (end > from) fprintf(to, "set xrange [%.9g:%.9g]\n", (from - beside) / metre, (end + beside) / metre);
-}
-
-/* Sends the frame f to gnuplot as the data block $fK of the k-th curve: position, velocity, stress and damage of the
- * particles from left to right. An empty line interrupts the curve where the bar has separated, that is, where
- * neighbours are more than 1.5 `spacing` [m] apart. unit[3]: units of position, velocity and stress. */
-static void send_profile(FILE *to, const struct output_frame *f, int k, double spacing, const struct unit *unit)
-{
-    struct station *s = NEW("plot.profile", f->n, struct station);
-    for (int64_t i = 0; i < f->n; i++)
-        s[i] = (struct station){f->X[0][i] + f->u[0][i], f->v[0][i], f->stress[0][i], f->damage[i]};
-    array_sort(s, f->n, sizeof *s, plot_curves_by_place);
-    fprintf(to, "$f%d << EOD\n", k);
-    for (int64_t i = 0; i < f->n; i++) {
-        if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);
-        fprintf(to, "%.7g %.7g %.7g %.7g\n", s[i].x / unit[0].factor, s[i].velocity / unit[1].factor,
-                s[i].stress / unit[2].factor, s[i].damage);
-    }
-    fputs("EOD\n", to);
-    memory_free(s);
-}
-
-static double largest_in(const float *a, int64_t n)
-{
-    double largest = 0;
-    for (int64_t i = 0; i < n; i++) largest = fmax(largest, fabs(a[i]));
-    return largest;
-}
-
-/* Returns the range of the axial stress (`stress` true) or of the velocity (false) of all particles of frame[frames].
- * factor: unit of the range over the SI unit. */
-static struct value_range profile_extent(const struct output_frame *frame, int frames, double factor, bool stress)
-{
-    struct value_range e = {INFINITY, -INFINITY};
-    for (int k = 0; k < frames; k++)
-        for (int64_t i = 0; i < frame[k].n; i++) {
-            const double a = (stress ? frame[k].stress[0][i] : frame[k].v[0][i]) / factor;
-            e.low = fmin(e.low, a), e.high = fmax(e.high, a);
-        }
-    return e;
-}
-
-/* Chooses unit[3], the units of position, velocity and stress, for the largest values in frame[frames]. */
-static void choose_units(struct unit *unit, const struct output_frame *frame, int frames)
-{
-    double largest[3] = {0}, from = INFINITY, end = -INFINITY;
-    for (int k = 0; k < frames; k++) {
-        for (int64_t i = 0; i < frame[k].n; i++) from = fmin(from, frame[k].X[0][i]), end = fmax(end, frame[k].X[0][i]);
-        largest[1] = fmax(largest[1], largest_in(frame[k].v[0], frame[k].n));
-        largest[2] = fmax(largest[2], largest_in(frame[k].stress[0], frame[k].n));
-    }
-    unit[0] = unit_for_length(end - from);
-    unit[1] = unit_for_largest_value(largest[1], "m/s");
-    unit[2] = unit_for_largest_value(largest[2], "Pa");
-}
-
-static void plot_profile(FILE *to, const struct output_frame *frame, int frames, int column)
-{
-    struct unit second = unit_for_largest_value(frame[frames - 1].t, "s");
-    fputs("plot ", to);
-    for (int k = 0; k < frames; k++) {
-        char colour[8];
-        frame_colour(colour, sizeof colour, k, frames);
-        fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%.3g %s'", k > 0 ? ", " : "", k, column,
-                colour, frame[k].t / second.factor, second.name);
-    }
-    putc('\n', to);
-}
-
-/* Returns the number of panels of a picture of profiles. The last panel, damage, is left out if damage is zero in all
- * of frame[frames]. */
-static int profile_panels(const struct output_frame *frame, int frames)
-{
-    double damage = 0;
-    for (int k = 0; k < frames; k++) damage = fmax(damage, largest_in(frame[k].damage, frame[k].n));
-    return damage > 0 ? 3 : 2;
-}
-
-status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count)
-{
-    struct gnuplot g;
-    struct unit unit[3];
-    char label[3][64];
-    const int panels = profile_panels(frame, frame_count), height = 130 + 263 * panels;
-    choose_units(unit, frame, frame_count);
-    struct value_range of[3] = {profile_extent(frame, frame_count, unit[1].factor, false),
-                                profile_extent(frame, frame_count, unit[2].factor, true),
-                                {0, 1}};
-    snprintf(label[0], sizeof label[0], "velocity [%s]", unit[1].name);
-    snprintf(label[1], sizeof label[1], "stress [%s]", unit[2].name);
-    snprintf(label[2], sizeof label[2], "damage");
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
-    for (int k = 0; k < frame_count; k++) send_profile(g.to, &frame[k], k, frame_particle_spacing(&frame[0]), unit);
-    curves_write_title(&g, title, "");
-    const struct curves_layout l = curves_layout_make(&g, frame_count, TIME_LETTERS, false);
-    const double each = (curves_layout_height_of_all_panels(&l) - PANEL_GAP * (panels - 1)) / panels;
-    curves_write_margins_and_key(g.to, &l);
-    fputs("set multiplot\nset format x ''\nset offsets graph 0, graph 0, graph 0.06, graph 0.06\n", g.to);
-    profile_range(g.to, frame, frame_count, unit[0].factor);
-    for (int k = 0; k < panels; k++) {
-        const double from = k * (each + PANEL_GAP);
-        curves_write_panel_margins(g.to, &l, from, from + each);
-        curves_write_tics(g.to, "y", of[k].low, of[k].high, each);
-        fprintf(g.to, "set ylabel '%s'\n", label[k]);
-        if (k == panels - 1) fprintf(g.to, "set format x '%%g'\nset xlabel 'x [%s]'\n", unit[0].name);
-        if (k == 2) fputs("set offsets\nset yrange [0:1.04]\n", g.to);
-        plot_profile(g.to, frame, frame_count, k + 2);
-        fputs("unset label\nunset key\n", g.to);
-    }
-    fputs("unset multiplot\n", g.to);
-    return gnuplot_close(&g);
-}
-
-/* Sends the frame f to gnuplot as the data block $fK of the k-th curve: position and value[f->n] of a field from left
- * to right. An empty line interrupts the curve where the bar has separated, that is, where neighbours are more than 1.5
- * `spacing` [m] apart. factor[2]: units of position and value over the SI units. */
-static void send_field(FILE *to, const struct output_frame *f, int k, const float *value, double spacing,
-                       const double factor[2])
-{
-    struct station *s = NEW("plot.profile", f->n, struct station);
-    for (int64_t i = 0; i < f->n; i++) s[i] = (struct station){.x = f->X[0][i] + f->u[0][i], .velocity = value[i]};
-    array_sort(s, f->n, sizeof *s, plot_curves_by_place);
-    fprintf(to, "$f%d << EOD\n", k);
-    for (int64_t i = 0; i < f->n; i++) {
-        if (i > 0 && s[i].x - s[i - 1].x > 1.5 * spacing) putc('\n', to);
-        fprintf(to, "%.7g %.7g\n", s[i].x / factor[0], s[i].velocity / factor[1]);
-    }
-    fputs("EOD\n", to);
-    memory_free(s);
-}
-
-status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
-                           float *const *value_of_frame, const struct output_frame *frame, int frame_count)
-{
-    struct gnuplot g;
-    struct unit unit[3];
-    choose_units(unit, frame, frame_count);
-    double largest = 0;
-    for (int k = 0; k < frame_count; k++) largest = fmax(largest, largest_in(value_of_frame[k], frame[k].n));
-    const struct unit own = unit_for_largest_value(largest, field->unit);
-    const double factor[2] = {unit[0].factor, *field->unit ? own.factor : 1};
-    char label[64], name[NAME_MAX_LENGTH];
-    plot_field_write_label(name, sizeof name, field);
-    snprintf(label, sizeof label, *field->unit ? "%.40s [%s]" : "%.40s", name, own.name);
-    TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
-    for (int k = 0; k < frame_count; k++)
-        send_field(g.to, &frame[k], k, value_of_frame[k], frame_particle_spacing(&frame[0]), factor);
-    curves_write_title(&g, title, "");
-    const struct curves_layout l = curves_layout_make(&g, frame_count, TIME_LETTERS, false);
-    curves_write_margins_and_key(g.to, &l);
-    fprintf(g.to,
-            "set offsets graph 0, graph 0, graph 0.06, graph 0.06\n"
-            "set xlabel 'x [%s]'\nset ylabel '%s'\n",
-            unit[0].name, label);
-    profile_range(g.to, frame, frame_count, unit[0].factor);
-    if (field->scale == CATEGORY && largest < 12) fputs("set ytics 1\n", g.to);
-    plot_profile(g.to, frame, frame_count, 2);
-    return gnuplot_close(&g);
 }

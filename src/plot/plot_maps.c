@@ -49,22 +49,12 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     memory_free(pixel);
 }
 
-/* Writes the title of a picture into text[TITLE_LENGTH], and after it the number of particles outside the shown
- * rectangle unless that is 0. */
-static void title_compose(char *text, const char *title, int64_t outside)
-{
-    int length = snprintf(text, TITLE_LENGTH, "%.*s", TITLE_LENGTH - 64, title);
-    if (outside > 0)
-        snprintf(text + length, TITLE_LENGTH - (size_t)length, "%s(%lld particle%s outside the picture)",
-                 length > 0 ? " " : "", (long long)outside, outside > 1 ? "s are" : " is");
-}
-
 status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
                                   const struct plotted_particles *cloud, int frame_count)
 {
     struct gnuplot g;
     char text[TITLE_LENGTH];
-    title_compose(text, title, view->outside);
+    title_compose_with_particles_outside(text, title, view->outside);
     struct maps_shown shown = {
         .map = map, .view = view, .title = text, .format = sheet.format, .outside = cloud[0].position[2]};
     bool rigid = false;

@@ -8,7 +8,7 @@
 #include "output/summary_read.h"
 
 /* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */
-enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6, LEAST_ROWS = 3 };
+enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
 /* Finds the columns of the history whose names are the name of a probe followed by `quantity`, for example ".K_I".
  * Stores the names of the first `most` probes in name[]. Returns their number. */
@@ -97,7 +97,7 @@ status sif_curves_draw(const char *title, const struct series *series)
     find_factors(&f, series->h);
     const struct path path = picture_path(series->pictures, DRAWN_SIF, picture_ending[series->format]);
     if (f.n == 0) return OK;
-    if (series->h->rows < LEAST_ROWS)
+    if (series->equilibrium)
         return report_picture_not_drawn(path.text, "the run has one equilibrium; summary.json has its K_I and K_II");
     double spread = 0;
     for (int k = 0; k < f.n; k++) spread = fmax(spread, history_largest_magnitude(series->h, f.spread[k]));

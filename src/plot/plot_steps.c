@@ -230,23 +230,22 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints why the picture `path` of load over displacement is not drawn. r: the curves found. in_steps: true for a run
- * with load steps. Prints nothing for a run in time that has neither a support nor a rigid body that carries a load.
- * Returns FAILED if standard output cannot be written. */
-static status say_missing_load(const char *path, const struct reactions *r, bool in_steps)
+/* Prints why the picture `path` of load over displacement is not drawn. r: the curves found. Returns FAILED if standard
+ * output cannot be written. */
+static status say_missing_load(const char *path, const struct reactions *r)
 {
     if (r->n > 0)
         return report_picture_not_drawn(path, "what bears the load does not move; a point probe where the body moves "
                                               "adds the displacement: probes: [{point: {at: [...]}}]");
-    return in_steps ? report_picture_not_drawn(path, "neither a support nor a rigid body has a force") : OK;
+    return report_picture_not_drawn(path, "neither a support nor a rigid body has a force");
 }
 
-status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history, bool has_load_steps)
+status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history)
 {
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, history);
-    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r, has_load_steps);
+    if (!(r.n > 0 && r.displacement > 0)) return say_missing_load(sheet.path, &r);
     reactions_join(&r, history);
     const struct unit newton = unit_for_largest_value(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
