@@ -145,7 +145,7 @@ case $? in                               # a busy machine may have time for none
 esac
 "$cleave" converge bar.yaml -o dearer -s particles.spacing=0.0001mm --budget 0.3 >out 2>err
 is "too dear" $? 2
-grep -q "is too small" err && pass || fail "too dear: $(cat err)"
+grep -q "is too small: one run at [0-9.]* µm" err && pass || fail "too dear, in the unit of its spacing: $(cat err)"
 
 # ---- refusals --------------------------------------------------------------------------------------------------------
 

@@ -330,6 +330,14 @@ END
         is "$picture: its size" "$("$margins" $picture | cut -d ' ' -f 5-)" "481 340"
         uncut $picture
     done
+    # Of the width alone: the key is below the panels, and what is written at the axes has space.
+    : >all
+    "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm -s boundary.0.traction='[0, 10 MPa],[0, 20 MPa]' --of energy.kinetic \
+        --of crack.length_end --size 60mm -o column >out 2>err
+    is "sweep --size 60mm: $(cat err)" $? 0
+    for picture in particles.spacing boundary.0.traction map; do uncut column/pictures/$picture.png; done
+    holds "a key below, of two columns" grep -a -q "set key at screen 0[.]02.* horizontal maxcols 2 maxrows 1" all
+    holds "slanted values" grep -a -q "set xtics rotate by 40 right ('\[0, 10 MPa\]' 0" all
     # Also as a PDF of that size; films are no pictures of studies.
     : >all
     "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --size 85mmx60mm --format pdf -o finer >out 2>err
