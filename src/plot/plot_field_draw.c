@@ -113,6 +113,12 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
 {
     char title[TITLE_LENGTH];
     struct output_frame *f = NULL;
+    const char *of_maps = r->range[0]                 ? "--range"
+                          : r->table                  ? "--colours"
+                          : r->cropped                ? "--crop"
+                          : r->projection.magnify > 0 ? "--magnify"
+                                                      : NULL;
+    if (of_maps) return status_set(REFUSED, "plot: %s is for maps; a run in one dimension has curves", of_maps);
     if (picture_is_film(r->format))
         return status_set(REFUSED, "plot: --format %s: runs in one dimension have no films; take png, svg or pdf",
                           picture_ending[r->format]);

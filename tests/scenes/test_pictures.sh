@@ -442,6 +442,7 @@ END
 "$cleave" run spall.yaml -q -o spall >out 2>err
 : >all
 "$cleave" plot spall $small >out 2>err
+refused "colours is for maps; a run in one dimension has curves" spall --field stress_xx --colours magma
 holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with points' all
 holds "and outside the axis of velocities" grep -a -q "profiles (1 particle is outside the picture)" all
 between "whose axis is that of the bar" "$(sed -n 's/^set yrange .*:\([0-9.]*\)\].*/\1/p' all | head -n 1)" 0.5 20
