@@ -1,6 +1,6 @@
-/* Surfaces of rigid bodies by surface nets (Gibson 1998): each cell of a grid that the surface crosses has a point in
- * the middle of the crossings of its edges; each edge that the surface crosses has a face between the cells around it.
- */
+/* Surfaces of rigid bodies by dual contouring (Ju et al. 2002): each cell of a grid that the surface crosses has a
+ * point where the planes of the surface at the crossings of its edges meet; each edge that the surface crosses has a
+ * face between the cells around it. */
 #include "rigid/rigid_surface.h"
 
 #include <math.h>
@@ -17,33 +17,62 @@
  * the bounding box of the particles [1]. */
 #define RIGID_BESIDE 0.08
 enum { CELLS_PLANE = 200, CELLS_SPACE = 24, THICKNESS_CELLS = 6, NODES_MOST = 200000 };
+/* CELL_EDGES: edges of a cell in space. CROSSING_STEPS, FIT_STEPS: steps of the search for a crossing and for the point
+ * of a cell; CROSSING_PRECISION: of a crossing [cells]. */
+enum { CELL_EDGES = 12, CROSSING_STEPS = 30, FIT_STEPS = 60 };
+#define CROSSING_PRECISION 1e-9
+
+/* Crossing of the surface with an edge of the grid: its distance from the lower node [cells], the normal there. */
+struct crossing {
+    real share, normal[DIM_MAX];
+};
+
+/* Crossing on an edge of one cell. at: position from the lowest node of the cell [cells]; normal: borrowed. */
+struct cell_crossing {
+    real at[DIM_MAX];
+    const real *normal;
+};
 
 /* Grid over a region, one cell larger than it on all sides, and the values of its level set at the nodes. */
 struct net {
     int dim;
     int64_t count[DIM_MAX], nodes; /* of nodes */
     real from[DIM_MAX], step;
-    real *value;    /* [nodes] negative inside [m] */
-    int32_t *point; /* [nodes] index of the point of the cell above a node; -1: none */
+    real *value;                /* [nodes] negative inside [m] */
+    int32_t *point;             /* [nodes] index of the point of the cell above a node; -1: none */
+    struct crossing *crossing;  /* [nodes][dim] on the edge along each axis from a node; 0: none */
+    const struct region *shape; /* borrowed */
+    const real *low, *high;     /* box to which the shape is cut [m]; borrowed */
 };
 
-/* Returns the level set at X[dim] of a region, cut to the box low[dim] .. high[dim] [m]: negative inside both, 0 on the
- * surface. */
-static real cut_level_set(const struct region *shape, const real *X, int dim, const real *low, const real *high)
+/* Returns the level set of the region at X[dim], cut to its box [m]: negative inside both, 0 on the surface. */
+static real net_level_set(const struct net *g, const real *X)
 {
-    real value = region_level_set_value(shape, X, dim);
-    for (int d = 0; d < dim; d++) value = real_max(value, real_max(low[d] - X[d], X[d] - high[d]));
+    real value = region_level_set_value(g->shape, X, g->dim);
+    for (int d = 0; d < g->dim; d++) value = real_max(value, real_max(g->low[d] - X[d], X[d] - g->high[d]));
     return value;
+}
+
+/* Returns by how much the indices of neighbouring nodes along axis d differ in the arrays of g. */
+static int64_t stride(const struct net *g, int d)
+{
+    return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
+}
+
+/* Computes the position X[dim] of node k of the grid [m]. */
+static void node_position(const struct net *g, int64_t k, real *X)
+{
+    for (int d = 0; d < g->dim; k /= g->count[d], d++) X[d] = g->from[d] + (real)(k % g->count[d]) * g->step;
 }
 
 /* Makes a grid of nodes over the box low[dim] .. high[dim] [m], and computes the level set of the region `shape`, cut
  * to this box, at its nodes. The length of the box along its longest or its shortest edge is a whole number of cells
  * plus half a cell. This keeps nodes off the faces of the box, where round-off would decide on which side they are. The
- * caller frees g->value and g->point. */
+ * caller frees g->value, g->point and g->crossing. */
 static void net_make(struct net *g, const struct region *shape, int dim, const real *low, const real *high)
 {
     real thinnest = INFINITY, longest = 0, nodes;
-    *g = (struct net){.dim = dim, .count = {1, 1, 1}};
+    *g = (struct net){.dim = dim, .count = {1, 1, 1}, .shape = shape, .low = low, .high = high};
     for (int d = 0; d < dim; d++) {
         thinnest = real_min(thinnest, high[d] - low[d]);
         longest = real_max(longest, high[d] - low[d]);
@@ -62,54 +91,100 @@ static void net_make(struct net *g, const struct region *shape, int dim, const r
     }
     g->value = NEW("rigid.value", g->nodes, real);
     g->point = NEW("rigid.point", g->nodes, int32_t);
+    g->crossing = NEW("rigid.crossing", g->nodes * dim, struct crossing);
     for (int64_t k = 0; k < g->nodes; k++) {
         real X[DIM_MAX];
-        int64_t rest = k;
-        for (int d = 0; d < dim; rest /= g->count[d], d++) X[d] = g->from[d] + (real)(rest % g->count[d]) * g->step;
-        g->value[k] = cut_level_set(shape, X, dim, low, high);
+        node_position(g, k, X);
+        g->value[k] = net_level_set(g, X);
     }
 }
 
-/* Returns by how much the indices of neighbouring nodes along axis d differ in the arrays of g. */
-static int64_t stride(const struct net *g, int d)
+/* Finds where the surface crosses the edge of the grid along axis d from node k, if it does, by false position in turn
+ * with bisection. Stores the crossing and the normal there in g->crossing. */
+static void crossing_find(struct net *g, int64_t k, int d)
 {
-    return d == 0 ? 1 : d == 1 ? g->count[0] : g->count[0] * g->count[1];
+    const real end = g->value[k + stride(g, d)], start = g->value[k], h = 1e-4 * g->step;
+    real X[DIM_MAX] = {0}, from = 0, to = g->step, before = start, behind = end, at = 0, value = start, length = 0;
+    struct crossing *found = &g->crossing[k * g->dim + d];
+    node_position(g, k, X);
+    const real corner = X[d];
+    for (int n = 0; n < CROSSING_STEPS && fabs(value) > CROSSING_PRECISION * g->step; n++) {
+        at = n % 3 == 2 ? 0.5 * (from + to) : from + (to - from) * before / (before - behind);
+        X[d] = corner + at;
+        value = net_level_set(g, X);
+        if ((value < 0) == (start < 0))
+            from = at, before = value;
+        else
+            to = at, behind = value;
+    }
+    for (int e = 0; e < g->dim; e++) {
+        const real middle = X[e];
+        X[e] = middle + h;
+        found->normal[e] = net_level_set(g, X);
+        X[e] = middle - h;
+        found->normal[e] -= net_level_set(g, X);
+        X[e] = middle;
+        length += square(found->normal[e]);
+    }
+    for (int e = 0; e < g->dim; e++) found->normal[e] = length > 0 ? found->normal[e] / sqrt(length) : 0;
+    found->share = at / g->step;
 }
 
-/* Finds whether the surface crosses the edge along axis d from corner `bits` of the cell above node k (bit e: upper
- * corner along axis e). If so, adds the position of the crossing to sum[DIM_MAX], in cells from node k, and returns 1;
- * else returns 0. */
-static int edge_crossing_add(const struct net *g, int64_t k, int bits, int d, real *sum)
+/* Lists in c the crossings of the surface with the edges of the grid cell above node k, at positions in cells from the
+ * node, and returns their number. */
+static int cell_crossings_list(const struct net *g, int64_t k, struct cell_crossing c[CELL_EDGES])
 {
-    int64_t a = k;
-    for (int e = 0; e < g->dim; e++) a += (bits >> e & 1) * stride(g, e);
-    const real v = g->value[a], w = g->value[a + stride(g, d)];
-    if ((v < 0) == (w < 0)) return 0;
-    for (int e = 0; e < g->dim; e++) sum[e] += e == d ? v / (v - w) : (bits >> e & 1);
-    return 1;
+    int n = 0;
+    for (int bits = 0; bits < 1 << g->dim; bits++)
+        for (int d = 0; d < g->dim; d++) {
+            int64_t a = k;
+            for (int e = 0; e < g->dim; e++) a += (bits >> e & 1) * stride(g, e);
+            if ((bits >> d & 1) || (g->value[a] < 0) == (g->value[a + stride(g, d)] < 0)) continue;
+            for (int e = 0; e < g->dim; e++)
+                c[n].at[e] = e == d ? g->crossing[a * g->dim + d].share : (real)(bits >> e & 1);
+            c[n++].normal = g->crossing[a * g->dim + d].normal;
+        }
+    return n;
 }
 
-/* Creates the points of the surface s->X: one for each grid cell that the surface crosses, at the mean of the positions
- * at which it crosses the edges of the cell. Stores the index of the point in g->point. */
+/* Finds the point of a grid cell that is nearest, in the least-squares sense, to the planes of the surface at its n
+ * crossings c: on an edge or corner of the body where it has one. The descent begins at the mean of the crossings,
+ * where it stays along directions in which the surface is flat. Stores the point in at[dim], in cells from the node
+ * below. */
+static void cell_point_fit(const struct cell_crossing *c, int n, int dim, real *at)
+{
+    for (int e = 0; e < dim; e++) {
+        at[e] = 0;
+        for (int k = 0; k < n; k++) at[e] += c[k].at[e] / n;
+    }
+    for (int step = 0; step < FIT_STEPS; step++) {
+        real move[DIM_MAX] = {0};
+        for (int k = 0; k < n; k++) {
+            real off = 0;
+            for (int e = 0; e < dim; e++) off += c[k].normal[e] * (c[k].at[e] - at[e]);
+            for (int e = 0; e < dim; e++) move[e] += off * c[k].normal[e] / n;
+        }
+        for (int e = 0; e < dim; e++) at[e] = real_min(real_max(at[e] + move[e], 0), 1);
+    }
+}
+
+/* Creates the points of the surface s->X, one for each grid cell that the surface crosses. Stores the index of the
+ * point in g->point. */
 static void surface_points_make(struct rigid_surface *s, struct net *g)
 {
     for (int64_t k = 0; k < g->nodes; k++) {
-        real sum[DIM_MAX] = {0}, at[DIM_MAX];
-        int crossings = 0;
+        struct cell_crossing c[CELL_EDGES];
+        real corner[DIM_MAX] = {0}, at[DIM_MAX];
         bool last = false;
         int64_t rest = k;
-        for (int d = 0; d < g->dim; rest /= g->count[d], d++) {
-            at[d] = (real)(rest % g->count[d]);
-            last |= rest % g->count[d] == g->count[d] - 1;
-        }
+        for (int d = 0; d < g->dim; rest /= g->count[d], d++) last |= rest % g->count[d] == g->count[d] - 1;
+        const int crossings = last ? 0 : cell_crossings_list(g, k, c);
         g->point[k] = -1;
-        for (int bits = 0; bits < 1 << g->dim && !last; bits++)
-            for (int d = 0; d < g->dim; d++)
-                if (!(bits >> d & 1)) crossings += edge_crossing_add(g, k, bits, d, sum);
         if (crossings == 0) continue;
+        cell_point_fit(c, crossings, g->dim, at);
+        node_position(g, k, corner);
         GROW("rigid.X", s->X, (s->points + 1) * DIM_MAX);
-        for (int d = 0; d < DIM_MAX; d++)
-            s->X[s->points * DIM_MAX + d] = d < g->dim ? g->from[d] + (at[d] + sum[d] / crossings) * g->step : 0;
+        for (int d = 0; d < DIM_MAX; d++) s->X[s->points * DIM_MAX + d] = d < g->dim ? corner[d] + at[d] * g->step : 0;
         g->point[k] = (int32_t)s->points++;
     }
 }
@@ -139,9 +214,13 @@ void rigid_surface_approximate_by_polygons(struct rigid_surface *s, const struct
     struct net g;
     *s = (struct rigid_surface){0};
     net_make(&g, shape, dim, low, high);
+    for (int64_t k = 0; k < g.nodes; k++)
+        for (int d = 0; d < dim; d++)
+            if (k + stride(&g, d) < g.nodes && (g.value[k] < 0) != (g.value[k + stride(&g, d)] < 0))
+                crossing_find(&g, k, d);
     surface_points_make(s, &g);
     surface_faces_make(s, &g);
-    memory_free(g.value), memory_free(g.point);
+    memory_free(g.value), memory_free(g.point), memory_free(g.crossing);
 }
 
 void rigid_surface_free(struct rigid_surface *s)

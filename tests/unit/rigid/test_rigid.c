@@ -88,7 +88,7 @@ static real enclosed(const struct rigid_surface *s)
 }
 
 /* Surfaces of a disc, a ball and a brick: closed, of the right size within what their grids resolve (200 and 24 cells
- * across, edges of a brick are bevelled), points on the surface; a half-space is cut to the box. */
+ * across; bricks have sharp edges, also a turned one), points on the surface; a half-space is cut to the box. */
 static void test_surface(void **state)
 {
     (void)state;
@@ -97,14 +97,19 @@ static void test_surface(void **state)
     static struct solid brick = {.kind = SOLID_BOX, .from = {-1.5, -1, -0.8}, .to = {1.1, 0.7, 0.9}};
     static struct solid ground = {
         .kind = SOLID_BOX, .from = {-INFINITY, -INFINITY, -INFINITY}, .to = {INFINITY, INFINITY, 0}};
+    static struct solid turned = {.kind = SOLID_BOX, .from = {-1.5, -1, -0.8}, .to = {1.1, 0.7, 0.9}};
     static const struct {
         struct solid *solid;
         int dim;
         real size, within;
     } body[] = {{&ball, 2, 1.7 * 1.7, 1e-3},
                 {&ball, 3, 4.0 / 3 * 1.7 * 1.7 * 1.7, 0.01},
-                {&brick, 3, 2.6 * 1.7 * 1.7, 0.03},
-                {&ground, 3, 32, 0.02}};
+                {&brick, 2, 2.6 * 1.7, 1e-6},
+                {&brick, 3, 2.6 * 1.7 * 1.7, 1e-6},
+                {&turned, 3, 2.6 * 1.7 * 1.7, 2e-3},
+                {&ground, 3, 32, 1e-6}};
+    const struct solid_motion motion = {.kind = MOTION_ROTATE, .angle = 0.4, .axis = {1, 2, 3}};
+    assert_true(solid_apply_motion_if_not_too_many_copies(&turned, &motion, 3));
     for (size_t k = 0; k < COUNT_OF(body); k++) {
         const struct region region = {.n = 1, .solid = body[k].solid};
         struct rigid_surface s;
@@ -121,6 +126,7 @@ static void test_surface(void **state)
         }
         rigid_surface_free(&s);
     }
+    solid_free(&turned);
 }
 
 /* A half-space beyond the box of the particles has a surface, on its face and as wide as the box; a box that it cuts
