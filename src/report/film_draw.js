@@ -3,6 +3,8 @@
 
 const CRACK = 0.35;  // damage from which a particle is drawn as part of a crack, as in cleave plot
 const CRACK_CODE = CRACK * 254;
+const LOOSE_CODE = 0.6 * 254, LONGEST = 4;  // of rubble, from this damage; of drawn particles [spacings], as there
+const WIDER = 1.04;                         // cubes are drawn wider to close the gaps of a strained lattice, as there
 const INK = 0xff201a18, GHOST = 0xffe9e6e4;  // alpha, blue, green, red
 
 // Reads the reference state of a particle set once: positions, sizes, neighbours on the lattice.
@@ -64,19 +66,22 @@ function positionsOf(film, frame, magnify) {
     });
 }
 
+// Has the crack parted the neighbours i and j, or is one of them rubble? damage: codes, or null.
+const apart = (damage, i, j) => damage &&
+    (Math.min(damage[i], damage[j]) > CRACK_CODE || Math.max(damage[i], damage[j]) > LOOSE_CODE);
+
 // Paints particles in the plane. to: {pixel, owner, width, height}; see: {x, y, scale}: the position at the centre and
 // the pixels per metre. colour(i): of particle i; damage: codes of damage, or null.
 function paintPlane(to, see, set, x, colour, damage) {
-    const broken = (i, j) => damage && damage[i] > CRACK_CODE && damage[j] > CRACK_CODE;
     const edge = [0, 0], beside = set.beside;
     // The vector from the middle of one side of a particle to that of the other: half the way between its neighbours.
     const edgeOf = (i, plus, minus, axis) => {
-        const p = plus[i] >= 0 && !broken(i, plus[i]) ? plus[i] : i,
-              m = minus[i] >= 0 && !broken(i, minus[i]) ? minus[i] : i;
+        const p = plus[i] >= 0 && !apart(damage, i, plus[i]) ? plus[i] : i,
+              m = minus[i] >= 0 && !apart(damage, i, minus[i]) ? minus[i] : i;
         const share = p !== i && m !== i ? 0.5 : 1;
         edge[0] = (x[0][p] - x[0][m]) * share;
         edge[1] = (x[1][p] - x[1][m]) * share;
-        if (p === m || Math.hypot(edge[0], edge[1]) > 4 * set.size[i]) edge[axis] = set.size[i], edge[1 - axis] = 0;
+        if (p === m || Math.hypot(edge[0], edge[1]) > LONGEST * set.size[i]) edge[axis] = set.size[i], edge[1 - axis] = 0;
     };
     for (let i = 0; i < set.n; i++) {
         edgeOf(i, beside[0], beside[1], 0);
@@ -84,12 +89,17 @@ function paintPlane(to, see, set, x, colour, damage) {
         edgeOf(i, beside[2], beside[3], 1);
         const bx = edge[0] * see.scale, by = -edge[1] * see.scale;
         const cx = to.width / 2 + (x[0][i] - see.x) * see.scale, cy = to.height / 2 - (x[1][i] - see.y) * see.scale;
-        paintQuad(to, i, cx, cy, ax, ay, bx, by, colour(i));
+        const own = colour(i);
+        paintCells(to, cx, cy, ax, ay, bx, by, (at) => {
+            to.pixel[at] = own;
+            to.owner[at] = i;
+        });
     }
 }
 
-// Paints a parallelogram with the centre (cx, cy) and the edges a and b, all in pixels.
-function paintQuad(to, i, cx, cy, ax, ay, bx, by, colour) {
+// Calls paint(pixel, s, t) for the pixels of a parallelogram with the centre (cx, cy) and the edges a and b [pixel]; s and
+// t: place along the edges from the centre, 0.5 and slightly more at the sides.
+function paintCells(to, cx, cy, ax, ay, bx, by, paint) {
     const det = ax * by - ay * bx, wide = (Math.abs(ax) + Math.abs(bx)) / 2 + 0.5,
           high = (Math.abs(ay) + Math.abs(by)) / 2 + 0.5;
     const left = Math.max(0, Math.round(cx - wide)), right = Math.min(to.width, Math.round(cx + wide));
@@ -98,81 +108,77 @@ function paintQuad(to, i, cx, cy, ax, ay, bx, by, colour) {
     const along = Math.abs(det) / 2 + 0.6 * Math.hypot(bx, by), across = Math.abs(det) / 2 + 0.6 * Math.hypot(ax, ay);
     for (let py = top; py < bottom; py++)
         for (let px = left; px < right; px++) {
-            const dx = px + 0.5 - cx, dy = py + 0.5 - cy;
-            if (Math.abs(dx * by - dy * bx) > along || Math.abs(ax * dy - ay * dx) > across) continue;
-            to.pixel[py * to.width + px] = colour;
-            to.owner[py * to.width + px] = i;
+            const dx = px + 0.5 - cx, dy = py + 0.5 - cy, s = dx * by - dy * bx, t = ax * dy - ay * dx;
+            if (Math.abs(s) <= along && Math.abs(t) <= across) paint(py * to.width + px, s / det, t / det);
         }
 }
 
-// The pixels that a cube of `edge` pixels covers, seen along the third row of `turn`: offsets, depths, and the axis of
-// the face that is seen there.
-function cubeStamp(turn, edge) {
-    const half = edge / 2 + 0.5, reach = Math.ceil(half * 1.75), stamp = {x: [], y: [], depth: [], face: []};
-    for (let y = -reach; y <= reach; y++)
-        for (let x = -reach; x <= reach; x++) {
-            let near = Infinity, far = -Infinity, face = 0;
-            for (let k = 0; k < 3; k++) {
-                const at = x * turn[0][k] + y * turn[1][k], along = turn[2][k];
-                if (Math.abs(along) < 1e-6) {
-                    if (Math.abs(at) > half) near = -Infinity;
-                    continue;
-                }
-                const one = (half - at) / along, other = (-half - at) / along;
-                if (Math.max(one, other) < near) near = Math.max(one, other), face = k;
-                far = Math.max(far, Math.min(one, other));
+// Edges of the cubes of all particles, which deform with the body: the vectors along the axes, edges[9 * i + 3 * k + d]
+// [m], and for each side of an axis whether a neighbour joins there, joins[6 * i + 2 * k + side].
+function deformedCubes(set, x, damage, shown) {
+    const edges = new Float32Array(9 * set.n), joins = new Uint8Array(6 * set.n), at = [0, 0];
+    for (let i = 0; i < set.n; i++)
+        for (let k = 0; k < 3; k++) {
+            for (const side of [0, 1]) {
+                const j = set.beside[2 * k + side][i];
+                at[side] = j >= 0 && !apart(damage, i, j) ? j : i;
+                joins[6 * i + 2 * k + side] = at[side] !== i && shown(j);
             }
-            if (near < far) continue;
-            stamp.x.push(x), stamp.y.push(-y), stamp.depth.push(near), stamp.face.push(face);
+            const first = 9 * i + 3 * k, share = at[0] !== i && at[1] !== i ? 0.5 : 1;
+            for (let d = 0; d < 3; d++) edges[first + d] = (x[d][at[0]] - x[d][at[1]]) * share;
+            const length = Math.hypot(edges[first], edges[first + 1], edges[first + 2]);
+            if (!(length > 0) || length > LONGEST * set.size[i])
+                for (let d = 0; d < 3; d++) edges[first + d] = d === k ? set.size[i] : 0;
         }
-    return stamp;
+    return {edges, joins};
 }
 
-// Returns a function that stores in open[3] which of the three faces of cube i that one sees have no neighbour before
-// them, and returns the edge of the cube [m], which grows with the distance of its neighbours.
-function exposure(set, x, damage, shown, turn, open) {
-    const seen = [0, 1, 2].map((k) => set.beside[2 * k + (turn[2][k] > 0 ? 0 : 1)]);
-    const joined = (i, j) => j >= 0 && shown(j) && !(damage && damage[i] > CRACK_CODE && damage[j] > CRACK_CODE);
-    return (i) => {
-        let widest = set.size[i];
-        for (let k = 0; k < 3; k++) open[k] = !joined(i, seen[k][i]);
-        for (const next of set.beside) {
-            const j = next[i];
-            if (joined(i, j))
-                widest = Math.max(widest, Math.hypot(x[0][j] - x[0][i], x[1][j] - x[1][i], x[2][j] - x[2][i]));
-        }
-        return Math.min(widest, 2 * set.size[i]);
-    };
+// Is face `side` of cube i along axis k covered by its neighbour, a cube of nearly the same shape?
+function covered(set, cubes, i, k, side) {
+    if (!cubes.joins[6 * i + 2 * k + side]) return false;
+    const from = 9 * i, to = 9 * set.beside[2 * k + side][i], limit = 0.1 * set.size[i];
+    for (let e = 0; e < 9; e++)
+        if (Math.abs(cubes.edges[from + e] - cubes.edges[to + e]) > limit) return false;
+    return true;
 }
 
-// Paints cubes in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i): its colour; damage:
-// codes, or null.
+// Paints the deformed cubes of particles in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i):
+// its colour; damage: codes, or null.
 function paintSpace(to, see, set, x, colour, shown, damage) {
-    const stamps = new Map(), [r, u, t] = see.turn, depth = to.depth.fill(-Infinity), open = [true, true, true];
-    const edgeOf = exposure(set, x, damage, shown, see.turn, open);
+    const cubes = deformedCubes(set, x, damage, shown), edge = [0, 1, 2].map(() => [0, 0, 0]), middle = [0, 0, 0];
+    to.depth.fill(-Infinity);
+    // A vector of the body as x, y and depth on the screen, with `zoom` pixels per metre.
+    const turned = (v, zoom, out) => {
+        for (let r = 0; r < 3; r++)
+            out[r] = zoom * (see.turn[r][0] * v[0] + see.turn[r][1] * v[1] + see.turn[r][2] * v[2]);
+        out[1] = -out[1];
+    };
     for (let i = 0; i < set.n; i++) {
         if (!shown(i)) continue;
-        const edge = Math.round(2 * see.scale * edgeOf(i)) / 2;
-        if (!open[0] && !open[1] && !open[2]) continue;
-        const dx = x[0][i] - see.centre[0], dy = x[1][i] - see.centre[1], dz = x[2][i] - see.centre[2];
-        const px = Math.round(to.width / 2 + see.scale * (r[0] * dx + r[1] * dy + r[2] * dz));
-        const py = Math.round(to.height / 2 - see.scale * (u[0] * dx + u[1] * dy + u[2] * dz));
-        const pz = see.scale * (t[0] * dx + t[1] * dy + t[2] * dz);
-        if (!stamps.has(edge)) stamps.set(edge, cubeStamp(see.turn, edge));
-        paintStamp(to, stamps.get(edge), i, px, py, pz, shadesOf(colour(i)), open);
+        turned([0, 1, 2].map((d) => x[d][i] - see.centre[d]), see.scale, middle);
+        for (let k = 0; k < 3; k++) turned(cubes.edges.subarray(9 * i + 3 * k, 9 * i + 3 * k + 3), WIDER * see.scale, edge[k]);
+        for (let k = 0; k < 3; k++) {
+            const [a, b] = [edge[(k + 1) % 3], edge[(k + 2) % 3]], towards = a[0] * b[1] - a[1] * b[0];
+            const out = edge[k][0] * (a[1] * b[2] - a[2] * b[1]) + edge[k][1] * (a[2] * b[0] - a[0] * b[2]) +
+                edge[k][2] * towards;
+            const side = towards * out > 0 ? 0 : 1;
+            if (towards === 0 || covered(set, cubes, i, k, side)) continue;
+            const half = side ? -0.5 : 0.5, centre = middle.map((m, r) => m + half * edge[k][r]);
+            centre[0] += to.width / 2, centre[1] += to.height / 2;
+            paintFace(to, i, centre, a, b, shadesOf(colour(i))[k]);
+        }
     }
 }
 
-function paintStamp(to, stamp, i, px, py, pz, shades, open) {
-    for (let k = 0; k < stamp.x.length; k++) {
-        const ax = px + stamp.x[k], ay = py + stamp.y[k], face = stamp.face[k];
-        if (!open[face] || ax < 0 || ay < 0 || ax >= to.width || ay >= to.height) continue;
-        const at = ay * to.width + ax;
-        if (to.depth[at] >= pz + stamp.depth[k]) continue;
-        to.depth[at] = pz + stamp.depth[k];
-        to.pixel[at] = shades[face];
+// Paints a parallelogram in space with its centre and the edges a and b, each x, y and depth [pixel].
+function paintFace(to, i, centre, a, b, colour) {
+    paintCells(to, centre[0], centre[1], a[0], a[1], b[0], b[1], (at, s, t) => {
+        const depth = centre[2] + Math.min(Math.max(s, -0.5), 0.5) * a[2] + Math.min(Math.max(t, -0.5), 0.5) * b[2];
+        if (to.depth[at] >= depth) return;
+        to.depth[at] = depth;
+        to.pixel[at] = colour;
         to.owner[at] = i;
-    }
+    });
 }
 
 // The colour of a cube on its faces along x, y and z.
