@@ -43,7 +43,8 @@ const prefixes = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-
 function unitFor(largest, unit) {
     const size = Math.abs(largest);
     if (unit === "degree") return {factor: 1, name: "°"};
-    if (unit === "m" && size > 5e-4 && size < 10) return {factor: 1e-3, name: "mm"};
+    if (unit === "m" && size >= 0.9995) return {factor: 1, name: "m"};
+    if (unit === "m" && size > 5e-4) return {factor: 1e-3, name: "mm"};
     if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15))
         return {factor: 1, name: unit || ""};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];

@@ -41,6 +41,9 @@ function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
 
 // ---- history --------------------------------------------------------------------------------------------------------
 
+// What a column is called in pictures: the crack length of the file is what has grown beyond the pre-cracks.
+const labelOf = (c) => c.name === "step" && inSteps ? "load step" : c.name.replace(/_/g, " ").replace(/^crack length$/, "crack growth");
+
 const hasCurves = page.history !== undefined && page.history.rows > 1;
 const history_ = {
     columns: [],
@@ -92,7 +95,7 @@ function showColumns() {
     const groups = new Map(), constant = [];
     columnsByWeight().forEach((c) => {
         if (history_.columns.indexOf(c) < 2 && /^(time|step|load_step)$/.test(c.name)) return;
-        if (!varies(c)) return constant.push(c.name + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
+        if (!varies(c)) return constant.push(labelOf(c) + (c.low === c.high ? " = " + quantity(c.low, c.unit) : ""));
         if (!groups.has(c.unit)) groups.set(c.unit, []);
         groups.get(c.unit).push(c);
     });
@@ -109,7 +112,7 @@ function showColumns() {
                     }
                 });
                 c.mark = element("i");
-                return element("label", {}, box, c.mark, c.name);
+                return element("label", {title: c.name}, box, c.mark, labelOf(c));
             })));
     const said = [
         page.history.rows < page.history.listed ?
@@ -152,9 +155,9 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
     if (!(high >= low)) low = 0, high = 1;
     const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)), panel.unit),
           a = axesOf(area, zoom, padded(low, high));
-    const names = panel.columns.length === 1 ? panel.columns[0].name.replace(/_/g, " ") : "";
+    const names = panel.columns.length === 1 ? labelOf(panel.columns[0]) : "";
     drawAxes(context, a, xUnit, unit,
-        lowest ? over.name.replace(/_/g, " ") + (xUnit.name ? " [" + xUnit.name + "]" : "") : "",
+        lowest ? labelOf(over) + (xUnit.name ? " [" + xUnit.name + "]" : "") : "",
         (names + (unit.name ? " [" + unit.name + "]" : "")).trim());
     context.save();
     context.beginPath(), context.rect(a.left, a.top - 2, a.right - a.left, a.bottom - a.top + 4), context.clip();
@@ -181,7 +184,7 @@ function drawPanel(context, panel, over, zoom, xUnit, area, lowest) {
 function drawKey(context, panel, a) {
     let x = a.left + 44;
     panel.columns.forEach((c, k) => {
-        const name = c.name.replace(/_/g, " ");
+        const name = labelOf(c);
         context.fillStyle = curveColours[k % curveColours.length];
         context.fillRect(x, a.top - 16, 14, 3);
         context.fillStyle = "#1d2330";
@@ -201,7 +204,8 @@ function drawMarks(context, over) {
         }
     };
     context.lineWidth = 1;
-    if (film && history_.over === 0) line(film.frames[view.frame].t, "#d55e00");
+    const clock = frameClock();
+    if (film && clock) line(film.frames[view.frame][clock], "#d55e00");
     if (history_.at !== null) line(over.values[history_.at], "#5d6675");
     for (const {axes: a} of history_.panels)
         if (history_.drag)
@@ -209,6 +213,9 @@ function drawMarks(context, over) {
             context.fillRect(
                 Math.min(...history_.drag), a.top, Math.abs(history_.drag[1] - history_.drag[0]), a.bottom - a.top);
 }
+
+// The property of frames that the curves are drawn over, "t" or "step"; null: another column.
+const frameClock = () => ({time: "t", step: "step"}[history_.columns[history_.over].name] || null);
 
 function sampleAt(px) {
     const over = history_.columns[history_.over], wanted = history_.panels[0].axes.back(px);
@@ -222,7 +229,7 @@ function readValues() {
     const k = history_.at, over = history_.columns[history_.over];
     byId("values").textContent = k === null ?
         "" :
-        [over].concat(history_.shown).map((c) => c.name + " " + quantity(c.values[k], c.unit, 5)).join(" · ");
+        [over].concat(history_.shown).map((c) => labelOf(c) + " " + quantity(c.values[k], c.unit, 5)).join(" · ");
 }
 
 function listenToCurves() {
@@ -243,7 +250,7 @@ function listenToCurves() {
         const a = history_.panels[0].axes;
         if (Math.abs(to - from) > 6)
             history_.zoom = [a.back(Math.min(from, to)), a.back(Math.max(from, to))];
-        else if (film && history_.over === 0)
+        else if (film && frameClock())
             showFrameOf(a.back(at(e)));
         drawCurves();
     });
@@ -254,9 +261,9 @@ function listenToCurves() {
         "change", () => (history_.over = Number(byId("over").value), history_.zoom = null, drawCurves()));
 }
 
-// Shows the frame nearest to a time.
-function showFrameOf(t) {
-    const off = film.frames.map((f) => Math.abs(f.t - t));
+// Shows the frame nearest to a time, or to a step if the curves are drawn over it.
+function showFrameOf(at) {
+    const off = film.frames.map((f) => Math.abs(f[frameClock()] - at));
     stop();
     setFrame(off.indexOf(Math.min(...off)));
 }
@@ -265,8 +272,10 @@ function showCurves() {
     section("curves");
     readColumns();
     history_.shown = columnsToBegin();
-    byId("over").append(...history_.columns.map((c, k) => element("option", {value: k}, c.name))
+    if (inSteps) history_.over = Math.max(history_.columns.findIndex((c) => c.name === "step"), 0);
+    byId("over").append(...history_.columns.map((c, k) => element("option", {value: k}, labelOf(c)))
                             .filter((o, k) => varies(history_.columns[k])));
+    byId("over").value = history_.over;
     showColumns();
     listenToCurves();
     drawCurves();

@@ -15,7 +15,8 @@ const view = {
     turn: null,
     x_of: null
 };
-const BAR = 104;  // room for the colour bar [CSS pixel]
+const BAR = 104;         // room for the colour bar [CSS pixel]
+const FOOT = [0, 0, 34, 66];  // strip below a body of so many dimensions, for its time, scale and axes [CSS pixel]
 const kindNames = ["material points", "peridynamic"];
 
 const rgba = ([red, green, blue]) => (0xff000000 | blue << 16 | green << 8 | red) >>> 0;
@@ -108,7 +109,8 @@ function bufferOf(context, width, height) {
 }
 
 function drawFilm() {
-    const frame = film.frames[view.frame], {context, width, height, ratio} = canvasOf(byId("view"), view.height);
+    const frame = film.frames[view.frame], foot = FOOT[film.dim];
+    const {context, width, height, ratio} = canvasOf(byId("view"), view.height + foot);
     context.fillStyle = "#fff";
     context.fillRect(0, 0, width, height);
     view.codes = codesOf(view.field, frame);
@@ -116,19 +118,22 @@ function drawFilm() {
     if (film.dim === 1)
         drawProfile(context, width, height, frame);
     else {
-        const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(height * ratio));
+        const to = bufferOf(context, Math.round((width - BAR) * ratio), Math.round(view.height * ratio));
         paintFrame(to, frame, ratio);
         context.putImageData(to.image, 0, 0);
         if (film.dim === 2) {
             drawRigids(context, to, frame, ratio);
             drawPreCracks(context, to, ratio);
         } else
-            drawTriad(context, height);
-        drawScaleBar(context, width - BAR, height);
+            drawTriad(context, [width - BAR - 60, height - foot / 2 + 4]);
+        drawScaleBar(context, width - BAR, height - foot / 2);
         drawColourBar(context, width, height);
     }
     context.fillStyle = "#1d2330";
-    context.fillText(timeText(frame), film.dim === 1 ? width - 120 : 10, 20);
+    if (film.dim === 1)
+        context.fillText(timeText(frame), width - 120, 20);
+    else
+        context.fillText(timeText(frame), 12, height - foot / 2 + 5);
 }
 
 function paintFrame(to, frame, ratio) {
@@ -149,8 +154,13 @@ function paintFrame(to, frame, ratio) {
         paintSpace(to, see, set, view.x_of, (i) => lut[codes[i]], (i) => damage[i] > CRACK_CODE && shown(i), damage);
 }
 
+// How a run goes: "static" in load steps, "cg" or "relaxation" to one equilibrium, else in time.
+const solver = ((page.scene || "").match(/^solver: *(\w+)/m) || [])[1], inSteps = solver === "static";
+const oneEquilibrium = solver === "cg" || solver === "relaxation";
+
 const timeText = (frame) => {
-    if (summary && summary.load_steps) return "load step " + frame.step;
+    if (inSteps) return "load step " + frame.step;
+    if (oneEquilibrium) return frame.t > 0 ? "equilibrium" : "without loads";
     const last = film.frames[film.frames.length - 1].t;
     const t = unitFor(last, "s");
     return "t = " + number(frame.t / t.factor) + " " + t.name;
@@ -174,8 +184,9 @@ function drawPreCracks(context, to, ratio) {
         }
 }
 
-function drawTriad(context, height) {
-    const at = [44, height - 70], length = 26;
+// The axes as the body is turned. at: their origin on the canvas.
+function drawTriad(context, at) {
+    const length = 22;
     context.lineWidth = 1.6;
     ["x", "y", "z"].forEach((name, k) => {
         const tip = [at[0] + length * view.turn[0][k], at[1] - length * view.turn[1][k]];
@@ -189,17 +200,15 @@ function drawTriad(context, height) {
     context.lineWidth = 1;
 }
 
-// A bar of a round length at the lower left.
-function drawScaleBar(context, width, height) {
-    const metre = unitFor(width / view.scale / 2, "m"), raw = width / view.scale / 5 / metre.factor,
+// A bar of a round length below the body, at the height y of the canvas.
+function drawScaleBar(context, width, y) {
+    const metre = unitFor(width / view.scale / 5, "m"), raw = width / view.scale / 5 / metre.factor,
           power = 10 ** Math.floor(Math.log10(raw));
     const length = [5, 2, 1].map((f) => f * power).find((l) => l <= raw) || power,
           pixels = length * metre.factor * view.scale;
-    context.fillStyle = "#ffffffcc";
-    context.fillRect(6, height - 38, Math.max(pixels, 60) + 14, 34);
     context.fillStyle = "#1d2330";
-    context.fillRect(12, height - 14, pixels, 3);
-    context.fillText(number(length) + " " + metre.name, 12, height - 21);
+    context.fillRect(130, y - 1, pixels, 3);
+    context.fillText(number(length) + " " + metre.name, 138 + pixels, y + 5);
 }
 
 function drawColourBar(context, width, height) {
@@ -237,28 +246,6 @@ function drawCategories(context, left, top, height) {
     if (list.length > most) context.fillText("and " + (list.length - most) + " more", left, top + 11 + 19 * most);
 }
 
-// A bar in one dimension: the field over the position.
-function drawProfile(context, width, height, frame) {
-    const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
-    const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
-          unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
-    const axes = axesOf({left: 76, right: width - 20, top: 34, bottom: height - 44},
-        [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
-    drawAxes(context, axes, metre, unit, "x [" + metre.name + "]",
-        field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
-    context.fillStyle = curveColours[0];
-    context.strokeStyle = curveColours[0];
-    context.beginPath();
-    order.forEach((i, k) => context[k ? "lineTo" : "moveTo"](axes.x(x[i]), axes.y(valueOf(field, view.codes[i]))));
-    context.stroke();
-    const damage = damageOf(frame);
-    for (const i of order)
-        if (damage && damage[i] > CRACK_CODE)
-            context.fillStyle = "#b2182b",
-            context.fillRect(axes.x(x[i]) - 2, axes.y(valueOf(field, view.codes[i])) - 2, 4, 4);
-    view.axes = axes;
-}
-
 // ---- controls -------------------------------------------------------------------------------------------------------
 
 function setFrame(k) {
@@ -266,7 +253,7 @@ function setFrame(k) {
     const frame = film.frames[view.frame];
     byId("frame").value = view.frame;
     byId("when").textContent = "frame " + frame.number + ", " + timeText(frame) +
-        (summary && summary.load_steps ? "" : ", step " + number(frame.step));
+        (inSteps || oneEquilibrium ? "" : ", step " + number(frame.step));
     drawFilm();
     if (hasCurves) drawCurves();
 }
@@ -315,7 +302,7 @@ function boxOf(frame, magnify) {
     for (let d = 0; d < film.dim; d++) {
         const range = (values) => {
             const sorted = Float32Array.from(values).sort();
-            const beyond = Math.floor((magnify === 1 ? 0.01 : 0.001) * sorted.length);
+            const beyond = film.dim === 1 ? 0 : Math.floor((magnify === 1 ? 0.01 : 0.001) * sorted.length);
             return [sorted[beyond], sorted[sorted.length - 1 - beyond]];
         };
         let [a, b] = [Infinity, -Infinity];
@@ -384,7 +371,7 @@ function listenToPointer() {
         if (film.dim === 1) return;
         e.preventDefault();
         const box = canvas.getBoundingClientRect(), factor = Math.exp(-e.deltaY / 500);
-        const off = [e.clientX - box.left - (box.width - BAR) / 2, box.top + box.height / 2 - e.clientY];
+        const off = [e.clientX - box.left - (box.width - BAR) / 2, box.top + view.height / 2 - e.clientY];
         if (film.dim === 2)
             view.x += off[0] / view.scale * (1 - 1 / factor), view.y += off[1] / view.scale * (1 - 1 / factor);
         view.scale *= factor;
@@ -395,7 +382,7 @@ function listenToPointer() {
 // Says what lies under the pointer.
 function readParticle(e) {
     if (film.dim === 1) return;
-    const box = byId("view").getBoundingClientRect(), ratio = buffer.height / box.height;
+    const box = byId("view").getBoundingClientRect(), ratio = buffer.height / view.height;
     const px = Math.floor((e.clientX - box.left) * ratio), py = Math.floor((e.clientY - box.top) * ratio);
     const i = px >= 0 && py >= 0 && px < buffer.width && py < buffer.height ? buffer.owner[py * buffer.width + px] : -1;
     byId("readout").textContent = i < 0 ? "" : particleText(i);
@@ -446,10 +433,16 @@ function crackedShare() {
     return damage ? damage.reduce((n, code) => n + (code > CRACK_CODE), 0) / Math.max(damage.length, 1) : 0;
 }
 
+// Have particles lost bonds since the first frame?
+function bondsBroke() {
+    const [first, last] = [film.frames[0], film.frames[film.frames.length - 1]].map(damageOf);
+    return last && last.some((code, i) => code > (first && first.length === last.length ? first[i] : 0));
+}
+
 // The field to begin with: damage where bonds break, else plastic strain, else von Mises.
 function firstField() {
     const asked = new URLSearchParams(location.hash.slice(1)).get("field");
-    return [asked, "damage", "plastic_strain", "von_mises", "stress_xx", "displacement"].find(
+    return [asked, bondsBroke() && "damage", "plastic_strain", "von_mises", "stress_xx", "displacement"].find(
                (name) => film.fields.some((f) => f.name === name)) ||
         film.fields[0].name;
 }

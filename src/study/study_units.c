@@ -24,7 +24,7 @@ static const struct {
     {"growth", "", "m"},       {"displacement", "", "m"},
     {"position", "", "m"},     {"patch", "", "m"},
     {"origin_", "", "m"},      {"release_rate", "", "J/m^2"},
-    {"crack_area", "", "m^2"},
+    {"crack_area", "", "m^2"}, {"released", "", "J"},
 };
 
 static bool name_fits(const char *name, const char *begin, const char *end)

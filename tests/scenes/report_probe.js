@@ -11,7 +11,7 @@ const screen = () => {
 function colourAt(x, y) {
     const c = byId("view"), ratio = c.width / c.clientWidth, image = screen();
     const px = Math.round(((c.clientWidth - BAR) / 2 + (x - view.x) * view.scale) * ratio),
-          py = Math.round((c.clientHeight / 2 - (y - view.y) * view.scale) * ratio);
+          py = Math.round((view.height / 2 - (y - view.y) * view.scale) * ratio);
     return Array.from(image.data.slice(4 * (py * c.width + px), 4 * (py * c.width + px) + 3));
 }
 
@@ -24,9 +24,17 @@ function painted() {
     return n;
 }
 
+// Number of pixels without a particle that are between two particles in their row, at most 4 pixels from either.
+function slits() {
+    const {owner} = buffer, near = (at, step) => [1, 2, 3, 4].some((k) => owner[at + k * step] >= 0);
+    return owner.reduce((n, i, at) => n + (i < 0 && near(at, 1) && near(at, -1)), 0);
+}
+
 async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
+    seen.slits = film.dim > 1 ? slits() : 0;
+    seen.first_field = view.field.name;
     if (film.dim === 2)
         seen.crack_last = colourAt(0.01, 0.0102), seen.ahead_last = colourAt(0.025, 0.0102),
         seen.whole_last = colourAt(0.035, 0.004);
@@ -64,6 +72,8 @@ async function probe() {
     if (film) await probeFilm(seen);
     if (page.history) {
         seen.curves_first = history_.shown.map((c) => [c.name, c.unit, largestOf(c)]);
+        seen.over = byId("over").selectedOptions[0].textContent;
+        seen.lengths = [quantity(4.17, "m"), quantity(0.417, "m")];
         seen.chips = [...document.querySelectorAll("#columns label")].map((l) => l.textContent);
         const sum = () => byId("plot").toDataURL().length, before = sum();
         document.querySelector("#columns input:not(:checked)").click();

@@ -1,0 +1,31 @@
+// Frames of a bar: the field over the position, in place of the body.
+
+// Draws the field of a frame over the position. Where neighbours are 1.5 spacings apart the bar has separated, as
+// in cleave plot.
+function drawProfile(context, width, height, frame) {
+    const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
+    const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
+          unit = unitFor(Math.max(Math.abs(view.low), Math.abs(view.high)), field.unit);
+    const axes = axesOf({left: 76, right: width - 20, top: 34, bottom: height - 44},
+        [film.box.low[0], film.box.high[0]], padded(view.low, view.high));
+    drawAxes(context, axes, metre, unit, "x [" + metre.name + "]",
+        field.name.replace(/_/g, " ") + (unit.name ? " [" + unit.name + "]" : ""));
+    context.fillStyle = curveColours[0];
+    context.strokeStyle = curveColours[0];
+    context.beginPath();
+    const now = positionsOf(film, frame, 1)[0], size = particlesOf(film, film.sets[frame.set]).size;
+    const joined = (k) => k > 0 && k < order.length &&
+        Math.abs(now[order[k]] - now[order[k - 1]]) <= 1.5 * Math.max(size[order[k]], size[order[k - 1]]);
+    order.forEach((i, k) => {
+        const at = [axes.x(x[i]), axes.y(valueOf(field, view.codes[i]))];
+        context[joined(k) ? "lineTo" : "moveTo"](...at);
+        if (!joined(k) && !joined(k + 1)) context.fillRect(at[0] - 2, at[1] - 2, 4, 4);
+    });
+    context.stroke();
+    const damage = damageOf(frame);
+    for (const i of order)
+        if (damage && damage[i] > CRACK_CODE)
+            context.fillStyle = "#b2182b",
+            context.fillRect(axes.x(x[i]) - 2, axes.y(valueOf(field, view.codes[i])) - 2, 4, 4);
+    view.axes = axes;
+}
