@@ -10,6 +10,8 @@
  * number of distance comparisons limits it. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
+/* Difference of the distances of two layers from a plane up to which they are equally near [spacings]. */
+static const double TIE = 1e-3;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
@@ -114,22 +116,24 @@ static int thinnest_direction(const struct output_frame *f)
     return normal;
 }
 
-/* Returns the coordinate along the axis `normal` [m] of the particle whose coordinate is nearest to `wanted` [m]. */
+/* Returns the coordinate along the axis `normal` [m] of the particle whose coordinate is nearest to `wanted` [m], the
+ * lower one of two that are equally near. */
 static double nearest_coordinate(const struct output_frame *f, int normal, double wanted)
 {
+    const double tie = TIE * frame_particle_spacing(f);
     double best = INFINITY, at = wanted;
     for (int64_t i = 0; i < f->n; i++) {
-        double off = fabs(f->X[normal][i] - wanted);
-        if (off >= best) continue;
+        const double place = f->X[normal][i], off = fabs(place - wanted);
+        if (off >= best + tie || (off > best - tie && place >= at)) continue;
         best = off;
-        at = f->X[normal][i];
+        at = place;
     }
     return at;
 }
 
 /* Returns the coordinate along the axis `normal` [m] of the particle layer that a slice shows. It is the layer nearest
  * to the middle among those whose sum of damage is at least 0.98 of the largest sum; in an undamaged body, the layer
- * nearest to the middle. */
+ * nearest to the middle. Of two such layers it is the lower one. */
 static double damaged_layer(const struct output_frame *f, int normal)
 {
     enum { LAYERS_MAX = 100000 };
@@ -146,7 +150,7 @@ static double damaged_layer(const struct output_frame *f, int normal)
     for (int k = 0; k < layers; k++) most = fmax(most, sum[k]);
     for (int k = 0; k < layers && most > 0; k++) {
         const double place = from + k * spacing, off = fabs(place - middle);
-        if (sum[k] < NEARLY * most || off >= best) continue;
+        if (sum[k] < NEARLY * most || off >= best - TIE * spacing) continue;
         best = off, at = place;
     }
     memory_free(sum);

@@ -42,7 +42,8 @@ function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
 // ---- history --------------------------------------------------------------------------------------------------------
 
 // What a column is called in pictures: the crack length of the file is what has grown beyond the pre-cracks.
-const labelOf = (c) => c.name === "step" && inSteps ? "load step" : c.name.replace(/_/g, " ").replace(/^crack length$/, "crack growth");
+const labels = {crack_length: "crack growth"};
+const labelOf = (c) => (c.name === "step" && inSteps ? "load step" : labels[c.name] || c.name.replace(/_/g, " "));
 
 const hasCurves = page.history !== undefined && page.history.rows > 1;
 const history_ = {

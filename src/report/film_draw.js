@@ -81,7 +81,8 @@ function paintPlane(to, see, set, x, colour, damage) {
         const share = p !== i && m !== i ? 0.5 : 1;
         edge[0] = (x[0][p] - x[0][m]) * share;
         edge[1] = (x[1][p] - x[1][m]) * share;
-        if (p === m || Math.hypot(edge[0], edge[1]) > LONGEST * set.size[i]) edge[axis] = set.size[i], edge[1 - axis] = 0;
+        if (p === m || Math.hypot(edge[0], edge[1]) > LONGEST * set.size[i])
+            edge[axis] = set.size[i], edge[1 - axis] = 0;
     };
     for (let i = 0; i < set.n; i++) {
         edgeOf(i, beside[0], beside[1], 0);
@@ -97,8 +98,8 @@ function paintPlane(to, see, set, x, colour, damage) {
     }
 }
 
-// Calls paint(pixel, s, t) for the pixels of a parallelogram with the centre (cx, cy) and the edges a and b [pixel]; s and
-// t: place along the edges from the centre, 0.5 and slightly more at the sides.
+// Calls paint(pixel, s, t) for the pixels of a parallelogram with the centre (cx, cy) and the edges a and b [pixel]; s
+// and t: place along the edges from the centre, 0.5 and slightly more at the sides.
 function paintCells(to, cx, cy, ax, ay, bx, by, paint) {
     const det = ax * by - ay * bx, wide = (Math.abs(ax) + Math.abs(bx)) / 2 + 0.5,
           high = (Math.abs(ay) + Math.abs(by)) / 2 + 0.5;
@@ -142,8 +143,8 @@ function covered(set, cubes, i, k, side) {
     return true;
 }
 
-// Paints the deformed cubes of particles in space. see: {centre, scale, turn}; shown(i): is particle i drawn? colour(i):
-// its colour; damage: codes, or null.
+// Paints the deformed cubes of particles in space. see: {centre, scale, turn}; shown(i): is particle i drawn?
+// colour(i): its colour; damage: codes, or null.
 function paintSpace(to, see, set, x, colour, shown, damage) {
     const cubes = deformedCubes(set, x, damage, shown), edge = [0, 1, 2].map(() => [0, 0, 0]), middle = [0, 0, 0];
     to.depth.fill(-Infinity);
@@ -156,7 +157,8 @@ function paintSpace(to, see, set, x, colour, shown, damage) {
     for (let i = 0; i < set.n; i++) {
         if (!shown(i)) continue;
         turned([0, 1, 2].map((d) => x[d][i] - see.centre[d]), see.scale, middle);
-        for (let k = 0; k < 3; k++) turned(cubes.edges.subarray(9 * i + 3 * k, 9 * i + 3 * k + 3), WIDER * see.scale, edge[k]);
+        for (let k = 0, at = 9 * i; k < 3; k++, at += 3)
+            turned(cubes.edges.subarray(at, at + 3), WIDER * see.scale, edge[k]);
         for (let k = 0; k < 3; k++) {
             const [a, b] = [edge[(k + 1) % 3], edge[(k + 2) % 3]], towards = a[0] * b[1] - a[1] * b[0];
             const out = edge[k][0] * (a[1] * b[2] - a[2] * b[1]) + edge[k][1] * (a[2] * b[0] - a[0] * b[2]) +

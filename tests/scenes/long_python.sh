@@ -97,7 +97,7 @@ assert middle.sum() > 0.95 * opened.sum(), "at the crack alone"
 ax = plate.plot("velocity_y", 3e-6, colours="PuOr")
 low, high = ax.collections[0].get_clim()
 assert low == -high and np.isclose(high, np.quantile(np.abs(plate.frames.at(3e-6)["velocity_y"]), 0.998), rtol=0.2), "both signs: %g, %g" % (low, high)
-ax = plate.plot("stress", limits=(0, 50e6))
+ax = plate.plot("von_mises", limits=(0, 50e6))
 assert ax.collections[0].get_clim() == (0, 50) and ax.figure.axes[1].get_ylabel() == "von Mises stress [MPa]"
 for field in ("displacement", "speed", "pressure", "principal_stress_1", "kind"):
     plate.plot(field)
@@ -112,14 +112,42 @@ assert low == 0 < high, "colours from 0: %g, %g" % (low, high)
 curve, = bar.plot("velocity_x", 0.0).lines
 assert curve.get_xdata().max() < 20.001 and set(np.round(curve.get_ydata(), 6)) == {0.0, 1.0}, "a bar, in mm"
 ax = block.plot("von_mises")
-assert len(ax.collections[0].get_paths()) == 80 and "z = 2 mm" in ax.get_title() and ax.get_ylabel() == "y [mm]", ax.get_title()
+assert len(ax.collections[0].get_paths()) == 80 and "z = 1.5 mm" in ax.get_title() and ax.get_ylabel() == "y [mm]", ax.get_title()
 ax = block.plot("von_mises", slice={"x": 1e-3})
 assert len(ax.collections[0].get_paths()) == 32 and ax.get_xlabel() == "y [mm]"
-try:
-    block.plot("no field")
-    sys.exit("a field that is not there")
-except KeyError:
-    pass
+
+def refused(kind, call, *words, **more):
+    try:
+        call(*words, **more)
+    except kind:
+        return
+    sys.exit("not refused: %r %r" % (words, more))
+refused(KeyError, block.plot, "no field")
+refused(KeyError, plate.plot, "stress")
+refused(ValueError, plate.plot, "damage", 10)
+refused(ValueError, plate.plot, limits=5e6)
+refused(ValueError, plate.plot, limits=("0 MPa", "5 MPa"))
+refused(TypeError, frame.plot, "damage", 1e-6)
+refused(ValueError, block.plot, slice={"z": 1.0})
+refused(ValueError, block.frames[-1].slice, z=1.0)
+refused(ValueError, block.frames[-1].slice, z=2e-3, thickness=-1)
+
+# a bar that has separated: a gap in the curve, a point for a particle alone; rubble keeps its size
+from cleave._draw import draw_frame
+from cleave._shape import deformation_gradients
+class Broken:
+    dimension, time, scene, spacing = 1, 0.0, "", np.full(6, 1e-3)
+    reference = np.arange(6.0)[:, None] * 1e-3 * [1, 0, 0]
+    positions = reference + np.array([0, 0, 0, 1, 1, 2])[:, None] * 1e-3 * [1, 0, 0]
+    __len__ = lambda self: 6
+    unit = lambda self, name: ""
+    __getitem__ = lambda self, name: np.arange(6.0)
+curve, alone = draw_frame(Broken(), "damage").lines
+assert np.isnan(curve.get_ydata()).sum() == 2 and list(alone.get_ydata()) == [5], "gaps of a bar"
+grid = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0)), -1).reshape(-1, 2)
+spread = deformation_gradients(grid, 1.3 * grid, 1.0, np.full(36, 0.9), np.zeros(36), magnify=20.0)
+assert np.allclose(spread, np.eye(2)), "rubble"
+assert np.allclose(deformation_gradients(grid, 1.01 * grid, 1.0, np.zeros(36), np.zeros(36), magnify=20.0), 1.2 * np.eye(2), atol=0.01), "magnified"
 figure = cleave.Figure("crack.start_time", "s", 2e-6, 1e-7, 0.0, 0.0, "", 2e-6, np.array([1e-3, 2e-3]), np.array([2e-6, 3e-6]), np.array([1e-7, 2e-7]), np.ones(2))
 ax = figure.plot()
 assert ax.get_ylabel() == "crack.start_time [µs]" and ax.get_xlabel() == "spacing [mm]"

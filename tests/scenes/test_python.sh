@@ -91,7 +91,7 @@ holds("shapes", frame["stress"].shape == (400, 6) and frame["velocity"].shape ==
 holds("units", frame.units["stress"] == "Pa" and frame.units["damage"] == "")
 kinetic = 0.5 * 2440 * 1e-9 * (frame["velocity"].astype(float) ** 2).sum()
 holds("kinetic energy %g, %g" % (kinetic, history["kinetic"][-1]), np.isclose(kinetic, history["kinetic"][-1], rtol=0.05))
-holds("times", np.allclose(run.frames.times, [0, 2e-6, 4e-6, 6e-6], atol=1e-7) and run.frames.at(1.0).time == run.frames[-1].time)
+holds("times", np.allclose(run.frames.times, [0, 2e-6, 4e-6, 6e-6], atol=1e-7) and run.frames.at(6.5e-6).time == run.frames[-1].time)
 holds("slice", len(run.frames[1:]) == 3 and run.frames[0].step == 0 and "space: plane stress" in frame.scene)
 try:
     frame["no field"]
@@ -151,7 +151,7 @@ for name in ("stress_z", "velocity_xx", "damage_x", "level"):
 layer = frame.slice(y=0.5e-3)
 holds("a slice", len(layer) == 20 and np.allclose(layer.reference[:, 1], 0.5e-3) and (layer["id"] == np.arange(200, 220)).all())
 holds("a slice midway is one layer", np.allclose(frame.slice(y=0.0).reference[:, 1], 0.5e-3) and len(frame.slice(y=0.0, thickness=1e-3)) == 40)
-holds("a slice of a slice", list(layer.slice(x=3.5e-3)["id"]) == [203] and len(frame.slice(x=1.0)) == 0)
+holds("a slice of a slice", list(layer.slice(x=3.5e-3)["id"]) == [203])
 broken = frame[frame["damage"] > 0.3]
 holds("a mask", 0 < len(broken) < 400 and broken["damage"].min() > 0.3 and len(broken[:3].positions) == 3)
 holds("spacing", np.allclose(frame.spacing, 1e-3) and frame.dimension == 2 and len(layer.spacing) == 20)
@@ -161,7 +161,7 @@ from cleave._shape import corners_of, deformation_gradients
 wanted = np.array([[1.2, 0.3], [-0.1, 0.9]])
 places = frame.reference[:, :2]
 none, one = np.zeros(400), np.zeros(400, dtype=int)
-holds("a homogeneous deformation", np.allclose(deformation_gradients(places, places @ wanted.T, 1e-3, none, one), wanted))
+holds("a homogeneous deformation", np.allclose(deformation_gradients(places, places @ wanted.T, 1e-3, none, one), wanted, rtol=1e-4))
 parted = places + np.where(places[:, 1:] > 0, [[0, 1e-4]], [[0, 0]])
 flanks = (np.abs(places[:, 1]) < 1e-3).astype(float)
 holds("faces of a crack", np.allclose(deformation_gradients(places, parted, 1e-3, flanks, one), np.eye(2)))
@@ -224,6 +224,9 @@ def plain(what, words, call):
 
 empty = frame[frame["damage"] > 5]
 plain("a time that is no number", "time: ", lambda: run.frames.at(float("nan")))
+plain("a time beyond the run", "time: 1 s is not in the run, whose frames are from 0 to 6e-06 s", lambda: run.frames.at(1.0))
+plain("a slice beyond the body", "no particle at x = 1 m; they are from 0.0005 to 0.0195 m", lambda: frame.slice(x=1.0))
+plain("a negative thickness", "thickness: ", lambda: frame.slice(x=5e-3, thickness=-1e-3))
 try:
     import pandas
     table = empty.to_pandas()
@@ -238,8 +241,8 @@ except ImportError:
 if matplotlib:
     plain("no particles", "no particles to draw", lambda: empty.plot("damage"))
     plain("magnify=-1", "magnify: a number from 0, not -1", lambda: run.plot(magnify=-1))
-    for limits in ((1, 0), (0, 0), (0, np.nan), (0,)):
-        plain("limits", "limits: two numbers, the lower one first", lambda: run.plot("damage", limits=limits))
+    for limits in ((1, 0), (0, 0), (0, np.nan), (0,), 5e6, ("0 MPa", "5 MPa")):
+        plain("limits", "limits: two numbers in the SI unit of the field, the lower one first", lambda: run.plot("damage", limits=limits))
     plain("a time that is no number", "time: a number", lambda: run.plot(time=float("nan")))
     plain("colours", "not 'nosuch'", lambda: run.plot(colours="nosuch"))
 

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Optional, Tuple
 import numpy as np
 
 from ._errors import need
-from ._fields import scale_of
+from ._fields import components, scale_of
 from ._rigid import outlines_of
 from ._shape import corners_of, crack_faces
 
@@ -23,6 +23,8 @@ _DIVERGING = [(k / 10, colour) for k, colour in enumerate([
 _FACE = (122 / 255, 16 / 255, 32 / 255)  # of pre-cracks in pictures of damage
 _SIGNED = re.compile(r"(displacement|velocity)_[xyz]$|(stress|strain)_[xyz]{2}$|pressure$|principal_stress|principal_directions|strength_share")
 _FROM_LEAST = ("temperature", "density")
+_NEARLY = 0.98                           # share of the most damage that makes a layer a candidate for the section
+_APART = 1.5                             # distance of neighbours over the spacing above which a bar has separated
 _BESIDE = 0.3                            # share of its longer side by which a picture grows towards rigid bodies
 
 
@@ -45,11 +47,12 @@ def _name_of(frame: Any, field: Optional[str]) -> str:
 
 
 def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
-    """Returns one number for each particle, what it is in words, and its unit. A tensor is shown by its von Mises stress or its largest
-    component, a vector by its length."""
+    """Returns one number for each particle, what it is in words, and its unit. A vector is shown by its length, principal
+    stresses by the largest one. Raises KeyError for a tensor."""
     values, words, unit = frame[name], name.replace("_", " "), frame.unit(name)
-    if name == "stress":
-        return frame["von_mises"], "von Mises stress", unit
+    if values.ndim > 1 and values.shape[1] == 6:
+        parts = ", ".join("%s_%s" % (name, part) for part in components(name, values))
+        raise KeyError("%s: it has several components, draw one of %s" % (name, parts))
     if name == "principal_stress":
         return values[:, 0], "principal stress", unit                # the largest one
     if values.ndim > 1:
@@ -97,35 +100,53 @@ def _limits(values: np.ndarray, name: str, given: Any) -> Tuple[float, float]:
     return (-high, high) if _SIGNED.match(name) else (low, low + high)
 
 
+def _layer(frame: Any, axis: int) -> float:
+    """Returns the position [m] of the layer of particles along an axis that has the most damage, of nearly equal ones that nearest to the
+    middle; without damage the middle one. Of two alike it is the lower one, as in `cleave plot` (src/plot/plot_cloud.c)."""
+    place, spacing = frame.reference[:, axis], float(frame.spacing.min())
+    middle, low = (place.min() + place.max()) / 2, place.min()
+    wanted = middle
+    damage = frame["damage"] if "damage" in frame else np.zeros(0)
+    if damage.any():
+        total = np.bincount(np.rint((place - low) / spacing).astype(int), np.nan_to_num(damage))
+        most = np.flatnonzero(total >= _NEARLY * total.max())
+        wanted = low + spacing * most[np.argmin(np.round(np.abs(low + most * spacing - middle) / spacing, 3))]
+    off = np.round(np.abs(place - wanted) / spacing, 3)
+    return float(place[off == off.min()].min())
+
+
 def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], float, str]:
     """Returns the particles of a solid to draw, the axes of the picture, the position of the section [m], and it in words."""
     reference = frame.reference
     if plane is None:
-        axis = int(np.argmin(np.ptp(reference, axis=0)))
-        damaged = "damage" in frame and frame["damage"].max(initial=0) > 0
-        at = reference[np.argmax(frame["damage"]), axis] if damaged else reference[:, axis].min() + np.ptp(reference[:, axis]) / 2
-        plane = {"xyz"[axis]: float(at)}
-    if len(plane) != 1 or next(iter(plane)) not in ("x", "y", "z"):
+        sides = np.ptp(reference, axis=0)
+        axis = int(np.flatnonzero(sides <= sides.min() * (1 + 1e-5))[-1])
+        plane = {"xyz"[axis]: _layer(frame, axis)}
+    if not isinstance(plane, dict) or len(plane) != 1 or next(iter(plane)) not in ("x", "y", "z"):
         raise ValueError('slice: one of x, y, z with its position [m], as {"z": 4e-3}, not %r' % (plane,))
     (name, at), = plane.items()
     axis = "xyz".index(name)
     part = frame.slice(**{name: at})
-    if len(part) == 0:
-        raise ValueError("no particles at %s = %g m" % (name, at))
     factor, unit = scale_of(float(np.abs(reference).max()), "m")
     kept: List[int] = [k for k in range(3) if k != axis]
     return part, (kept[0], kept[1]), at, "%s = %.4g %s" % (name, at * factor, unit)
 
 
 def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
-    """Draws a field of a bar as a curve over the position."""
+    """Draws a field of a bar as a curve over the position, with gaps where it has separated; a particle alone is a point."""
     values, words, unit = _values_of(frame, name)
     reference = frame.reference[:, 0]
     places = reference + (frame.positions[:, 0] - reference) * magnify
     order = np.argsort(reference)
+    apart = np.flatnonzero(np.diff(frame.positions[order, 0]) > _APART * frame.spacing[order[1:]]) + 1
     long, metres = scale_of(float(np.ptp(places)), "m")
     factor, shown = scale_of(float(np.abs(values).max(initial=0)), unit)
-    ax.plot(long * places[order], factor * values[order])
+    pieces = np.split(order, apart)
+    line = np.concatenate([np.append(piece, -1) for piece in pieces])[:-1]      # -1: the bar has separated there
+    curve, = ax.plot(np.where(line < 0, np.nan, long * places[line]), np.where(line < 0, np.nan, factor * values[line]))
+    alone = np.array([piece[0] for piece in pieces if len(piece) == 1], dtype=int)
+    if len(alone):
+        ax.plot(long * places[alone], factor * values[alone], "o", color=curve.get_color(), markersize=4)
     ax.set_xlabel("x [%s]" % metres)
     ax.set_ylabel(words + (" [%s]" % shown if shown else ""))
     return ax
@@ -139,14 +160,26 @@ def _when(frame: Any) -> str:
     return "%.4g %s" % (frame.time * factor, seconds if frame.time > 0 else "s")
 
 
+def _title(ax: Any, words: List[str]) -> None:
+    """Writes words above axes, in one line if it is short enough for them, else in lines of their own."""
+    letters = 0.75 * 72 * ax.get_window_extent().width / ax.figure.dpi / 6          # the colour bar takes a quarter; 6 points a letter
+    line = ", ".join(words)
+    ax.set_title(line if len(line) <= letters else "\n".join(words), fontsize="medium")
+
+
 def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> None:
     """Raises ValueError for a frame without particles, and for options that mean nothing."""
     if len(frame) == 0:
         raise ValueError("no particles to draw")
     if not (np.isfinite(magnify) and magnify >= 0):
         raise ValueError("magnify: a number from 0, not %g" % magnify)
-    if limits is not None and not (len(limits) == 2 and np.isfinite(limits).all() and limits[0] < limits[1]):
-        raise ValueError("limits: two numbers, the lower one first, not %r" % (limits,))
+    if limits is not None:
+        try:
+            low, high = (float(end) for end in limits)
+        except (TypeError, ValueError):
+            low = high = np.nan
+        if not (np.isfinite([low, high]).all() and low < high):
+            raise ValueError("limits: two numbers in the SI unit of the field, the lower one first, not %r" % (limits,))
     if isinstance(colours, str) and colours not in need("matplotlib.pyplot", "plot").colormaps():
         raise ValueError("colours: a colour map of matplotlib, as viridis or magma, not %r" % colours)
 
@@ -163,6 +196,8 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
                colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
     need("matplotlib.pyplot", "plot")
+    if ax is not None and not hasattr(ax, "add_collection"):
+        raise TypeError("ax: axes of matplotlib, not %r; run.plot(field, time) takes a time [s], a frame has its own" % (ax,))
     from matplotlib.collections import LineCollection, PolyCollection
     _check(frame, magnify, limits, colours)
     name, words, axes, at = _name_of(frame, field), [], (0, 1), None
@@ -171,7 +206,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
         raise ValueError("slice is for solids; this frame has %d dimension%s" % (frame.dimension, "s" * (frame.dimension > 1)))
     if frame.dimension == 1:
         ax = _draw_line(frame, name, _axes_of(ax), magnify)
-        ax.set_title(", ".join(words), fontsize="medium")
+        _title(ax, words)
         return ax
     if frame.dimension == 3:
         frame, axes, at, where = _section(frame, slice)
@@ -200,7 +235,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     ax.set_aspect("equal")
     ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))
     ax.set_ylabel("%s [%s]" % ("xyz"[axes[1]], metres))
-    ax.set_title(", ".join(words), fontsize="medium")
+    _title(ax, words)
     if colour_bar:
         beyond = (values.min(initial=low) < low, values.max(initial=high) > high)
         ax.figure.colorbar(squares, ax=ax, label=label + (" [%s]" % shown if shown else ""),

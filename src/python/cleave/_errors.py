@@ -53,6 +53,17 @@ class SceneError(Error):
         self.source = ""
 
 
+_OPTIONS = ((r"another -o\b", "another output"), (r"--(overwrite|resume)\b", r"\1=True"), (r"--(levels|runs|budget|of)\b", r"\1"),
+            (r"^-s (?=\S+=)", ""))
+
+
+def in_python(text: str) -> str:
+    """Returns a message of the program with arguments of the module in place of options of the command line."""
+    for option, argument in _OPTIONS:
+        text = re.sub(option, argument, text)
+    return text
+
+
 def error_of(line: str, status: int) -> Error:
     """Returns the exception for the program's last line: a SceneError if it names a location or an override."""
     place = OVERRIDE.fullmatch(line) or PLACE.fullmatch(line)

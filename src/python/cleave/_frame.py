@@ -217,16 +217,25 @@ class Frame:
         x, y, z    position of the plane along one axis [m]
         thickness  of the layer [m]; default: the layers of particles that the plane cuts; of a plane midway between two
                    layers the upper one
+
+        Raises ValueError for a plane that no particle is at.
         """
         given = [(k, at) for k, at in enumerate((x, y, z)) if at is not None]
         if len(given) != 1:
             raise ValueError("slice takes one of x, y, z [m]")
         axis, at = given[0]
-        distance = self.reference[:, axis] - at
+        if thickness is not None and not thickness >= 0:
+            raise ValueError("thickness: a number from 0 [m], not %r" % (thickness,))
+        places = self.reference[:, axis]
+        distance = places - at
         tiny = 1e-6 * self.spacing
         if thickness is not None:
-            return self[np.abs(distance) <= thickness / 2 + tiny]
-        return self[(distance > -self.spacing / 2 + tiny) & (distance <= self.spacing / 2 + tiny)]
+            inside = np.abs(distance) <= thickness / 2 + tiny
+        else:
+            inside = (distance > -self.spacing / 2 + tiny) & (distance <= self.spacing / 2 + tiny)
+        if len(self) and not inside.any():
+            raise ValueError("no particle at %s = %g m; they are from %g to %g m" % ("xyz"[axis], at, places.min(), places.max()))
+        return self[inside]
 
     def to_pandas(self) -> pandas.DataFrame:
         """Returns a DataFrame of pandas with a row for each particle, by id: current positions x, y, z [m], reference
@@ -292,12 +301,17 @@ class Frames(collections.abc.Sequence):
         return np.array([time for _, time in self._listed])
 
     def at(self, time: float) -> Frame:
-        """Returns the frame nearest to a time [s]. Raises IndexError if there is none at all, ValueError for a time that is no number."""
+        """Returns the frame nearest to a time [s]. Raises IndexError if there is none at all, ValueError for a time that is no number, or
+        before the first or after the last frame by more than half an interval between frames."""
         if not self._listed:
             raise IndexError("the run has no frames yet")
         if np.isnan(float(time)):
             raise ValueError("time: a number [s], not nan")
-        return self[int(np.argmin(np.abs(self.times - float(time))))]
+        times = self.times
+        room = 0.5 * float(np.diff(times).max(initial=0.0)) + 1e-9 * float(np.abs(times).max())
+        if not times.min() - room <= float(time) <= times.max() + room:
+            raise ValueError("time: %g s is not in the run, whose frames are from %g to %g s" % (time, times.min(), times.max()))
+        return self[int(np.argmin(np.abs(times - float(time))))]
 
     def __len__(self) -> int:
         return len(self._listed)

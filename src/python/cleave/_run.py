@@ -225,20 +225,20 @@ class Run:
         """Draws a field of a frame by matplotlib and returns the axes. Each particle is drawn with the shape that it has been
         deformed to, solids as a section, bars as a curve; rigid bodies are outlines. Axes are in m, mm or µm.
 
-        field       name as of frame[...]; "stress" is drawn as von Mises stress, a vector by its length. Default: damage if
+        field       name as of frame[...]; a vector is drawn by its length. Default: damage if
                     bonds are broken, else plastic strain if there is any, else von Mises stress
-        time        frame nearest to this time [s]; default: the last one
+        time        frame nearest to this time [s], within the run; default: the last one
         ax          axes to draw into; default: new ones
         magnify     factor on displacements [1]
         limits      lowest and highest value of the colour bar [SI unit of the field]; default: those of `cleave plot`: from 0, or
                     symmetric about 0 for fields with a sign, to all values but the extreme 0.2 %
         colours     name of a colour map of matplotlib; default: that of `cleave plot` for the field
         colour_bar  False: draws none
-        slice       plane of the section of a solid: {"z": 4e-3} [m]; default: normal to the shortest side of the body, through
-                    the particle with the most damage, else the middle
+        slice       plane of the section of a solid: {"z": 4e-3} [m]; default: that of `cleave plot`, normal to the shortest side of
+                    the body, through the layer with the most damage, else the middle
 
-        Raises KeyError for a field that is not there, IndexError if there are no frames, ValueError for a section without
-        particles or of a frame that is no solid.
+        Raises KeyError for a field that is not there or a tensor, IndexError if there are no frames, ValueError for a time beyond
+        the run, a section without particles or of a frame that is no solid.
         """
         frames = self.frames
         if not frames:

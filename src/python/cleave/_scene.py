@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optio
 
 import numpy as np
 
-from ._errors import MISSING, PLACE, Error, SceneError
+from ._errors import MISSING, PLACE, Error, SceneError, in_python
 from ._program import Progress, call_fully, value_text
 from ._run import Run
 from ._yaml import scene_text
@@ -108,7 +108,7 @@ class Scene:
                 raise self._placed(fault, path) from None
 
     def _placed(self, fault: Error, path: str) -> Error:
-        """Returns an exception with this scene in place of its temporary file."""
+        """Returns an exception with this scene in place of its temporary file, and arguments in place of options."""
         line = str(fault)
         if self.path is None and path in line:
             line = line.replace(path, "<%s>" % self.name)
@@ -117,6 +117,7 @@ class Scene:
         if isinstance(fault, SceneError) and fault.line and fault.file in (path, "<%s>" % self.name):
             fault.source = (self.text.splitlines()[fault.line - 1:fault.line] or [""])[0]
             fault.key = self._key_of(fault) if fault.line <= len(self._keys) else None
+        fault.args, fault.message = (in_python(str(fault)),), in_python(fault.message)
         return fault
 
     def _key_of(self, fault: SceneError) -> str:

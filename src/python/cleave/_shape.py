@@ -8,8 +8,11 @@ from typing import Any, Iterator, List, Tuple
 import numpy as np
 
 _REACH = 1.6                             # distance of neighbours over the spacing
-_PARTED, _OVERLAPPING = 2.0, 0.3         # factors on the distance of two particles beyond which they are no longer neighbours
-_SURVIVED = 1.5                          # the same of damaged particles, over the largest stretch of undamaged ones
+# What parts neighbours is that of `cleave plot` (src/plot/plot_extent.c): two that have both lost bonds beyond an elongation of _PARTED, or
+# _SURVIVED times that of 99 % of sure pairs; any pair beyond a length of _LONGEST, or _JUMP plus _JUMPS times the median of its particle.
+_PARTED, _SURVIVED, _LONGEST, _JUMP, _JUMPS = 0.1, 1.5, 4.0, 0.75, 4.0
+_LOOSE = 0.6                             # share of lost bonds above which a particle is rubble, whose shape is its own
+_OPEN = 1e-6                             # weight of the undeformed shape, for directions without neighbours
 
 
 def _pairs(reference: np.ndarray, spacing: float) -> Iterator[Tuple[np.ndarray, np.ndarray]]:
@@ -81,46 +84,50 @@ def _beside(a: np.ndarray, b: np.ndarray, cuts: List[np.ndarray]) -> np.ndarray:
     return free
 
 
-def _growth(reference: np.ndarray, current: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-    """Returns the distances of pairs over those in the reference configuration [1]."""
-    return np.linalg.norm(current[j] - current[i], axis=1) / np.linalg.norm(reference[j] - reference[i], axis=1)
+def _held_pairs(reference: np.ndarray, current: np.ndarray, spacing: float, damage: np.ndarray, body: np.ndarray,
+                cuts: List[np.ndarray], magnify: float) -> Tuple[np.ndarray, np.ndarray]:
+    """Returns the pairs (i, j) of neighbours that are drawn as connected. Arguments: deformation_gradients."""
+    parts = [(i[keep], j[keep]) for i, j in _pairs(reference, spacing)
+             for keep in [(body[i] == body[j]) & (np.maximum(damage[i], damage[j]) <= _LOOSE) & _beside(reference[i], reference[j], cuts)]]
+    i, j = (np.concatenate(part) for part in zip(*parts))
+    longer = np.linalg.norm(current[j] - current[i], axis=1) / np.linalg.norm(reference[j] - reference[i], axis=1) - 1
+    whole = np.minimum(damage[i], damage[j]) <= 0
+    limit = max(_PARTED / max(magnify, 1e-30), _SURVIVED * float(np.quantile(longer[whole], 0.99)) if whole.any() else 0.0)
+    order = np.lexsort((longer, i))
+    count = np.bincount(i, minlength=len(reference))
+    middle = np.cumsum(count) - count + count // 2
+    median = np.zeros(len(reference))
+    median[count > 0] = longer[order[middle[count > 0]]]
+    held = longer <= np.minimum(_LONGEST - 1, _JUMP + _JUMPS * np.maximum(median[i], 0))
+    held &= whole | (longer <= limit)
+    return i[held], j[held]
 
 
 def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: float, damage: np.ndarray, body: np.ndarray,
-                          cuts: List[np.ndarray] = []) -> np.ndarray:
-    """Returns the deformation gradient at each particle [n, dim, dim], by least squares over its neighbours; the unit matrix for a particle
-    with too few. Neighbours are of the same body and have not parted: if one of a pair is damaged, the pair's stretch is at most 1.5 times
-    the largest stretch of undamaged pairs, so that the faces of a crack are apart.
+                          cuts: List[np.ndarray] = [], magnify: float = 1.0) -> np.ndarray:
+    """Returns the deformation gradient at each particle [n, dim, dim], by least squares over the neighbours that are drawn as connected to
+    it, with displacements times `magnify`; the unit matrix for a particle without any.
 
     reference, current  positions [m], n x dim
     spacing             [m]
     damage, body        share of broken bonds [1], number of the body, n
     cuts                segments that part neighbours as well, in the plane (precracks)
+    magnify             factor on displacements [1]
     """
     count, dim = reference.shape
     unit = np.broadcast_to(np.eye(dim), (count, dim, dim))
     if count == 0:
         return unit.copy()
-    largest = 0.0
-    if damage.any():
-        for i, j in _pairs(reference, spacing):
-            whole = (damage[i] == 0) & (damage[j] == 0) & (body[i] == body[j])
-            whole[whole] = _beside(reference[i[whole]], reference[j[whole]], cuts)
-            largest = max(largest, float(_growth(reference, current, i[whole], j[whole]).max(initial=1.0)) - 1)
-    shape, moment = np.zeros((count, dim, dim)), np.zeros((count, dim, dim))
-    for i, j in _pairs(reference, spacing):
-        growth = _growth(reference, current, i, j)
-        limit = np.where((damage[i] > 0) | (damage[j] > 0), min(1 + _SURVIVED * largest, _PARTED), _PARTED)
-        held = (growth < limit) & (growth > _OVERLAPPING) & (body[i] == body[j])
-        held[held] = _beside(reference[i[held]], reference[j[held]], cuts)
-        i, j = i[held], j[held]
-        before, now = (reference[j] - reference[i]) / spacing, (current[j] - current[i]) / spacing
-        shape[i] += before[:, :, None] * before[:, None, :]
-        moment[i] += now[:, :, None] * before[:, None, :]
-    enough = np.linalg.det(shape) > 1e-2
-    shape[~enough] = np.eye(dim)
-    gradients = moment @ np.linalg.inv(shape)
-    sound = enough & (np.linalg.det(gradients) > 0.05)
+    i, j = _held_pairs(reference, current, spacing, damage, body, cuts, magnify)
+    before = (reference[j] - reference[i]) / spacing
+    moved = (current[j] - current[i]) / spacing - before
+    shape, moment = np.zeros((2, count, dim, dim))
+    for a in range(dim):
+        for b in range(dim):
+            shape[:, a, b] = np.bincount(i, before[:, a] * before[:, b], count) + _OPEN * (a == b)
+            moment[:, a, b] = np.bincount(i, moved[:, a] * before[:, b], count)
+    gradients = unit + magnify * (moment @ np.linalg.inv(shape))
+    sound = np.linalg.det(gradients) > 0.05
     return np.where(sound[:, None, None], gradients, unit)
 
 
@@ -137,9 +144,8 @@ def corners_of(frame: Any, magnify: float = 1.0, axes: Tuple[int, ...] = (0, 1, 
     damage = frame["damage"] if "damage" in names else none
     body = frame["body"] if "body" in names else none
     edge = float(spacing.min(initial=np.inf))
-    unit = np.eye(len(kept))
     cuts = precracks(frame.scene) if frame.dimension == 2 else []
-    gradients = unit + magnify * (deformation_gradients(reference, reference + motion, edge, damage, body, cuts) - unit)
+    gradients = deformation_gradients(reference, reference + motion, edge, damage, body, cuts, magnify)
     halves = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]) / 2
     edges = halves[:2 ** len(kept), :len(kept)] * spacing[:, None, None]
     return (reference + magnify * motion)[:, None] + np.einsum("nij,nkj->nki", gradients, edges)

@@ -102,12 +102,9 @@ static void test_surface(void **state)
         struct solid *solid;
         int dim;
         real size, within;
-    } body[] = {{&ball, 2, 1.7 * 1.7, 1e-3},
-                {&ball, 3, 4.0 / 3 * 1.7 * 1.7 * 1.7, 0.01},
-                {&brick, 2, 2.6 * 1.7, 1e-6},
-                {&brick, 3, 2.6 * 1.7 * 1.7, 1e-6},
-                {&turned, 3, 2.6 * 1.7 * 1.7, 2e-3},
-                {&ground, 3, 32, 1e-6}};
+    } body[] = {{&ball, 2, 1.7 * 1.7, 1e-3},         {&ball, 3, 4.0 / 3 * 1.7 * 1.7 * 1.7, 0.01},
+                {&brick, 2, 2.6 * 1.7, 1e-6},        {&brick, 3, 2.6 * 1.7 * 1.7, 1e-6},
+                {&turned, 3, 2.6 * 1.7 * 1.7, 2e-3}, {&ground, 3, 32, 1e-6}};
     const struct solid_motion motion = {.kind = MOTION_ROTATE, .angle = 0.4, .axis = {1, 2, 3}};
     assert_true(solid_apply_motion_if_not_too_many_copies(&turned, &motion, 3));
     for (size_t k = 0; k < COUNT_OF(body); k++) {
