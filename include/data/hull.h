@@ -68,6 +68,12 @@ real hull_signed_distance(const struct hull *s, const real *X, real *normal);
  * examined. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
+/* Returns true if the closed surface is convex near the point X (s->dim components [m]): of all faces at most `reach`
+ * [m] away none is in front of another one. A straight line from X, if X is inside, to a point at most that far away
+ * that is inside, too, is then inside. Returns false for an open surface or one with holes, and where more than 100
+ * faces are that near. */
+bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach);
+
 /* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
  * direction: unit vector. */
 real hull_support_function(const struct hull *s, const real *direction);

@@ -5,8 +5,10 @@
 #include "base/memory.h"
 #include "data/hull.h"
 
-enum { LEAF = 8, DEEPEST = 64 }; /* largest number of faces in a leaf; of waiting nodes */
-#define FAR 3.0                  /* distance, in radii of a node, from which its dipole replaces its faces */
+/* LEAF: largest number of faces in a leaf; DEEPEST: of waiting nodes; NEAR_MOST: of faces that are tested for
+ * convexity. */
+enum { LEAF = 8, DEEPEST = 64, NEAR_MOST = 100 };
+#define FAR 3.0 /* distance, in radii of a node, from which its dipole replaces its faces */
 
 static const real pi = 3.14159265358979323846;
 
@@ -253,6 +255,52 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
         wait[waiting++] = n->left + (left <= right), wait[waiting++] = n->left + (left > right);
     }
     return found;
+}
+
+/* Lists in face[NEAR_MOST] the faces at most `reach` [m] from X. Returns their number; -1 if there are more. */
+static int faces_within(const struct hull *s, const real *X, real reach, int32_t *face)
+{
+    int32_t wait[DEEPEST];
+    int waiting = 1, n = 0;
+    wait[0] = 0;
+    while (waiting > 0) {
+        const struct hull_node *node = &s->node[wait[--waiting]];
+        if (box_apart2(node, X, s->dim) > square(reach)) continue;
+        for (int32_t k = node->first; node->left == 0 && k < node->first + node->count; k++) {
+            real point[DIM_MAX];
+            face_nearest(s, k, X, point);
+            if (apart2(point, X, s->dim) > square(reach)) continue;
+            if (n == NEAR_MOST) return -1;
+            face[n++] = k;
+        }
+        if (node->left > 0) wait[waiting++] = node->left + 1, wait[waiting++] = node->left;
+    }
+    return n;
+}
+
+/* Returns true if all corners of face `other` are behind the plane of face `face`, or on it. */
+static bool face_is_behind(const struct hull *s, int32_t other, int32_t face)
+{
+    real area[DIM_MAX] = {0}, above = -INFINITY, size2 = 0;
+    hull_compute_face_area_vector(s, face, area);
+    const real *a = s->corner[s->face[face][0]];
+    for (int c = 0; c < s->dim; c++) {
+        const real *b = s->corner[s->face[other][c]];
+        real along = 0;
+        for (int d = 0; d < s->dim; d++) along += area[d] * (b[d] - a[d]);
+        above = real_max(above, along), size2 = real_max(size2, apart2(a, b, s->dim));
+    }
+    return above <= 1e-9 * sqrt(size2 * dot(area, area, s->dim));
+}
+
+bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach)
+{
+    int32_t face[NEAR_MOST];
+    const int n = s->open || s->open_edges > 0 || s->faces == 0 ? -1 : faces_within(s, X, reach, face);
+    bool convex = n >= 0;
+    for (int k = 0; k < n && convex; k++)
+        for (int l = 0; l < n && convex; l++) convex = k == l || face_is_behind(s, face[l], face[k]);
+    return convex;
 }
 
 /* Returns true if X[dim] is outside the closed surface s: its winding number is below 1/2. Returns true for every point

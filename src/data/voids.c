@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/memory.h"
+#include "data/hull.h"
 
 #define SEAM 1e-5        /* half of the widest gap that counts as closed [spacings]; empirical */
 #define STEP_FINE 1e-6   /* smallest step along a segment, as a share of its length, in the first FINE_STEPS steps */
@@ -35,6 +36,14 @@ static bool solid_convex(const struct solid *s)
     default:
         return false;
     }
+}
+
+/* Returns true if the part of the solid s at most `reach` [m] from the point X inside it is known to be convex. */
+static bool solid_convex_near(const struct solid *s, const real *X, real reach)
+{
+    if (s->kind == SOLID_HULL && s->images == 0 && s->radius == 0)
+        return hull_is_convex_within_distance(s->hull, X, reach);
+    return solid_convex(s);
 }
 
 /* Extends the box from[], to[] by the box s if their union is a box, and returns true. Else returns false and
@@ -192,10 +201,10 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns the convex solids of its body that contain particle i, as one bit each. Two particles at most `reach` [m]
- * apart have no void between them if they have a bit in common. Returns ALONE instead if the particle is in such a
- * solid and no other solid of the body is within `reach`. Returns 0 if a subtracted or intersected solid is that near,
- * or if the body has more than SOLIDS_MOST solids. */
+/* Returns the solids of its body that contain particle i, but for a seam, and are convex near it, as one bit each. Two
+ * particles at most `reach` [m] apart have no void between them if they have a bit in common. Returns ALONE instead if
+ * the particle is in such a solid and no other solid of the body is within `reach`. Returns 0 if a subtracted or
+ * intersected solid is that near, or if the body has more than SOLIDS_MOST solids. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};
@@ -212,7 +221,8 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
             if (level > reach) continue;
             if (s->intersect || s->subtract) return 0;
             within++;
-            if (level <= 0 && solid_convex(s) && mirrors_keep_convex(v, s, X, reach)) inside |= 1u << solids;
+            if (level <= SEAM * v->spacing && solid_convex_near(s, X, reach) && mirrors_keep_convex(v, s, X, reach))
+                inside |= 1u << solids;
         }
     }
     return within == 1 && inside ? ALONE : inside;

@@ -85,6 +85,22 @@ static void ball_and_torus(void **state)
     }
 }
 
+/* A ball is convex everywhere, a torus on its outer rim, not on its inner one; neither where too many faces are near.
+ */
+static void convex_near(void **state)
+{
+    (void)state;
+    for (int torus = 0; torus < 2; torus++) {
+        const struct grid_hull g = grid_make(torus, 16, 16), fine = grid_make(torus, 96, 96);
+        struct hull s, t;
+        hull_of(&s, &g), hull_of(&t, &fine);
+        assert_true(hull_is_convex_within_distance(&s, (real[]){torus ? 2.4 : 0.9, 0, 0}, 0.15));
+        assert_int_equal(hull_is_convex_within_distance(&s, (real[]){torus ? 1.6 : 0.9, 0, 0}, 0.3), !torus);
+        assert_false(hull_is_convex_within_distance(&t, (real[]){0.9, 0, 0}, 3));
+        hull_free(&s), hull_free(&t);
+    }
+}
+
 static void turned_and_open(void **state)
 {
     (void)state;
@@ -184,7 +200,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ball_and_torus), cmocka_unit_test(turned_and_open), cmocka_unit_test(doubles),
-        cmocka_unit_test(plane_ring),     cmocka_unit_test(open_ones),
+        cmocka_unit_test(plane_ring),     cmocka_unit_test(open_ones),       cmocka_unit_test(convex_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
