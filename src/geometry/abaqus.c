@@ -8,9 +8,17 @@
 #include <strings.h>
 
 #include "base/memory.h"
-#include "elements.h"
+#include "abaqus_type.h"
 
-enum { FIELD = 96, PARAMETERS_MAX = 16, PARTS_MAX = 256, LABEL_MAX = 999999999, GENERATED_MOST = 16 };
+enum {
+    FIELD = 96,
+    PARAMETERS_MAX = 16,
+    PARTS_MAX = 256,
+    LABEL_MAX = 999999999,
+    GENERATED_MOST = 16,
+    DEPTH_MAX = 10,
+    PATH_LENGTH = 4096
+};
 
 /* A keyword line: its name and parameters, such as *ELSET, ELSET=grip, GENERATE. */
 struct keyword {
@@ -37,6 +45,8 @@ struct deck {
     int scopes, now;    /* number of scopes, current scope; scope 0 is outside parts */
     struct scope *scope;
     int64_t generated; /* members added by GENERATE or from other sets */
+    int64_t length;    /* of the deck with the files that it includes so far [byte] */
+    int depth;         /* number of files that are being read, each included by the one before */
 };
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
@@ -191,44 +201,10 @@ static status nodes_read(struct deck *d)
     return OK;
 }
 
-/* Beginnings of the names of element types, compared in this order. plane: true for 2D and surface elements. */
-static const struct family {
-    const char *name;
-    bool plane;
-} families[] = {{"C3D", false}, {"CPS", true}, {"CPEG", true}, {"CPE", true}, {"CGAX", true},
-                {"CAX", true},  {"C2D", true}, {"M3D", true},  {"R3D", true}, {"SFM3D", true},
-                {"STRI", true}, {"SC", false}, {"DS", true},   {"S", true}};
-
-/* Shapes of elements, by plane (2D and surface elements) or solid, and number of nodes. */
-static const struct size {
-    bool plane;
-    int nodes;
-    enum element_kind kind;
-} sizes[] = {{true, 3, ELEMENT_TRIANGLE},      {true, 6, ELEMENT_TRIANGLE},    {true, 4, ELEMENT_QUAD},
-             {true, 8, ELEMENT_QUAD},          {true, 9, ELEMENT_QUAD},        {false, 4, ELEMENT_TETRAHEDRON},
-             {false, 10, ELEMENT_TETRAHEDRON}, {false, 5, ELEMENT_PYRAMID},    {false, 13, ELEMENT_PYRAMID},
-             {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
-             {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
-
-/* Returns the row of the table `sizes` for an element type such as C3D10M or CPS4R: its shape and number of nodes.
- * Returns NULL for elements that are neither solids nor surfaces. */
-static const struct size *size_of_type(const char *type)
-{
-    for (size_t f = 0; f < COUNT_OF(families); f++) {
-        const size_t length = strlen(families[f].name);
-        const char *number = type + length + ((type[0] == 'D' || type[0] == 'A') && type[1] == 'C');
-        if (strncmp(number - length, families[f].name, length) != 0) continue;
-        const int nodes = atoi(number);
-        for (size_t k = 0; k < COUNT_OF(sizes); k++)
-            if (sizes[k].plane == families[f].plane && sizes[k].nodes == nodes) return &sizes[k];
-    }
-    return NULL;
-}
-
 /* Reads the node labels of an element, which may continue on further lines. Stores the labels of its corners in node[]
  * and of its middle nodes in middle[], in the order of elements.h. The interior node of elements with 27 nodes is
  * skipped. size: shape and number of nodes. Returns REFUSED if the element has another number of labels. */
-static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
+static status element_nodes(struct deck *d, const struct abaqus_shape *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
     char field[FIELD];
@@ -254,13 +230,14 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
 }
 
 /* Reads the data lines of *ELEMENT, each a label and nodes. If the keyword has the parameter ELSET, the elements are
- * added to this set. Elements of unsupported types are skipped. Returns REFUSED for malformed lines. */
+ * added to this set. Points, lines and joints are skipped. Returns REFUSED for unknown types and malformed lines. */
 static status elements_read(struct deck *d)
 {
     int set;
     char type[FIELD], field[FIELD];
     word_plain(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
-    const struct size *size = size_of_type(type);
+    const struct abaqus_shape *size;
+    TRY(abaqus_shape_of_type(&size, d->s, type));
     TRY(set_named(d, "ELSET", false, &set));
     if (!size) {
         snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
@@ -290,7 +267,7 @@ static status generate_line(struct deck *d, int set)
     for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_label(d->s, field, &bound[k]));
     if (bound[2] < 1 || bound[1] < bound[0]) return source_report_fault(d->s, "first, last and step are expected");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
-    if (d->generated > GENERATED_MOST * d->s->length)
+    if (d->generated > GENERATED_MOST * d->length)
         return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
     return OK;
@@ -303,7 +280,7 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     const int other = element_mesh_find_or_create_set(d->m, name, of_nodes);
     if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
-    if (d->generated > GENERATED_MOST * d->s->length)
+    if (d->generated > GENERATED_MOST * d->length)
         return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
     for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
         element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
@@ -429,21 +406,6 @@ static status scope_change(struct deck *d, const char *name)
     return OK;
 }
 
-/* Rotates the point X (coordinates) by `angle` [rad] about the axis from the point a to the point b (Rodrigues'
- * formula). a and b must differ. */
-static void rotate_about(real *X, const real *a, const real *b, real angle)
-{
-    real axis[DIM_MAX], arm[DIM_MAX], length = 0;
-    for (int d = 0; d < DIM_MAX; d++) axis[d] = b[d] - a[d], arm[d] = X[d] - a[d], length += square(axis[d]);
-    length = sqrt(length);
-    for (int d = 0; d < DIM_MAX; d++) axis[d] /= length;
-    const real along = dot(axis, arm, DIM_MAX), c = cos(angle), s = sin(angle);
-    for (int d = 0; d < DIM_MAX; d++) {
-        const int e = (d + 1) % 3, f = (d + 2) % 3;
-        X[d] = a[d] + c * arm[d] + s * (axis[e] * arm[f] - axis[f] * arm[e]) + (1 - c) * along * axis[d];
-    }
-}
-
 /* Reads an instance: up to two lines, with a displacement, then two points of an axis and an angle in degrees. Moves
  * the nodes of its part to this position. Returns REFUSED if the part is unknown or already has an instance. */
 static status instance_read(struct deck *d)
@@ -468,7 +430,7 @@ static status instance_read(struct deck *d)
     const bool turns = turn[6] != 0 && memcmp(turn, turn + 3, 3 * sizeof *turn) != 0;
     for (int64_t k = p->node; k < p->node_end; k++) {
         for (int a = 0; a < DIM_MAX; a++) d->m->node[k][a] += shift[a];
-        if (turns) rotate_about(d->m->node[k], turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
+        if (turns) element_mesh_rotate_node(d->m, k, turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
     }
     p->placed = true;
     if (name) snprintf(p->instance, sizeof p->instance, "%s", name);
@@ -477,8 +439,32 @@ static status instance_read(struct deck *d)
 
 /* ---- the deck ------------------------------------------------------------------------------------------------- */
 
+static status keywords_read(struct deck *d);
+
+/* Reads the keywords of the file that *INCLUDE names, sought in the folder of the file that includes it. Returns
+ * REFUSED if it cannot be read, does not begin with a keyword, or if files include each other without end. */
+static status include_read(struct deck *d)
+{
+    const char *name = parameter(d, "INPUT"), *folder = d->s->path, *slash = strrchr(folder, '/');
+    struct source file, *const outer = d->s;
+    char path[PATH_LENGTH];
+    if (!name || !*name) return source_report_fault(d->s, "*INCLUDE without INPUT, the name of a file");
+    const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
+    if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
+        return source_report_fault(d->s, "the name of an included file is too long");
+    if (d->depth >= DEPTH_MAX) return source_report_fault(d->s, "more than %d files include each other", DEPTH_MAX);
+    TRY(source_read_whole_file(&file, path));
+    d->s = &file, d->depth++, d->length += file.length;
+    status s =
+        data_line(&file) ? source_report_fault(&file, "an included file begins with a keyword, such as *NODE") : OK;
+    if (s == OK) s = keywords_read(d);
+    d->s = outer, d->depth--;
+    source_close(&file);
+    return s;
+}
+
 /* Reads the data lines of the current keyword, or skips them if it has no meaning for the mesh. Returns REFUSED for
- * invalid data, and for keywords that generate nodes or elements or include files. */
+ * invalid data, and for keywords that generate nodes or elements. */
 static status keyword_follow(struct deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
@@ -490,7 +476,8 @@ static status keyword_follow(struct deck *d)
                 name);
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
-    if (file && (node || element || nset || elset || strcmp(name, "INCLUDE") == 0))
+    if (strcmp(name, "INCLUDE") == 0) return include_read(d);
+    if (file && (node || element || nset || elset))
         return source_report_fault(d->s, "*%s reads %.60s; one file is expected: put the lines of %.60s here", name,
                                    file, file);
     if (node) return nodes_read(d);
@@ -502,18 +489,24 @@ static status keyword_follow(struct deck *d)
     return OK;
 }
 
+/* Reads the keywords of the current file to its end. Returns REFUSED for invalid ones. */
+static status keywords_read(struct deck *d)
+{
+    while (source_skip_blanks(d->s)) {
+        while (data_line(d->s)) source_skip_to_next_line(d->s); /* data lines of a skipped keyword */
+        if (d->s->at >= d->s->length) break;
+        source_skip_blanks(d->s);
+        keyword_read(d);
+        TRY(keyword_follow(d));
+    }
+    return OK;
+}
+
 status abaqus_read(struct element_mesh *m, struct source *s)
 {
-    struct deck d = {.s = s, .m = m};
-    status result = OK;
+    struct deck d = {.s = s, .m = m, .length = s->length};
     scope_begin(&d, "");
-    while (result == OK && source_skip_blanks(s)) {
-        while (data_line(s)) source_skip_to_next_line(s); /* data lines of a skipped keyword */
-        if (s->at >= s->length) break;
-        source_skip_blanks(s);
-        keyword_read(&d);
-        result = keyword_follow(&d);
-    }
+    status result = keywords_read(&d);
     if (result == OK) result = scope_end(&d);
     if (result == OK && m->nodes == 0) result = source_report_fault(s, "no *NODE; a deck of Abaqus is expected");
     for (int k = 0; k < d.scopes; k++) {

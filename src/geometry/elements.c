@@ -1,6 +1,7 @@
 /* Operations on finite-element meshes that all file formats share. */
 #include "elements.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <strings.h>
@@ -96,6 +97,20 @@ void element_mesh_add_to_set(struct element_mesh *m, int number, int64_t member)
     struct element_set *set = &m->set[number];
     GROW("mesh.set", set->member, set->n + 1);
     set->member[set->n++] = (int32_t)member;
+}
+
+void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle)
+{
+    real *X = m->node[node];
+    real axis[DIM_MAX], arm[DIM_MAX], length = 0;
+    for (int d = 0; d < DIM_MAX; d++) axis[d] = b[d] - a[d], arm[d] = X[d] - a[d], length += square(axis[d]);
+    length = sqrt(length);
+    for (int d = 0; d < DIM_MAX; d++) axis[d] /= length;
+    const real along = dot(axis, arm, DIM_MAX), c = cos(angle), s = sin(angle);
+    for (int d = 0; d < DIM_MAX; d++) {
+        const int e = (d + 1) % 3, f = (d + 2) % 3;
+        X[d] = a[d] + c * arm[d] + s * (axis[e] * arm[f] - axis[f] * arm[e]) + (1 - c) * along * axis[d];
+    }
 }
 
 void element_mesh_free(struct element_mesh *m)

@@ -105,6 +105,10 @@ int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bo
  * indices are not known yet. */
 void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
+/* Rotates a node of the mesh m by `angle` [rad] about the axis from the point a to the point b (Rodrigues' formula). a
+ * and b must differ. node: its index. */
+void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle);
+
 /* Releases all arrays of m and zeroes it. */
 void element_mesh_free(struct element_mesh *m);
 

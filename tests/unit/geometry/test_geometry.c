@@ -330,6 +330,11 @@ static void abaqus_decks(void **state)
     assert_close(hull_signed_distance(&geometry_find_named_part(&g, "left")->hull, (real[]){0.3, 0.5}, NULL), 0.3,
                  1e-12);
     geometry_free(&g);
+    write_words("whole.inc", flat);
+    write_words("d.inp", "*Heading\n*Include, input=whole.inc\n");
+    assert_ok(geometry_read(&g, "d.inp", 2, 1, NAN));
+    assert_close(g.whole.volume, 2, 1e-12);
+    geometry_free(&g);
     write_words("b.inp", parts);
     assert_ok(geometry_read(&g, "b.inp", 3, 1, NAN));
     assert_close(g.whole.volume, 1. / 3, 1e-12);
@@ -421,7 +426,9 @@ static void bad_abaqus(void **state)
                {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; a deck that lists all nodes"},
                {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x",
                 "*NSET reads x; one file is expected: put the lines of x here"},
-               {"*node, nset=all", "*Include, input=nodes.inc", ":4: *INCLUDE reads nodes.inc"},
+               {"*node, nset=all", "*Include, input=nodes.inc", "nodes.inc"},
+               {"*node, nset=all", "*Include, input=bad.inp", "files include each other"},
+               {"CPS4R", "CPS4Q", "element type CPS4Q is not known"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
                {"*node, nset=all", "*node, system=C", ":4: coordinates in the system C"},
                {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};
@@ -490,8 +497,9 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    static const char *const names[] = {"a.stl",   "b.stl", "c.stl", "a.msh", "b.msh",     "c.msh",  "d.msh",
-                                        "bad.msh", "a.inp", "b.inp", "c.inp", "solid.inp", "bad.inp"};
+    static const char *const names[] = {"a.stl", "b.stl", "c.stl",     "a.msh",     "b.msh",
+                                        "c.msh", "d.msh", "bad.msh",   "a.inp",     "b.inp",
+                                        "c.inp", "d.inp", "whole.inc", "solid.inp", "bad.inp"};
     (void)state;
     for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
     return chdir("/") != 0 || rmdir(folder) != 0;
