@@ -386,11 +386,11 @@ static status exodus_make(struct exodus_export *x, const struct export_request *
 }
 
 /* Prints which file was written with which contents, and what of the scene the file does not contain: rigid bodies, and
- * pre-cracks (the damage of a run shows them). */
+ * pre-cracks. */
 static void exodus_print(const struct exodus_export *x)
 {
     const struct scene *s = &x->mesh.scene;
-    const int cracks = x->folder ? 0 : s->cracks;
+    const int cracks = s->cracks;
     printf("%s: %lld particles in %d block%s, %d node set%s", printable_name(x->request->folder).text,
            (long long)x->mesh.n, s->materials, s->materials == 1 ? "" : "s", x->mesh.e->loads.n,
            x->mesh.e->loads.n == 1 ? "" : "s");
@@ -401,7 +401,9 @@ static void exodus_print(const struct exodus_export *x)
     if (s->rigids == 0 && cracks == 0) return;
     printf("left out: ");
     if (s->rigids > 0) printf("%d rigid bod%s%s", s->rigids, s->rigids == 1 ? "y" : "ies", cracks > 0 ? ", " : "\n");
-    if (cracks > 0) printf("%d pre-crack%s (Peridigm and PeriLab: Bond Filters)\n", cracks, cracks == 1 ? "" : "s");
+    if (cracks > 0)
+        printf("%d pre-crack%s (%s)\n", cracks, cracks == 1 ? "" : "s",
+               x->folder ? "the damage of peridynamic particles shows where" : "Peridigm and PeriLab: Bond Filters");
 }
 
 status export_exodus(const struct export_request *request)
