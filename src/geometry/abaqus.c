@@ -453,7 +453,8 @@ static status include_read(struct deck *d)
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
         return source_report_fault(d->s, "the name of an included file is too long");
     if (d->depth >= DEPTH_MAX) return source_report_fault(d->s, "more than %d files include each other", DEPTH_MAX);
-    TRY(source_read_whole_file(&file, path));
+    if (source_read_whole_file(&file, path) != OK)
+        return source_report_fault(d->s, "*INCLUDE: %.200s", status_message());
     d->s = &file, d->depth++, d->length += file.length;
     status s =
         data_line(&file) ? source_report_fault(&file, "an included file begins with a keyword, such as *NODE") : OK;

@@ -426,7 +426,7 @@ static void bad_abaqus(void **state)
                {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; a deck that lists all nodes"},
                {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x",
                 "*NSET reads x; one file is expected: put the lines of x here"},
-               {"*node, nset=all", "*Include, input=nodes.inc", "nodes.inc"},
+               {"*node, nset=all", "*Include, input=nodes.inc", ":4: *INCLUDE: nodes.inc: "},
                {"*node, nset=all", "*Include, input=bad.inp", "files include each other"},
                {"CPS4R", "CPS4Q", "element type CPS4Q is not known"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
