@@ -409,7 +409,8 @@ static void joints_have_their_energy(void **state)
 
 /* With the influence function omega the critical stretch of a continuum is that of omega = 1 times sqrt(mu/nu), with
  * the means mu and nu of omega that have the weights r^2 and r^3 in 2D: 3 and 2 for (horizon/r)^2, 3/2 and 4/3 for
- * horizon/r. A horizon of 10 spacings agrees within 3 %. */
+ * horizon/r. A lattice lacks the particle itself, where omega is largest: a horizon of 10 spacings agrees within 3.5 %.
+ */
 static void stretches_depend_on_influence(void **state)
 {
     (void)state;
@@ -422,7 +423,7 @@ static void stretches_depend_on_influence(void **state)
         read_joint(&s, more);
         read_joint(&plain, "particles: {spacing: 0.2 mm, horizon: 10.015}\n");
         const real found = s.material[0].critical_stretch / plain.material[0].critical_stretch / sqrt(ratio[k]);
-        if (!(fabs(found - 1) < 0.03)) fail_msg("%s: off by %g", name[k], found - 1);
+        if (!(fabs(found - 1) < 0.035)) fail_msg("%s: off by %g", name[k], found - 1);
         scene_free(&s), scene_free(&plain);
     }
 }
