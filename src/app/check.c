@@ -88,7 +88,7 @@ static void say_contact_cost(const struct run *e, const struct cost *c)
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
     if (scene_has_load_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
     printf("contact        %lld of %lld particles are near a face; about %.1f %% of the time of the first steps",
-           (long long)e->contact->rows, (long long)e->part.n, 1e2 * c->contact);
+           (long long)e->contact->rows, (long long)e->part.n, 1e2 * fmin(1, c->contact));
     if (e->scene->time_step == 0 && shorter < 0.999)
         printf("; the time step is %.2f times that without contact", shorter);
     putchar('\n');

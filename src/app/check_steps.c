@@ -269,7 +269,8 @@ void print_load_steps_cost(const struct run *e, const struct cost *c, int thread
 {
     printf("run time       %.2g to %.2g s on %d idle core%s: about %.2g equilibria of %.2g s", c->least, c->most,
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
-    if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
+    const bool known = c->overload > 0 && e->scene->rigids == 0; /* the forces of rigid bodies are not predicted */
+    if (known && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
         printf(
             "\naccuracy       the most stretched bond reaches %.2g of its limit, at a pseudo-time of %.4g s; nothing "
             "breaks below %.1f: use larger loads",

@@ -80,8 +80,8 @@ static status help_scene(void)
     return scene_print_help_on_keys(stdout, NULL);
 }
 
-/* Returns REFUSED, with the nearest name in the message, if a word is no key or topic but at most two edits away from
- * the name of a page or command. Returns OK otherwise. */
+/* Returns REFUSED, with the nearest name in the message, if a word is no key or topic but similar to the name of a page
+ * or command. Returns OK otherwise. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -91,7 +91,7 @@ static status help_misspelt(const char *word)
         if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
     for (int k = 0; k < commands_count; k++)
         if (edit_distance(word, commands[k].name) < edit_distance(word, nearest)) nearest = commands[k].name;
-    if (edit_distance(word, nearest) > 2) return OK;
+    if (!words_are_similar(word, nearest)) return OK;
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 

@@ -1,7 +1,6 @@
 /* Edit distance of two words. */
 #include "base/edit_distance.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 int edit_distance(const char *a, const char *b)
@@ -24,4 +23,14 @@ int edit_distance(const char *a, const char *b)
         older = old, old = now, now = spare;
     }
     return old[m];
+}
+
+bool words_are_similar(const char *word, const char *other_word)
+{
+    const size_t length = strlen(word), other_length = strlen(other_word);
+    const size_t least = length < other_length ? length : other_length;
+    const int distance = edit_distance(word, other_word);
+    if (least < 2 || length + other_length < 5) return false;
+    const bool same_ends = word[0] == other_word[0] && word[length - 1] == other_word[other_length - 1];
+    return distance <= 1 || (distance == 2 && (least >= 8 || (least >= 5 && same_ends)));
 }

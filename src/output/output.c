@@ -145,8 +145,9 @@ static void difference_text(const char *a, const char *b, char *text, size_t cap
                  path, b);
         return;
     }
-    snprintf(text, capacity, "line %d was `%.*s` and is now `%.*s`", line, la < SHOWN ? la : SHOWN, a,
-             lb < SHOWN ? lb : SHOWN, b);
+    const bool lasts = strncmp(a, "duration:", strlen("duration:")) == 0;
+    snprintf(text, capacity, "line %d was `%.*s` and is now `%.*s`%s", line, la < SHOWN ? la : SHOWN, a,
+             lb < SHOWN ? lb : SHOWN, b, lasts ? "; a run that goes on keeps its duration" : "");
 }
 
 /* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is

@@ -47,7 +47,8 @@ static const struct foreign {
     {"stress|stresses|strain|strains|sigma|epsilon", "output.fields probes.line boundary.traction",
      "=stress is a result, in every frame, and `output.fields` adds others; on a face it is a load, `traction`; at the "
      "start it follows from initial.displacement_gradient"},
-    {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter", NULL},
+    {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter",
+     "as `scatter: {distribution: weibull, modulus: 10}`"},
     {"precrack|pre_crack|pre_cracks|precracks|crack_list|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
     {"tie|tied|cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
     {"compression_strength|f_c|fc|crushing_strength|crushing", "material.compressive_strength material.yield_stress",
@@ -82,10 +83,13 @@ static const struct foreign {
     {"heat_capacity|c_p|cp|thermal_capacity", "material.specific_heat",
      "=plastic work heats a material with `johnson_cook` and `specific_heat`; heat does not flow"},
     /* other physics */
-    {"temperature|thermal|heat|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|"
-     "initial_temperature|diffusion|cooling",
+    {"temperature|heat|heating|adiabatic|initial_temperature", "material.johnson_cook material.specific_heat",
+     "=heat does not flow and does not expand a body; plastic work heats metals with `johnson_cook` and "
+     "`specific_heat`"},
+    {"thermal|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|diffusion|cooling",
      "initial.displacement_gradient",
-     "=Cleave does not do heat; a uniform strain at the start comes nearest: initial.displacement_gradient"},
+     "=Cleave does not do thermal expansion or flow of heat; a uniform strain at the start comes nearest: "
+     "initial.displacement_gradient"},
     {"orthotropic|orthotropy|anisotropic|anisotropy|transversely_isotropic|fibre|fiber|fibres|fibers|fibre_angle|"
      "fiber_angle|laminate|laminae|composite|E1|E2|E3|E11|E22|E33|nu12|nu13|nu23|G12|G13|G23",
      "parts material.young",

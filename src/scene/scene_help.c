@@ -142,14 +142,14 @@ static int key_distance(const struct key *k, const char *path)
     return whole < leaf ? whole : leaf;
 }
 
-/* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance, or the
- * pages of `cleave help` if more than a third of the letters differ. */
+/* Returns REFUSED with the message that `path` is no key. The message names the key nearest by edit distance if its
+ * name is similar, else the pages of `cleave help`. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
     for (int k = 1; k < keys_count; k++)
         if (key_distance(&keys[k], path) < key_distance(nearest, path)) nearest = &keys[k];
-    if (key_distance(nearest, path) <= ((int)strlen(path) + 1) / 3)
+    if (words_are_similar(nearest->path, path) || words_are_similar(key_last_part(nearest), path))
         return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
     return status_set(REFUSED,
                       "%.64s: neither a key nor a page; `cleave help scene` lists the keys, and the pages are units, "

@@ -148,8 +148,7 @@ static status fault_unknown(const struct reader *r, const struct yaml_node *n, c
     if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
     const struct key *nearest = key_find_most_similar(group, n->key);
     const char *leaf = nearest ? key_last_part(nearest) : "";
-    int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
-    if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
+    if (nearest && words_are_similar(leaf, n->key)) return fault(r, n, "unknown key; the nearest is %s", leaf);
     int others;
     const struct key *other = key_find_in_any_group(n->key, &others);
     if (other && !strchr(other->path, '.'))

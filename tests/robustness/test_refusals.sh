@@ -97,7 +97,7 @@ done <<'END'
 1|{|3:10|not YAML
 1|"name|21:1|unexpected end of stream
 2|spaces: plane|2:1|the nearest is space
-2|space: plane stress^temperature: 300|3:1|Cleave does not do heat
+2|space: plane stress^temperature: 300|3:1|heat does not flow and does not expand a body; plastic work heats metals with
 2|space: plane stress^dt: 1 us|3:1|here it is `time.step`
 2|space: plane stress^periodic: x|3:1|does not do periodic boundaries; planes of symmetry come nearest: boundary: {mirror
 6|material: {E: 190 GPa, density: 7800}|6:12|E: unknown key; here it is `young`
@@ -107,8 +107,8 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|with `tensile_strength` bonds soften
 6|material: {young: 190 GPa, density: 7800, f_c: 100 MPa}|6:43|does not do crushing
 6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
-6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do heat
-6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do heat
+6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do thermal expansion
+6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do thermal expansion or flow of heat
 6|material: {young: 190 GPa, density: 7800, strain_rate: 1}|6:43|by `johnson_cook`
 6|material: {young: 190 GPa, density: 7800, orthotropic: {}}|6:43|does not do anisotropic materials
 6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
