@@ -47,7 +47,8 @@ struct grid {
     real light_mass;                 /* nodes lighter than this follow a neighbour (grid_move.c); 0: none [kg] */
     int64_t followers;
     struct follower *follower; /* [n] followers of this step, ascending */
-    uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact */
+    uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact. In
+                    * that search the number of planes of symmetry of the node, or HELD if others prescribe it */
     int64_t dashpots;
     struct dashpot *dashpot;  /* dashpots of absorbing faces in this step, ascending by node */
     struct absorbed absorbed; /* their effect in this step */
@@ -78,6 +79,7 @@ struct wall {
     real velocity, change;   /* prescribed velocity; its change since the previous step [m/s] */
     real place;              /* displacement at the end of the step, NAN: integral of the velocity [m] */
     real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
+    bool symmetric;          /* of a plane of symmetry: the other components of the node are free */
 };
 
 /* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `lower` and `upper`

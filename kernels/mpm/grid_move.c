@@ -110,8 +110,15 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
  * heavier neighbour J and the node K behind it,
  *     a_I = 2 a_J - a_K,   f_J += 2 f_I,   f_K -= f_I,   and for the accelerations m_J += 2 m_I,   m_K -= m_I,
  * so that the map from forces to accelerations stays symmetric and bodies can rotate. The velocity of a light node has
- * no weight in the balance and equals that of its points. Wall nodes neither lead nor follow. FLIP gains no energy from
- * light nodes. Followers are few and processed in order. */
+ * no weight in the balance and equals that of its points. Wall nodes neither lead nor follow, but nodes on planes of
+ * symmetry do, which have the mass of half of their points: half of a body moves as the whole. FLIP gains no energy
+ * from light nodes. Followers are few and processed in order. */
+
+enum { HELD = 128 }; /* in g->held: a node that prescribed motion holds */
+
+/* Returns the mass that node I has in the whole body, of which the grid has the part between planes of symmetry [kg].
+ * g->held must contain the number of planes on which the node lies. */
+static real whole_mass(const struct grid *g, int64_t I) { return g->mass[I] * (real)(1 << (g->held[I] & (HELD - 1))); }
 
 /* Returns the node that determines the motion of the light node I: the heaviest adjacent node with more mass than
  * g->light_mass, along the axes if there is one, else along diagonals; -1 if there is none. */
@@ -131,7 +138,7 @@ static int64_t leader_of(const struct grid *g, int64_t I)
                 else if (step[d] != 0)
                     axes = DIM_MAX + 1;
             }
-            if (axes == apart && J >= 0 && J < g->n && g->mass[J] > most) most = g->mass[J], leader = J;
+            if (axes == apart && J >= 0 && J < g->n && whole_mass(g, J) > most) most = whole_mass(g, J), leader = J;
         }
     return leader;
 }
@@ -145,19 +152,19 @@ static int by_node(const void *a, const void *b)
 
 /* Lists in g->follower the light nodes of this step, heavier than smallest_mass and lighter than g->light_mass [kg],
  * with the heavier nodes from which their acceleration is extrapolated (struct follower); ascending by node. Nodes held
- * by walls are left out. */
+ * by walls other than planes of symmetry are left out. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
 #pragma omp parallel for schedule(static)
     for (int64_t I = 0; I < g->n; I++) {
-        if (!(g->mass[I] >= smallest_mass && g->mass[I] < g->light_mass)) continue;
+        if (!(g->mass[I] >= smallest_mass && whole_mass(g, I) < g->light_mass)) continue;
         const int64_t leader = leader_of(g, I), next = 2 * leader - I;
         if (leader < 0) continue;
-        const bool heavy = next >= 0 && next < g->n && g->mass[next] > g->light_mass;
+        const bool heavy = next >= 0 && next < g->n && whole_mass(g, next) > g->light_mass;
         const int64_t behind = heavy ? next : leader;
         int64_t at;
-        if (g->held[I] || g->held[leader] || g->held[behind]) continue;
+        if ((g->held[I] | g->held[leader] | g->held[behind]) & HELD) continue;
 #pragma omp atomic capture
         at = n++;
         g->follower[at] = (struct follower){(int32_t)I, (int32_t)leader, (int32_t)behind};
@@ -185,7 +192,10 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
 {
     g->followers = 0;
     if (transfer != TRANSFER_APIC || g->light_mass <= 0) return;
-    for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 1;
+    for (int64_t k = 0; k < g->walls; k++) {
+        uint8_t *held = &g->held[g->wall[k].node];
+        *held = g->wall[k].symmetric ? (uint8_t)(*held + 1) : HELD;
+    }
     followers_find(g, smallest_mass);
     for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
     for (int64_t k = 0; k < g->followers; k++) {

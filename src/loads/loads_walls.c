@@ -210,7 +210,8 @@ static struct wall wall_at(const struct driven_by *by, int64_t I, const real *x,
         change = velocity - prescribed_velocity_at(&by->before, x, d, !reference);
     else if (drives && !first)
         change = (by->now.factor - by->before.factor) * b->value[d];
-    return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0};
+    return (struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity,
+                         change,     place,      .reaction = 0,  .symmetric = !drives && !b->hold_tangential};
 }
 
 /* Returns true if only the points of load number `which` can tell which nodes of g it drives: most of its particles are

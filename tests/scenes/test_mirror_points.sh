@@ -78,4 +78,28 @@ for w in 1 2; do
     refused "mirrors $w spacings apart, with bonds" "$work/no" "with bonds of" "$work/strip.yaml" -s variables.w=${w}mm -s method=pd
 done
 
+# Light nodes on a plane of symmetry (APIC) follow their neighbours as those of the whole body do: half of a block under a traction along the
+# plane stores half of its energy, to the digits of history.csv. Held, such nodes gave 6 % more.
+cat >"$work/light.yaml" <<'END'
+space: plane stress
+thickness: 2 mm
+duration: 6 us
+method: mpm
+mpm: {frame: current, transfer: apic}
+material: {young: 72 GPa, density: 2440 kg/m^3, poisson: 0.3}
+body: {box: {from: [0, -8 mm], to: [8 mm, 8 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {traction: [0, 20 MPa], face: y+, time: {ramp: {until: 2 us}}}
+  - {mirror: {axis: x, at: 0}}
+output: {frames: 0}
+END
+for shape in gimp cpgimp; do
+    holds "run" "$cleave" run "$work/light.yaml" -t 1 -q -s mpm.shape=$shape -o "$work/light_half" --overwrite >"$work/said" 2>&1
+    holds "run" "$cleave" run "$work/light.yaml" -t 1 -q -s mpm.shape=$shape -s boundary.1= -s 'body.box.from=[-8 mm, -8 mm]' \
+        -o "$work/light_whole" --overwrite >"$work/said" 2>&1
+    for name in strain kinetic; do
+        near "$shape: $name of half a body" "$(compute "2 * $(column "$work/light_half" $name 1)")" "$(column "$work/light_whole" $name 1)" 1e-7
+    done
+done
 finish
