@@ -143,8 +143,9 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
 /* Sets the weight of the bond with index q in row `row` to w [1]; w = 0 breaks the bond. Adds half of the elastic
- * energy that is lost to the fracture energy of the row. The other half appears in the step to the next positions,
- * because a leap-frog velocity update is centred on the change of weights. */
+ * energy that is lost to the fracture energy of the row, and half of the plastic work of the lost weight to the plastic
+ * work of the row. The other half appears in the step to the next positions, because a leap-frog velocity update is
+ * centred on the change of weights. */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -152,6 +153,8 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
     const real stretch = bond_stretch_at_earlier_time(p, b->inverse_length[q], i, j, 0);
     const real before = state ? state_row_energy(b, p, row, 0) : half_energy(b, row, q, stretch);
     const real spent = bond_half_softening_energy(b, row / LANES, q);
+    const struct bond lost = {q, j, fabs(b->inverse_length[q]), b->w[q] - w};
+    if (b->plastic_path) b->plastic_work[row] += 0.5 * (0.5 * bond_plastic_work_of(b, &lost));
     if (w > 0)
         b->w[q] = w;
     else if (b->inverse_length[q] > 0)

@@ -181,6 +181,26 @@ refuse "$follow, probe: sif, toughness: 1 MPa m^0.5, fastest: 0 m/s" "fastest"
 refuse "$good, fastest: 900 m/s" "beside a given speed"
 refuse "$good, colour: red" "colour"
 refuse "$good" "method mpm has no bonds" -s method=mpm
+# Bonds that have yielded and fade behind the tip: their plastic work stays on the account. Without it 4.6 % of the energy was missing.
+cat >"$work/yields.yaml" <<'END'
+space: plane strain
+thickness: 2 mm
+duration: 20 us
+method: pd
+material: {young: 72 GPa, density: 2440 kg/m^3, yield_stress: 15 MPa, yield_hardening: 10 GPa}
+body: {box: {from: [0, -10 mm], to: [40 mm, 10 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{from: [0, 0.3 mm], to: [15 mm, 0.3 mm]}]
+growth: [{at: [15 mm, 0.3 mm], direction: [1, 0], start: 4 us, speed: 900 m/s}]
+boundary:
+  - {traction: [0, 12 MPa], face: y+, time: {ramp: {until: 3 us}}}
+  - {fixed: all, face: y-}
+output: {frames: 0}
+END
+holds "run" "$cleave" run "$work/yields.yaml" -t 1 -q -o "$work/yields" >"$work/out" 2>&1
+between "energy of bonds that yield" "$(f yields energy.balance_error)" -3e-4 3e-4
+between "their plastic work over the work of the load" "$(compute "$(f yields energy.plastic) / $(f yields energy.external_work)")" 0.1 0.2
+
 # A SIF-driven crack requires the probe of its own tip.
 sed 's/at: \[50 mm, 25 mm\]/at: [50 mm, 30 mm]/' inputs/kalthoff_sif.yaml >"$work/bad.yaml"
 "$cleave" check "$work/bad.yaml" >"$work/out" 2>"$work/err"
