@@ -75,15 +75,15 @@ static void profiles_free(struct bar_profile *profile, int profiles)
 static float station_number(const struct station *s, int column) { return column < 0 ? s->x : s->value[column]; }
 
 /* Returns the range of the position (column -1) or of value number `column` in profile[profiles], without loose
- * particles unless there are no others. */
-static struct value_range profiles_range(const struct bar_profile *profile, int profiles, int column)
+ * particles unless there are no others, or `loose` is true. */
+static struct value_range profiles_range(const struct bar_profile *profile, int profiles, int column, bool loose)
 {
     struct value_range e = {INFINITY, -INFINITY};
     for (int pass = 0; pass < 2 && !(e.low <= e.high); pass++)
         for (int k = 0; k < profiles; k++)
             for (int64_t i = 0; i < profile[k].n; i++) {
                 const float a = station_number(&profile[k].at[i], column);
-                if (profile[k].at[i].loose && pass == 0) continue;
+                if (profile[k].at[i].loose && pass == 0 && !loose) continue;
                 e.low = fmin(e.low, a), e.high = fmax(e.high, a);
             }
     return e;
@@ -93,7 +93,7 @@ static struct value_range profiles_range(const struct bar_profile *profile, int 
  * that are at most BESIDE of their extent away, with half a spacing at both ends [m]. */
 static struct value_range profiles_axis(const struct bar_profile *profile, int profiles, double spacing)
 {
-    const struct value_range bulk = profiles_range(profile, profiles, -1);
+    const struct value_range bulk = profiles_range(profile, profiles, -1, false);
     const double beside = BESIDE * (bulk.high - bulk.low);
     struct value_range axis = bulk;
     for (int k = 0; k < profiles; k++)
@@ -192,7 +192,7 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     struct gnuplot g;
     struct value_range of[3];
     char label[3][64] = {"", "", "damage"}, text[TITLE_LENGTH];
-    for (int c = 0; c < 3; c++) of[c] = profiles_range(profile, profiles, c);
+    for (int c = 0; c < 3; c++) of[c] = profiles_range(profile, profiles, c, false);
     const struct value_range x = profiles_axis(profile, profiles, spacing);
     const struct unit metre = unit_for_length(x.high - x.low),
                       speed = unit_for_largest_value(range_magnitude(of[0]), "m/s"),
@@ -244,7 +244,9 @@ static status field_profile_draw(struct sheet sheet, const char *title, const st
 {
     struct gnuplot g;
     char label[64], name[NAME_MAX_LENGTH], text[TITLE_LENGTH];
-    const struct value_range of = profiles_range(profile, profiles, 0), x = profiles_axis(profile, profiles, spacing);
+    const bool moves = strcmp(field->unit, "m/s") == 0 || strcmp(field->unit, "m") == 0; /* far apart for loose ones */
+    const struct value_range of = profiles_range(profile, profiles, 0, !moves),
+                             x = profiles_axis(profile, profiles, spacing);
     const struct unit metre = unit_for_length(x.high - x.low),
                       own = unit_for_largest_value(range_magnitude(of), field->unit);
     const double factor[4] = {metre.factor, *field->unit ? own.factor : 1, 1, 1};
