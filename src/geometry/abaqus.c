@@ -47,6 +47,7 @@ struct deck {
     int64_t generated; /* members added by GENERATE or from other sets */
     int64_t length;    /* of the deck with the files that it includes so far [byte] */
     int depth;         /* number of files that are being read, each included by the one before */
+    bool in_step;      /* between *STEP and *END STEP, whose loads are not read */
 };
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
@@ -477,7 +478,9 @@ static status keyword_follow(struct deck *d)
                 name);
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
-    if (strcmp(name, "INCLUDE") == 0) return include_read(d);
+    if (strcmp(name, "STEP") == 0) d->in_step = true;
+    if (strcmp(name, "ENDSTEP") == 0) d->in_step = false;
+    if (strcmp(name, "INCLUDE") == 0) return d->in_step ? OK : include_read(d); /* files of steps have loads */
     if (file && (node || element || nset || elset))
         return source_report_fault(d->s, "*%s reads %.60s; one file is expected: put the lines of %.60s here", name,
                                    file, file);

@@ -308,7 +308,7 @@ static const char flat[] =
     "4, 0., 1.\n5, 1., 1.\n6, 2., 1.D0\n*Element, type=CPS4R, elset = Two\n10, 1, 2, 5, 4\n11, 2,\n"
     " 3, 6, 5\n*NSET, NSET=left\n1, 4\n*Elset, elset=RIGHT, generate\n11, 11, 1\n"
     "*elset, elset=both\nTwo,\n*Material, name=steel\n*Elastic\n210e9, .3\n"
-    "*Element, type=T3D2\n90, 1, 2\n*Step\n*Static\n0.1, 1.\n*End Step\n";
+    "*Element, type=T3D2\n90, 1, 2\n*Step\n*Static\n0.1, 1.\n*Include, input=loads.inc\n*End Step\n";
 static const char parts[] =
     "*Part, name=A\n*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n*Element, type=C3D4\n"
     "1, 1, 2, 3, 4\n*Nset, nset=tip\n4\n*End Part\n*Part, name=B\n*Node\n1, 0, 0, 0\n2, 0, 1, 0\n"
