@@ -48,7 +48,7 @@ struct grid {
     int64_t followers;
     struct follower *follower; /* [n] followers of this step, ascending */
     uint8_t *held; /* [n] not 0: a component is prescribed; valid only in the search for followers and in contact. In
-                    * that search the number of planes of symmetry of the node, or HELD if others prescribe it */
+                    * that search bit d for a plane of symmetry with normal d, and HELD if others prescribe it */
     int64_t dashpots;
     struct dashpot *dashpot;  /* dashpots of absorbing faces in this step, ascending by node */
     struct absorbed absorbed; /* their effect in this step */

@@ -117,8 +117,11 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
 enum { HELD = 128 }; /* in g->held: a node that prescribed motion holds */
 
 /* Returns the mass that node I has in the whole body, of which the grid has the part between planes of symmetry [kg].
- * g->held must contain the number of planes on which the node lies. */
-static real whole_mass(const struct grid *g, int64_t I) { return g->mass[I] * (real)(1 << (g->held[I] & (HELD - 1))); }
+ * g->held must contain the planes on which the node lies: bit d for a plane with normal d. */
+static real whole_mass(const struct grid *g, int64_t I)
+{
+    return g->mass[I] * (real)(1 << __builtin_popcount(g->held[I] & (HELD - 1)));
+}
 
 /* Returns the node that determines the motion of the light node I: the heaviest adjacent node with more mass than
  * g->light_mass, along the axes if there is one, else along diagonals; -1 if there is none. */
@@ -174,13 +177,14 @@ static void followers_find(struct grid *g, real smallest_mass)
 }
 
 /* Adds `times` the force and `times` the mass of the light node I to the heavier node J, from which the acceleration of
- * I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change. */
+ * I is extrapolated. The momentum of J is scaled with its mass, so that its velocity does not change, but not across a
+ * plane of symmetry, which takes the momentum that J has. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
     for (int d = 0; d < g->dim; d++) {
         g->force[d][J] += times * g->force[d][I];
-        g->momentum[d][J] += more * g->momentum[d][J];
+        if (!(g->held[J] >> d & 1)) g->momentum[d][J] += more * g->momentum[d][J];
     }
     g->mass[J] += times * g->mass[I];
 }
@@ -194,16 +198,16 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     if (transfer != TRANSFER_APIC || g->light_mass <= 0) return;
     for (int64_t k = 0; k < g->walls; k++) {
         uint8_t *held = &g->held[g->wall[k].node];
-        *held = g->wall[k].symmetric ? (uint8_t)(*held + 1) : HELD;
+        *held = (uint8_t)(*held | (g->wall[k].symmetric ? 1 << g->wall[k].component : HELD));
     }
     followers_find(g, smallest_mass);
-    for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
     for (int64_t k = 0; k < g->followers; k++) {
         const struct follower *f = &g->follower[k];
         lend(g, f->node, f->leader, 2);
         lend(g, f->node, f->behind, -1);
         for (int d = 0; d < g->dim; d++) g->force[d][f->node] = 0;
     }
+    for (int64_t k = 0; k < g->walls; k++) g->held[g->wall[k].node] = 0;
 }
 
 /* Extrapolates the change of velocity of the light nodes in g->follower from the heavier nodes and adds it to their
