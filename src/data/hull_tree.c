@@ -278,11 +278,11 @@ static int faces_within(const struct hull *s, const real *X, real reach, int32_t
     return n;
 }
 
-/* Returns true if all corners of face `other` are behind the plane of face `face`, or on it. */
-static bool face_is_behind(const struct hull *s, int32_t other, int32_t face)
+/* Returns true if all corners of face `other` are behind the plane of face `face`, or on it. area: area vector of
+ * `face` [dim] [m^(dim - 1)]. */
+static bool face_is_behind(const struct hull *s, int32_t other, int32_t face, const real *area)
 {
-    real area[DIM_MAX] = {0}, above = -INFINITY, size2 = 0;
-    hull_compute_face_area_vector(s, face, area);
+    real above = -INFINITY, size2 = 0;
     const real *a = s->corner[s->face[face][0]];
     for (int c = 0; c < s->dim; c++) {
         const real *b = s->corner[s->face[other][c]];
@@ -298,8 +298,11 @@ bool hull_is_convex_within_distance(const struct hull *s, const real *X, real re
     int32_t face[NEAR_MOST];
     const int n = s->open || s->open_edges > 0 || s->faces == 0 ? -1 : faces_within(s, X, reach, face);
     bool convex = n >= 0;
-    for (int k = 0; k < n && convex; k++)
-        for (int l = 0; l < n && convex; l++) convex = k == l || face_is_behind(s, face[l], face[k]);
+    for (int k = 0; k < n && convex; k++) {
+        real area[DIM_MAX] = {0};
+        hull_compute_face_area_vector(s, face[k], area);
+        for (int l = 0; l < n && convex; l++) convex = k == l || face_is_behind(s, face[l], face[k], area);
+    }
     return convex;
 }
 

@@ -10,7 +10,7 @@ struct map_key {
     struct category of[CATEGORIES_MOST + 2];
 };
 
-/* What a picture of maps shows. title: may be "". */
+/* Content of a picture of maps. title: may be "". */
 struct maps_shown {
     enum map map;
     const struct view *view;

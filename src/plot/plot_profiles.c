@@ -106,7 +106,7 @@ static struct value_range profiles_axis(const struct bar_profile *profile, int p
     return (struct value_range){axis.low - more, axis.high + more};
 }
 
-/* Writes the range of a vertical axis with a margin. Writes nothing for a range without extent. */
+/* Writes the range of a vertical axis with a margin; gnuplot chooses one for a range without extent. */
 static void write_value_range(FILE *to, struct value_range of, double factor)
 {
     const double margin = 0.06 * (of.high - of.low);

@@ -162,15 +162,22 @@ static bool increment_before_opening(const struct particles *p, const struct sta
     return s->next.n > 0 && now > 0 && now / size * due < wanted;
 }
 
+/* Returns the pseudo-time at which the opening equals `wanted` [m] if it grows in proportion to the time, `otherwise`
+ * while the gauge has not opened [s]. */
+static real time_of_opening(const struct particles *p, const struct statics *s, real wanted, real otherwise)
+{
+    const real now = gauge_opening(p, s);
+    return now > 0 ? s->t * wanted / now : otherwise;
+}
+
 /* Increases the opening between the gauge particles by one load step, and makes all crack increments that are due until
  * then. Returns FAILED, with a message, if an equilibrium is not found. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
-    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number,
-               now = gauge_opening(&e->part, e->statics);
+    const real wanted = s->opening * (real)(e->clock.step + 1) / (real)s->number;
     const real first = e->statics->t + e->scene->duration / (real)s->number;
-    real t = now > 0 ? e->statics->t * wanted / now : first;
+    real t = time_of_opening(&e->part, e->statics, wanted, first);
     if (e->statics->next.n == 0 && body_may_yield(&e->part, &e->bonds)) {
         struct memory_archive saved;
         trial_equilibrium_begin(e, &saved);
@@ -190,10 +197,7 @@ static status step_by_opening(struct run *e)
         if (open && !before) return OK;
         open = !before;
         if (open) {
-            TRY(opening_go_to(e, wanted,
-                              gauge_opening(&e->part, e->statics) > 0
-                                  ? e->statics->t * wanted / gauge_opening(&e->part, e->statics)
-                                  : first));
+            TRY(opening_go_to(e, wanted, time_of_opening(&e->part, e->statics, wanted, first)));
             TRY(equilibrium_convert_points_and_solve_again(e, 0));
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));

@@ -268,7 +268,8 @@ static void test_ends(void **state)
     particle_cloud_free(&s.c);
 }
 
-/* Where strength scatters, a particle of factor f starts at a share of f, the others at 1. */
+/* If strength scatters, a particle whose random strength factor is f begins to soften at a share f of the strength
+ * surface, a particle of factor 1 at the share 1. */
 static void test_scatter(void **state)
 {
     (void)state;
