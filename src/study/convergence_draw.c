@@ -36,12 +36,6 @@ status scalar_results_check_replaceable(const char *folder)
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
 
-/* Returns the unit of the spacings in the pictures of the study. */
-static struct unit spacing_unit(const struct convergence_study *s)
-{
-    return unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
-}
-
 /* Sends three data blocks to gnuplot for the figure f, a number in summary.json. Their names are $r, $m and $e followed
  * by the number `panel`. $r: spacing and figure of every run. $m: spacing, mean and half-width of the 95 % interval of
  * every spacing level. $e: spacing 0, the extrapolated figure, and mean and half-width of the finest
@@ -49,7 +43,7 @@ static struct unit spacing_unit(const struct convergence_study *s)
 static void send_figure(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f, int panel)
 {
     const int at = study_index_of_result(&s->table, f->name);
-    const double factor = scalar_result_unit(f).factor, metre = spacing_unit(s).factor;
+    const double factor = scalar_result_unit(f).factor, metre = convergence_spacing_unit(s).factor;
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
@@ -200,7 +194,7 @@ static status draw_figures(const struct convergence_study *s, const struct scala
     const struct figures_layout usual = figures_layout_make(shown, NULL);
     struct gnuplot g;
     const struct path picture = convergence_picture(s->study.folder, "convergence");
-    const struct unit metre = spacing_unit(s);
+    const struct unit metre = convergence_spacing_unit(s);
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0] / metre.factor;
     TRY(gnuplot_open(&g, picture.text, picture_size_get().format, usual.width, usual.height));
     const struct figures_layout l = figures_layout_make(shown, &g);
@@ -365,7 +359,7 @@ struct path_plots {
 static void paths_send(FILE *to, const struct convergence_study *s, struct extent *e, struct path_plots *p)
 {
     bool named[LEVELS_MOST] = {false};
-    const struct unit metre = spacing_unit(s);
+    const struct unit metre = convergence_spacing_unit(s);
     for (int k = 0; k < s->study.n; k++) {
         const int level = s->point[k].level;
         if (level < 0 || !send_path(to, s, k, e)) continue;

@@ -347,7 +347,7 @@ static void figure_print(const struct scalar_result_study *figure, int own, cons
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures)
 {
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
-    const struct unit metre = unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
+    const struct unit metre = convergence_spacing_unit(s);
     int lost = 0;
     printf(
         "for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, its "

@@ -278,7 +278,7 @@ static void runs_add_all(struct convergence_study *s)
 
 static void plan_print(const struct convergence_study *s)
 {
-    const struct unit metre = unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
+    const struct unit metre = convergence_spacing_unit(s);
     fprintf(stderr, "spacings");
     for (int k = s->spacings.levels - 1; k >= 0; k--)
         fprintf(stderr, " %.4g %s (%d runs)%s", s->spacings.at[k][0] / metre.factor, metre.name, s->runs[k],

@@ -9,6 +9,9 @@
  */
 struct unit unit_for_spacings(double coarsest);
 
+/* Returns the unit in which the spacings of the study are printed and drawn (unit_for_spacings). */
+struct unit convergence_spacing_unit(const struct convergence_study *s);
+
 /* Returns the unit in which the means and errors of a figure are printed and drawn. */
 struct unit scalar_result_unit(const struct scalar_result_study *f);
 

@@ -82,6 +82,11 @@ struct unit unit_for_spacings(double coarsest)
     return unit_for_length(SPACINGS * coarsest);
 }
 
+struct unit convergence_spacing_unit(const struct convergence_study *s)
+{
+    return unit_for_spacings(s->spacings.at[s->spacings.levels - 1][0]);
+}
+
 struct unit scalar_result_unit(const struct scalar_result_study *f)
 {
     return unit_for_largest_value_if_prefixable(f->unit,
