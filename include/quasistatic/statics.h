@@ -113,11 +113,13 @@ struct statics {
     bool fragments_stale;          /* bonds have broken since the fragments were found */
     real released_time;            /* sum of the physical times of all dynamic releases [s] */
     struct sif_cracks sif;
-    real largest;      /* largest force norm of the balance before the present solution [N] */
-    bool in_contact;   /* anything was in contact at the end of the last solution */
-    real energy;       /* stored energy and plastic work of bonds before the present solution [J] */
-    int64_t gauge[2];  /* particles whose distance is the opening */
-    int64_t solutions; /* equilibria found so far */
+    real largest;       /* largest force norm of the balance before the present solution [N] */
+    bool in_contact;    /* anything was in contact at the end of the last solution */
+    real energy;        /* stored energy and plastic work of bonds before the present solution [J] */
+    real slid[DIM_MAX]; /* largest mean displacement of a fragment along an axis on which only friction could hold it
+                           [m] */
+    int64_t gauge[2];   /* particles whose distance is the opening */
+    int64_t solutions;  /* equilibria found so far */
     struct steps_record record;
 };
 

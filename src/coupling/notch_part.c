@@ -75,12 +75,10 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Flags material points beside slits and narrow voids whose faces approach each other for conversion (FLAG_NEAR), once
- * in APPROACH_STEPS steps. Returns true if faces were examined in this step. */
-bool flag_points_at_closing_slits_if_due(struct run *e)
+bool flag_points_at_closing_slits(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
-    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
+    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL) return false;
     reference_frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
     notches_flag_points_at_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;

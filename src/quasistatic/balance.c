@@ -84,15 +84,15 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
  * points yield or faces come into contact, forces do not change linearly over the increment, and the work of loads is
  * known up to +-`range` only [J]. A loss within this range is an error of the work, and is subtracted from the work.
  * in_contact: true if anything is in contact at the start or the end of the increment; yields: true if points or bonds
- * may yield. Returns true if the solution gained more than GAIN_MOST times `range` in contact: faces have then passed
- * through each other. */
-static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, bool in_contact,
-                         bool yields)
+ * may yield. round_off: energy that round-off of the forces may make [J]. Returns true if the solution gained more than
+ * GAIN_MOST times `range` and `round_off` in contact: faces have then passed through each other. */
+static bool losses_store(struct newton_solver *q, struct loads *loads, real lost, real range, real round_off,
+                         bool in_contact, bool yields)
 {
     real uneven = yields || in_contact ? real_min(q->lost - lost, range) : 0;
     if (in_contact && !yields) uneven = real_max(uneven, -range);
     loads->work -= uneven, q->lost -= uneven;
-    return in_contact && !yields && lost - q->lost > GAIN_MOST * range;
+    return in_contact && !yields && lost - q->lost > GAIN_MOST * range + round_off;
 }
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
@@ -158,8 +158,8 @@ static status solve_at(struct run *e, real t, bool *crossed)
                    work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, touched ? 0 : s->balance.bent);
     const real rigids =
         statics_contact_end_and_estimate_work_error(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, touched || s->in_contact,
-                            e->part.plastic_correction[0] != NULL);
+    *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, s->balance.noise * e->scene->spacing,
+                            touched || s->in_contact, e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
     reactions_compute_and_store(s, &e->part, &e->loads);
     s->solutions++;

@@ -18,10 +18,12 @@
 #include "trial.h"
 
 #include "contact/contact.h"
+#include "coupling/coupling_part.h"
 #include "fracture/sif_fields.h"
 #include "mesh/mesh_part.h"
 #include "probes/diagnostics.h"
 #include "quasistatic/load_steps.h"
+#include "rigid/rigid_part.h"
 #include "run/say.h"
 #include "step/report.h"
 #include "step/sample.h"
@@ -30,6 +32,7 @@
 #define NEAR_LIMIT 0.95 /* stretch ratio of the equilibrium that replaces it */
 #define NEAR_LEAST 0.85 /* stretch ratio above which the loads are close enough to the next increment */
 #define ROUND_OFF 1e-6  /* relative difference of equal loads */
+#define SLID_LEAST 0.01 /* see warn_of_sliding: a judgement; faces of particles that touch at their edges may part */
 #define THROUGH 1e-2    /* share of the largest load size at which the body counts as severed */
 enum { APPROACHES_MOST = 12 };
 
@@ -226,6 +229,29 @@ static void load_step_begin(struct run *e)
     s->directions = 0;
 }
 
+/* Moves driven rigid bodies to their prescribed positions at pseudo-time t [s]. */
+static void rigids_move(const struct rigid_set *rigid, real t)
+{
+    for (int k = 0; k < rigid->n; k++) rigid_move_to_prescribed_position(&rigid->body[k], t);
+}
+
+/* Converts the material points that rigid bodies come near until pseudo-time t [s], before these bodies move: they act
+ * on peridynamic particles only, and would else pass into the body without work in this step. Then finds the
+ * equilibrium with these particles at the present pseudo-time, and the next crack increment if there was one. Returns
+ * FAILED, with a message, if an equilibrium is not found. */
+static status convert_points_before_approach(struct run *e, real t)
+{
+    struct statics *s = e->statics;
+    const int64_t solutions = s->solutions;
+    const bool increment = s->next.n > 0;
+    if (!e->coupling->approaches) return OK;
+    rigids_move(e->rigid, t);
+    conversion_flag_points_near_bodies(e);
+    rigids_move(e->rigid, s->t);
+    TRY(equilibrium_convert_points_and_solve_again(e, 0));
+    return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
+}
+
 /* Makes the next load step under the control (load, energy or opening) of the scene. Returns FAILED, with a message, if
  * an equilibrium is not found. */
 static status load_step(struct run *e)
@@ -233,6 +259,7 @@ static status load_step(struct run *e)
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
     load_step_begin(e);
+    TRY(convert_points_before_approach(e, e->statics->t + most));
     if (e->bonds.soft.curve) return softening_make_load_step(e, most * (real)(e->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:
@@ -302,6 +329,20 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
+/* Warns of bodies that have slid by more than SLID_LEAST spacings on others. slid: statics.slid [m]; spacing: of the
+ * particles [m] */
+static void warn_of_sliding(struct warnings *to, const real *slid, real spacing)
+{
+    for (int a = 0; a < DIM_MAX; a++) {
+        char text[240];
+        snprintf(text, sizeof text,
+                 "a body slid by %.3g m along %c, where nothing but contact holds it: load steps have no friction, and "
+                 "forces change with its place; add a boundary with fixed: [%c] on a few of its particles",
+                 slid[a], 'x' + a, 'x' + a);
+        if (slid[a] > SLID_LEAST * spacing) warnings_add_and_print(to, text);
+    }
+}
+
 /* Adds the warnings about the final state of the run. */
 static void warn_at_end(struct run *e)
 {
@@ -309,6 +350,7 @@ static void warn_at_end(struct run *e)
     sif_leading_tip_compute_intensity_factors(&e->statics->sif, &e->part, crack_faces_are_in_contact(e->contact), K);
     warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
     warn_large_flow(&e->warnings, &e->part);
+    warn_of_sliding(&e->warnings, e->statics->slid, e->scene->spacing);
     flow_turn_warn_of_inexact_stress(&e->statics->turn, e->part.dim, &e->warnings);
     rigid_bodies_warn_of_no_contact(&e->warnings, e->rigid, e->scene->rigids, ROUND_OFF * e->statics->balance.largest);
 }

@@ -13,13 +13,10 @@
 #include "contact/contact.h"
 #include "mesh/mesh_part.h"
 
-enum { MODES_MOST = 6 };   /* rigid motions of a fragment in space */
 #define HELD_LEAST 1e-9    /* smallest resistance of a constrained motion, relative to the largest */
 #define RESISTS_LEAST 1e-8 /* smallest rate of a gap under a unit motion that is not round-off [1] */
-#define UNHELD_MOST                                                                                                    \
-    0.05 /* tolerated unbalanced share of the loads on a fragment; faces of lattices are uneven (empirical) */
-#define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
-#define DROPPED 1e-6      /* relative norm of the rest of a motion below which it depends linearly on previous ones */
+#define SLIDES_MOST 1e-3   /* see sliding_update: the square of a slope of faces of 2 degrees; a judgement */
+#define DROPPED 1e-6       /* relative norm of the rest of a motion below which it depends linearly on previous ones */
 
 /* ---- connected components ---------------------------------------------------------------------------------------- */
 
@@ -141,8 +138,10 @@ static void unconstrained_search_end(struct search *s)
 /* A fragment during the search, and the constraints on its rigid motions. */
 struct candidate {
     real centre[DIM_MAX];                    /* mean position of its nodes [m] */
+    real moved[DIM_MAX];                     /* mean displacement of its nodes [m] */
     real radius;                             /* root mean square distance of its nodes from the centre [m] */
     real resistance[MODES_MOST][MODES_MOST]; /* sum over constraints of the product of two motions along them [1] */
+    bool touches;                            /* it is in contact with another fragment or a rigid body */
     int64_t n;                               /* nodes */
 };
 
@@ -289,6 +288,7 @@ static void contact_resists(void *context, const struct contact_term *t)
         for (int a = 0; a < m; a++) {
             along[a] = gap_rate(s, t, which, a) / sqrt(length2);
             if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0; /* both faces belong to the same fragment */
+            s->candidate[which].touches |= along[a] != 0;
         }
         resist(&s->candidate[which], m, along);
     }
@@ -391,15 +391,26 @@ static void fragment_candidates_find(struct search *s)
     for (int64_t k = 0; k < nodes; k++) {
         struct candidate *c = &s->candidate[s->fragment[k]];
         c->n++;
-        for (int d = 0; d < dim; d++) c->centre[d] += s->x.of[d][k];
+        for (int d = 0; d < dim; d++) c->centre[d] += s->x.of[d][k], c->moved[d] += s->statics->balance.u.of[d][k];
     }
     for (int64_t q = 0; q < s->n; q++)
-        for (int d = 0; d < dim; d++) s->candidate[q].centre[d] /= (real)s->candidate[q].n;
+        for (int d = 0; d < dim; d++)
+            s->candidate[q].centre[d] /= (real)s->candidate[q].n, s->candidate[q].moved[d] /= (real)s->candidate[q].n;
     for (int64_t k = 0; k < nodes; k++) {
         struct candidate *c = &s->candidate[s->fragment[k]];
         for (int d = 0; d < dim; d++) c->radius += square(s->x.of[d][k] - c->centre[d]);
     }
     for (int64_t q = 0; q < s->n; q++) s->candidate[q].radius = sqrt(s->candidate[q].radius / (real)s->candidate[q].n);
+}
+
+/* Updates slid[dim], how far fragments in contact have moved along axes along which contact and supports resist a
+ * translation of fragment c by less than SLIDES_MOST of that along another axis [m]. */
+static void sliding_update(const struct candidate *c, int dim, real *slid)
+{
+    real most = 0;
+    for (int a = 0; a < dim && c->touches; a++) most = real_max(most, c->resistance[a][a]);
+    for (int a = 0; a < dim; a++)
+        if (c->resistance[a][a] < SLIDES_MOST * most) slid[a] = real_max(slid[a], fabs(c->moved[a]));
 }
 
 void unconstrained_fragments_find(struct run *e)
@@ -418,7 +429,10 @@ void unconstrained_fragments_find(struct run *e)
     images_resist(&search, &e->bonds);
     mirror_nodes_resist(&search);
     contact_visit_selected_as_springs(e->contact, &e->part, contact_resists, &search);
-    for (int64_t q = 0; q < search.n; q++) s->fragments += motions_free(&search.candidate[q], m, free) > 0;
+    for (int64_t q = 0; q < search.n; q++) {
+        s->fragments += motions_free(&search.candidate[q], m, free) > 0;
+        sliding_update(&search.candidate[q], e->part.dim, s->slid);
+    }
     s->fragment = NEW("pieces.free", s->fragments, struct unconstrained_fragment);
     s->fragments = 0;
     for (int64_t q = 0; q < search.n; q++) {
@@ -449,77 +463,4 @@ void field_remove_free_rigid_motion(const struct statics *s, struct field *v)
                 for (int d = 0; d < dim; d++) v->of[d][f->node[k]] -= sum * f->motion[(k * dim + d) * MODES_MOST + a];
         }
     }
-}
-
-/* ---- unbalanced loads -------------------------------------------------------------------------------------------- */
-
-/* Returns how far the applied forces on a fragment are from balance along its free motions: the largest |sum| of their
- * components along a motion over the sum of the absolute values [1]; *size receives the latter. Motions along which the
- * forces are much smaller than along another one are ignored. */
-static real unbalanced_share(const struct statics *s, const struct particles *part,
-                             const struct unconstrained_fragment *f, real *size)
-{
-    real most = 0;
-    *size = 0;
-    for (int a = 0; a < f->motions; a++) {
-        real sum = 0, all = 0;
-        for (int64_t k = 0; k < f->n && f->node[k] < s->particles; k++)
-            for (int d = 0; d < part->dim; d++) {
-                const real along = f->motion[(k * part->dim + d) * MODES_MOST + a] *
-                                   s->applied[d][s->node[f->node[k]]] * s->weight[f->node[k]];
-                sum += along, all += fabs(along);
-            }
-        if (all > 0 && fabs(sum) / all * (all > *size * UNHELD_SMALL) > most) most = fabs(sum) / all, *size = all;
-    }
-    return most;
-}
-
-/* Returns the sum of the absolute values of all components of the applied forces, over the square root of `nodes`, the
- * number of nodes of a fragment. It is comparable to *size of unbalanced_share. */
-static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
-{
-    real sum = 0;
-    for (int d = 0; d < part->dim; d++)
-        for (int64_t i = 0; i < part->n; i++) sum += fabs(statics->applied[d][i]);
-    return sum / sqrt((real)nodes);
-}
-
-/* Returns how far the forces on a fragment with nodes of the mesh are from balance: the largest component of its forces
- * along a free motion, over applied_sum [1]; internal forces in equilibrium have none. Returns 0 without such nodes or
- * applied forces. */
-static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
-                                      const struct unconstrained_fragment *f)
-{
-    real most = 0, nodes = 0, applied = applied_sum(p, s, f->n);
-    for (int a = 0; a < f->motions; a++) {
-        real sum = 0;
-        for (int64_t k = 0; k < f->n; k++)
-            for (int d = 0; d < p->dim; d++) {
-                const int64_t at = f->node[k], own = s->node[at];
-                const real force = at < s->particles ? s->weight[at] * p->f[d][own] : s->mesh->grid.force[d][own];
-                sum += f->motion[(k * p->dim + d) * MODES_MOST + a] * force;
-                nodes += at >= s->particles;
-            }
-        most = real_max(most, fabs(sum));
-    }
-    return nodes > 0 && applied > 0 ? most / applied : 0;
-}
-
-status unconstrained_fragments_check(const struct statics *s, const struct particles *p, bool balanced, int64_t step)
-{
-    for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
-        const struct unconstrained_fragment *f = &s->fragment[q];
-        real size;
-        real share = unbalanced_share(s, p, f, &size);
-        if (size <= UNHELD_SMALL * applied_sum(p, s, f->n)) share = 0;
-        if (balanced) share = real_max(share, unbalanced_share_of_nodes(s, p, f));
-        if (share <= UNHELD_MOST) continue;
-        return status_set(FAILED,
-                          "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, around x = %.6g, y = %.6g, z = "
-                          "%.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its loads, or "
-                          "use steps.control: energy, which reduces the loads while a crack grows",
-                          (long long)step, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
-                          100 * (real)f->n / (real)s->balance.n, f->middle[0], f->middle[1], f->middle[2], 100 * share);
-    }
-    return OK;
 }

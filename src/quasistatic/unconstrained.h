@@ -5,6 +5,9 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
+/* Largest number of rigid motions of a fragment, and columns of the list of its free ones. */
+enum { MODES_MOST = 6 };
+
 /* Finds the unconstrained fragments for the present bonds, supports and contacts, and stores them with their free rigid
  * motions in e->statics. A fragment is a connected part of the body; it is unconstrained if nothing resists some of its
  * rigid motions. The list found before is freed. */

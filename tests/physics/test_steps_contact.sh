@@ -133,6 +133,23 @@ calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2
 between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 1e-3
 refused "a body that moves freely" "$work/no" 'has a mass and moves freely' "$work/bend.yaml" -s bodies.3.mass=1kg
+
+# Flat blocks that touch from the start: points beside them convert before the first step, whose work is half of force times displacement.
+# The third block comes from 1 mm above. Without a support along x a beam whose blocks end at columns of particles slides, which is said.
+small='steps={number: 2}'
+start blocks "$work/bend.yaml" -s method=adaptive -s cracks=[] -s "$small" -s bodies.3.velocity='[0, -0.1 mm/s]' -t 1
+start above "$work/bend.yaml" -s cracks=[] -s "$small" -s bodies.3.shape='{box: {from: [-h, 41 mm], to: [h, 45 mm]}}' -s bodies.3.velocity='[0, -1.2 mm/s]' -t 1
+sed 's/80 mm - h/80 mm - h\/2/; s/80 mm + h/80 mm + h\/2/' "$work/bend.yaml" >"$work/edges.yaml"
+start slides "$work/edges.yaml" -s cracks=[] -s steps.number=4 -s steps.control=load -s bodies.3.velocity='[0, -0.1 mm/s]' -s boundary=[] -t 1
+wait
+work_of_block() { compute "0.5 * 0.05e-3 * $(column "$work/blocks" roller_force_y 0.5)"; }
+near "blocks: work of the first step" "$(column "$work/blocks" external_work 0.5)" "$(work_of_block)" 1e-3
+between "blocks: nothing is lost" "$(compute "$(last blocks damped)/$(last blocks external_work)")" -1e-3 1e-3
+between "above: carries" "$(last above roller_force_y)" 20 400
+says() { grep -c 'slid by' "$work/$1/summary.json"; }
+is "slides: said" "$(says slides)" 1
+is "blocks: nothing of that" "$(says blocks)" 0
+
 # ---- contact of the faces of a slender body ------------------------------------------------------------------------------
 
 # A beam of 8 layers with a slit in its middle plane along half of its length, on two supports, loaded in the middle: its faces press and
