@@ -142,8 +142,8 @@ struct scene {
     int solver_steps;         /* largest number of iterations */
     struct scene_steps steps; /* of solver static */
 
-    int materials;
-    struct material *material;
+    int materials, unused_materials; /* those that bodies consist of; others */
+    struct material *material;       /* [materials + unused_materials] */
     int bodies;
     struct scene_body *body; /* [bodies + rigids] deformable bodies, then rigid ones */
     int rigids;

@@ -123,11 +123,8 @@ static void hint_unbreakable(const struct scene *s, struct warnings *to)
 /* Adds a hint to *to for each material of which no body consists. */
 static void hint_unused_materials(const struct scene *s, struct warnings *to)
 {
-    for (int m = 0; m < s->materials; m++) {
-        bool used = false;
-        for (int b = 0; b < s->bodies; b++) used = used || scene_body_can_have_material(&s->body[b], m);
-        if (!used) warnings_add_if_new(to, "material %s: no body consists of it", s->material[m].name);
-    }
+    for (int m = 0; m < s->unused_materials; m++)
+        warnings_add_if_new(to, "material %s: no body consists of it", s->material[s->materials + m].name);
 }
 
 void hint_keys_without_effect(const struct scene *s, struct warnings *warning_list)

@@ -34,6 +34,7 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
     TRY(check_scene_keys_and_set_defaults(r, root));
     TRY(read_materials(r, root));
     TRY(read_bodies(r, root));
+    scene_set_unused_materials_aside(r->scene);
     TRY(read_interfaces(r, root));
     resolve_default_time_step_safety_factor(r, root);
     resolve_lattices_of_particle_lists(r, root);

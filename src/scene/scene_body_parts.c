@@ -1,5 +1,7 @@
 /* Reads parts of a body that consist of another material. Bonds between parts act as springs in series (bonds/bonds.c:
  * material_pair_table_make_of_micro_moduli); in state-based models each end uses the modulus of its own material. */
+#include <string.h>
+
 #include "base/memory.h"
 #include "scene_parts.h"
 
@@ -28,4 +30,32 @@ bool scene_body_can_have_material(const struct scene_body *b, int material)
     bool has = b->material == material || b->list.material;
     for (int k = 0; k < b->parts; k++) has |= b->part[k].material == material;
     return has;
+}
+
+/* Returns true if a body of the scene can consist of material number `material`. */
+static bool material_is_used(const struct scene *s, int material)
+{
+    bool used = false;
+    for (int b = 0; b < s->bodies; b++) used |= scene_body_can_have_material(&s->body[b], material);
+    return used;
+}
+
+/* Moves material number `unused` behind the last one that counts, and numbers those behind it anew in all bodies. */
+static void material_set_aside(struct scene *s, int unused)
+{
+    const struct material own = s->material[unused];
+    s->materials--, s->unused_materials++;
+    memmove(s->material + unused, s->material + unused + 1, (size_t)(s->materials - unused) * sizeof own);
+    s->material[s->materials] = own;
+    for (int b = 0; b < s->bodies; b++) {
+        struct scene_body *body = &s->body[b];
+        body->material -= body->material > unused;
+        for (int k = 0; k < body->parts; k++) body->part[k].material -= body->part[k].material > unused;
+    }
+}
+
+void scene_set_unused_materials_aside(struct scene *s)
+{
+    for (int m = s->materials - 1; m >= 0; m--)
+        if (!material_is_used(s, m)) material_set_aside(s, m);
 }

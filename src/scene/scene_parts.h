@@ -44,6 +44,10 @@ status read_flow_law(struct reader *r, const struct yaml_node *material_node, st
 
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
+/* Moves the materials of which no body consists behind the others and counts them in s->unused_materials, no longer in
+ * s->materials, so that they have no effect on a run. Must be called after read_bodies. */
+void scene_set_unused_materials_aside(struct scene *s);
+
 /* Reads the parts of `body`, the regions of it that have materials of their own, from `parts_node`, the value of key k.
  * parts_node: NULL if the key is not given. Returns REFUSED, with a message, for an invalid part. */
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
