@@ -59,9 +59,10 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
                                          size_t capacity);
 
 /* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
- * before the faces touch. Returns true if faces were examined, whether or not points were marked: only if the scene
- * allows contact of a body with itself. */
-bool flag_points_at_closing_slits(struct run *e);
+ * before the faces touch. spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
+ * there are such faces, whether or not points were marked. */
+bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
+                                  const struct loads *loads, real spacing, real time_ahead);
 
 /* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
  * sides. v: voids; NULL: nothing is done. include_meshed: true to include particles of the mesh of the reference frame,
@@ -81,10 +82,6 @@ void warn_of_voids_treated_as_closed(const struct run *e, bool reference_possibl
 /* Adds warnings to `warning_list` for bodies that will pass through each other or stick together, and for voids that
  * are too narrow to stay open (warn_of_voids_treated_as_closed). */
 void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *warning_list);
-
-/* Marks (FLAG_NEAR) the material points that are near other bodies or rigid bodies at their present positions, so that
- * these points convert before they touch. */
-void conversion_flag_points_near_bodies(struct run *e);
 
 /* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
  * crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates the list

@@ -40,19 +40,18 @@ static void meet_others(void *context, const int32_t *list, int64_t n)
     contact_request_search_if_at_surface(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
-void conversion_flag_points_near_bodies(struct run *e)
-{
-    reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
-    flag_points_near_other_bodies_to_convert(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
-                                             APPROACH_REACH * e->scene->spacing);
-}
-
 bool conversion_flag_points_near_bodies_or_faces(struct run *e)
 {
     if (e->scene->active_set) active_rows_update_after_step(&e->bonds, &e->part, &e->loads);
     if (e->clock.step % APPROACH_STEPS != 0 && !scene_has_load_steps(e->scene)) return false;
-    if (e->coupling->approaches) conversion_flag_points_near_bodies(e);
-    return flag_points_at_closing_slits(e);
+    if (e->coupling->approaches) {
+        reference_frame_update_point_motion(e->frame, &e->part, &e->loads);
+        flag_points_near_other_bodies_to_convert(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
+                                                 APPROACH_REACH * e->scene->spacing);
+    }
+    return e->scene->contact_between == CONTACT_ALL &&
+           flag_points_at_closing_slits(&e->coupling->notches, e->frame, &e->part, &e->loads, e->scene->spacing,
+                                        APPROACH_STEPS * e->clock.dt);
 }
 
 void conversion_update_mesh_after_conversion(struct run *e, int64_t converted_count)

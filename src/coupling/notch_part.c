@@ -75,11 +75,11 @@ void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_numb
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-bool flag_points_at_closing_slits(struct run *e)
+bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
+                                  const struct loads *loads, real spacing, real time_ahead)
 {
-    const struct notches *n = &e->coupling->notches;
-    if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL) return false;
-    reference_frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
-    notches_flag_points_at_closing_faces(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    if (n->faces == 0) return false;
+    reference_frame_update_listed_points(frame, p, loads, n->face, n->faces);
+    notches_flag_points_at_closing_faces(n, p, spacing, time_ahead);
     return true;
 }

@@ -18,15 +18,14 @@
 #include "trial.h"
 
 #include "contact/contact.h"
-#include "coupling/coupling_part.h"
 #include "fracture/sif_fields.h"
 #include "mesh/mesh_part.h"
 #include "probes/diagnostics.h"
 #include "quasistatic/load_steps.h"
-#include "rigid/rigid_part.h"
 #include "run/say.h"
 #include "step/report.h"
 #include "step/sample.h"
+#include "step/step.h"
 
 #define FAR_BEYOND 1.2  /* stretch ratio above which an equilibrium is discarded for one at smaller loads */
 #define NEAR_LIMIT 0.95 /* stretch ratio of the equilibrium that replaces it */
@@ -216,10 +215,17 @@ static status step_by_opening(struct run *e)
 /* Prepares a load step such that its results depend only on data of the checkpoint: a resumed run must compute the same
  * bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions. Discards a
  * preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the stiffness of
- * contact, which depends on the positions at that time. */
-static void load_step_begin(struct run *e)
+ * contact, which depends on the positions at that time.
+ *
+ * Converts the material points that rigid bodies come near until pseudo-time t [s] before these bodies move: they act
+ * on peridynamic particles only, and would else pass into the body without work. Then finds the equilibrium with these
+ * particles at the present pseudo-time, and the next crack increment if there was one. Returns FAILED, with a message,
+ * if an equilibrium is not found. */
+static status load_step_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;
+    const int64_t solutions = s->solutions;
+    const bool increment = s->next.n > 0;
     unconstrained_fragments_find(e);
     if (s->precondition_stale || s->has_contact)
         statics_preconditioner_free(s);
@@ -227,27 +233,7 @@ static void load_step_begin(struct run *e)
         statics_preconditioner_make(e);
     s->kept = false;
     s->directions = 0;
-}
-
-/* Moves driven rigid bodies to their prescribed positions at pseudo-time t [s]. */
-static void rigids_move(const struct rigid_set *rigid, real t)
-{
-    for (int k = 0; k < rigid->n; k++) rigid_move_to_prescribed_position(&rigid->body[k], t);
-}
-
-/* Converts the material points that rigid bodies come near until pseudo-time t [s], before these bodies move: they act
- * on peridynamic particles only, and would else pass into the body without work in this step. Then finds the
- * equilibrium with these particles at the present pseudo-time, and the next crack increment if there was one. Returns
- * FAILED, with a message, if an equilibrium is not found. */
-static status convert_points_before_approach(struct run *e, real t)
-{
-    struct statics *s = e->statics;
-    const int64_t solutions = s->solutions;
-    const bool increment = s->next.n > 0;
-    if (!e->coupling->approaches) return OK;
-    rigids_move(e->rigid, t);
-    conversion_flag_points_near_bodies(e);
-    rigids_move(e->rigid, s->t);
+    step_flag_points_before_rigid_bodies_move(e, s->t, t);
     TRY(equilibrium_convert_points_and_solve_again(e, 0));
     return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
 }
@@ -258,8 +244,7 @@ static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
     const real most = s->duration / (real)s->steps.number;
-    load_step_begin(e);
-    TRY(convert_points_before_approach(e, e->statics->t + most));
+    TRY(load_step_begin(e, e->statics->t + most));
     if (e->bonds.soft.curve) return softening_make_load_step(e, most * (real)(e->clock.step + 1));
     switch (s->steps.control) {
     case CONTROL_LOAD:

@@ -1,7 +1,5 @@
 /* Reads parts of a body that consist of another material. Bonds between parts act as springs in series (bonds/bonds.c:
  * material_pair_table_make_of_micro_moduli); in state-based models each end uses the modulus of its own material. */
-#include <string.h>
-
 #include "base/memory.h"
 #include "scene_parts.h"
 
@@ -45,7 +43,7 @@ static void material_set_aside(struct scene *s, int unused)
 {
     const struct material own = s->material[unused];
     s->materials--, s->unused_materials++;
-    memmove(s->material + unused, s->material + unused + 1, (size_t)(s->materials - unused) * sizeof own);
+    for (int m = unused; m < s->materials; m++) s->material[m] = s->material[m + 1];
     s->material[s->materials] = own;
     for (int b = 0; b < s->bodies; b++) {
         struct scene_body *body = &s->body[b];
