@@ -100,14 +100,15 @@ static real secants_choose(struct search *f, real most, real least)
 }
 
 /* Returns the norm of the unbalanced forces at the displacements q->u of the last solution over q->scale, the force
- * scale of the solver [1]. Stores the forces in q->f. Components that boundaries prescribe are left out. */
+ * scale of the solver [1]; 0 if they are round-off. Stores the forces in q->f. Components that boundaries prescribe are
+ * left out. */
 static real residual_now(struct newton_solver *q)
 {
     real sum = 0;
     q->force(q->context, &q->u, &q->f);
     for (int d = 0; d < q->dim; d++)
         for (int64_t k = 0; k < q->n; k++) sum += q->held[k] >> d & 1 ? 0 : square(q->f.of[d][k]);
-    return sum > 0 ? sqrt(sum) / q->scale : 0;
+    return sqrt(sum) > q->noise ? sqrt(sum) / q->scale : 0;
 }
 
 /* Finds the equilibrium of a load step with softening bonds by iteration: solves with the largest stretches of the
@@ -121,10 +122,11 @@ static status search_run(struct run *e, struct search *f)
     status found = OK;
     for (int k = 0; k < ITERATIONS_MOST && found == OK; k++) {
         const real size = statics_norm_of_prescribed_loads(e, s->t), last = statics_norm_of_prescribed_loads(e, f->end);
-        real *applied[DIM_MAX] = {0},
-             t = last > 0 ? f->end / (real)e->clock.steps : f->end; /* no loads yet: the body is elastic */
+        real *applied[DIM_MAX] = {0}, t = isfinite(f->spent) ? f->end / (real)e->clock.steps : f->end;
+        while (t < f->end && statics_norm_of_prescribed_loads(e, t) == 0)
+            t = real_min(f->end, 2 * t); /* a small part of the loads, from which displacements can be scaled */
         f->residual = 1;
-        if (size > 0 || k > 0) {
+        if ((size > 0 && last > 0) || k > 0) {
             const real factor = secants_choose(f, size > 0 ? last / size : 1, size > 0 ? before / size : 1);
             f->residual = k > 0 ? residual_now(f->q) : 1;
             if (f->residual <= enough && fabs(factor - 1) <= FACTOR_ERROR) return OK;
