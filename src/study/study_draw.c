@@ -25,55 +25,6 @@ enum {
 /* Returns the width of a character in the pictures of a study [pixel]. */
 static int character(void) { return picture_is_too_narrow_for_key() ? 8 : 10; }
 
-/* Statistics of the runs that are combined to one point of a line: mean and scatter of a figure, and number of runs. */
-struct point_of {
-    double mean, scatter;
-    int runs;
-};
-
-/* ---- points ------------------------------------------------------------------------------------------------------ */
-
-/* Returns the index of the line to which a run belongs, computed from its values of the keys that distinguish lines.
- * Returns -1 if the run is not in the picture. */
-static int line_of(const struct study_picture *p, int run)
-{
-    int line = 0;
-    for (int k = 0; k < p->keys; k++) {
-        const int at = p->value_at[k][run];
-        if (at < 0 || (p->role[k] == ROLE_HELD && at > 0)) return -1;
-        if (p->role[k] == ROLE_LINES) line = line * p->key[k].values + at;
-    }
-    return line;
-}
-
-/* Computes the points of a panel: mean and standard deviation of a figure over the runs of each point. Returns them as
- * an array [lines][values of the key along the horizontal axis], which the caller releases with memory_free. figure:
- * column of the figure in the table of the study. */
-static struct point_of *means_find(const struct study_picture *p, int figure)
-{
-    const double *value = p->table->value[figure];
-    const int across = p->key[p->across].values;
-    struct point_of *point = NEW("study.points", (int64_t)p->lines * across, struct point_of);
-    for (int pass = 0; pass < 2; pass++) {
-        for (int c = 0; c < p->study->n; c++) {
-            const int line = line_of(p, c);
-            if (line < 0 || isnan(value[c])) continue;
-            struct point_of *to = &point[line * across + p->value_at[p->across][c]];
-            if (pass == 0)
-                to->mean += value[c], to->runs++;
-            else
-                to->scatter += square(value[c] - to->mean);
-        }
-        for (int k = 0; k < p->lines * across && pass == 0; k++)
-            point[k].mean /= point[k].runs; /* 0/0 gives NAN for
-                                             * a point without
-                                             * runs */
-    }
-    for (int k = 0; k < p->lines * across; k++)
-        point[k].scatter = point[k].runs > 1 ? sqrt(point[k].scatter / (point[k].runs - 1)) : 0;
-    return point;
-}
-
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
 /* Writes the title of line number `line`, its values of the keys that distinguish lines, as `60GPa, 1mm`. */
@@ -274,18 +225,6 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     return OK;
 }
 
-/* Returns the unit in which the figure of panel number `panel` is drawn. */
-static struct unit panel_unit(const struct study_picture *p, int panel)
-{
-    const double *value = p->table->value[p->figure[panel]];
-    char unit[UNIT_ROOM];
-    double largest = 0;
-    for (int c = 0; c < p->table->cases; c++)
-        if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
-    study_write_unit_of_result(unit, sizeof unit, p->header, p->table->figure[p->figure[panel]]);
-    return unit_for_largest_value_if_prefixable(unit, largest);
-}
-
 /* Sends margins, title and axis labels of panel number `panel` to gnuplot. up: label of the vertical axis; NULL if this
  * axis shows the values of the figure. */
 static void panel_begin(FILE *to, const struct study_picture *p, int panel, const char *up)
@@ -294,7 +233,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
     const int x = column * (p->left + p->wide + p->right) + p->left;
     const int y = p->height - row * (TITLE + p->high + p->below) - TITLE;
     const char *figure = p->table->figure[p->figure[panel]];
-    const struct unit unit = panel_unit(p, panel);
+    const struct unit unit = p->unit_of_figure[panel];
     char text[512];
     fprintf(to, "set lmargin at screen %.5f\nset rmargin at screen %.5f\n", (double)x / p->width,
             (double)(x + p->wide) / p->width);
@@ -319,19 +258,17 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across];
-    struct point_of *point = means_find(p, p->figure[panel]);
-    const double factor = panel_unit(p, panel).factor;
+    const struct study_point *point = p->point[panel];
     const char *unit;
     for (int l = 0; l < p->lines; l++) {
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
-            const struct point_of *at = &point[l * across->values + v];
+            const struct study_point *at = &point[l * across->values + v];
             const double x = p->numbers ? value_read_number_and_unit(across->value[v], &unit) : v;
-            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean / factor, at->scatter / factor);
+            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
-    memory_free(point);
 }
 
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
@@ -376,16 +313,10 @@ static void draw_key(FILE *to, const struct study_picture *p)
 /* Sends the distance of the tics of the vertical axis of panel number `panel`, so that their numbers do not touch. */
 static void send_figure_tics(FILE *to, const struct study_picture *p, int panel)
 {
-    struct point_of *point = means_find(p, p->figure[panel]);
-    double low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < p->lines * p->key[p->across].values; k++) {
-        if (point[k].runs == 0) continue;
-        low = fmin(low, point[k].mean - point[k].scatter), high = fmax(high, point[k].mean + point[k].scatter);
-    }
-    memory_free(point);
+    double low, high;
+    study_points_range(p, panel, &low, &high);
     if (high > low)
-        fprintf(to, "set ytics %.10g\n",
-                axis_tick_distance(1.2 * (high - low) / panel_unit(p, panel).factor, (int)fmax(p->high / TICS_UP, 2)));
+        fprintf(to, "set ytics %.10g\n", axis_tick_distance(1.2 * (high - low), (int)fmax(p->high / TICS_UP, 2)));
     else
         fputs("set ytics autofreq\n", to);
 }
@@ -412,6 +343,7 @@ static status draw_lines(struct study_picture *p)
     char name[PICTURE_NAME_ROOM];
     struct gnuplot g;
     roles_assign_to_keys(p, LINES_MOST);
+    study_points_compute(p);
     room_find(p, NULL);
     study_picture_name(name, p->key[p->across].key);
     TRY(picture_open(&g, p, name));
@@ -443,6 +375,7 @@ static status draw_study_map(struct study_picture *p, int up)
     key_text(name, sizeof name, key_up);
     roles_assign_to_keys(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
+    study_points_compute(p);
     room_find(p, key_up);
     p->unit = "";
     char picture[PICTURE_NAME_ROOM];
@@ -453,13 +386,10 @@ static status draw_study_map(struct study_picture *p, int up)
     fputs("unset grid\nset palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset offsets\n", g.to);
     fprintf(g.to, "set xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", across->values - 0.5, key_up->values - 0.5);
     for (int panel = 0; panel < p->panels; panel++) {
-        struct point_of *point = means_find(p, p->figure[panel]);
-        const double factor = panel_unit(p, panel).factor;
         fprintf(g.to, "$m%d << EOD\n", panel);
         for (int l = 0; l < key_up->values; l++)
             for (int v = 0; v < across->values; v++)
-                fprintf(g.to, "%d %d %.10g\n", v, l, point[l * across->values + v].mean / factor);
-        memory_free(point);
+                fprintf(g.to, "%d %d %.10g\n", v, l, p->point[panel][l * across->values + v].mean);
         fputs("EOD\n", g.to);
         panel_begin(g.to, p, panel, name);
         fprintf(g.to, "plot $m%d using 1:2:3 with image notitle\nunset label\n", panel);
@@ -516,6 +446,7 @@ status study_draw_results_over_keys(const struct study_table *t, const struct st
     values_find_indices_in_runs(p.value_at, s, key, keys);
     const status drawn = draw_all(&p);
     for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
+    study_points_free(&p);
     memory_free(p.value_at);
     memory_free(p.role);
     return drawn;

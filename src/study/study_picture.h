@@ -2,6 +2,7 @@
 #ifndef CLEAVE_STUDY_PICTURE
 #define CLEAVE_STUDY_PICTURE
 
+#include "plot/plot.h"
 #include "study_internal.h"
 
 enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
@@ -10,6 +11,13 @@ enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
  * LINES: each of its values has a line. HELD: the picture shows only the runs with its first value. CHANCE: it has no
  * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
+
+/* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
+ * of its panel, and number of runs. The mean of a point without runs is NAN. */
+struct study_point {
+    double mean, scatter;
+    int runs;
+};
 
 /* One picture: study, figures, roles of the keys, layout. */
 struct study_picture {
@@ -21,6 +29,9 @@ struct study_picture {
     enum key_role *role; /* [keys] */
     int across, lines;   /* index of the key along the axis; number of lines, at least 1 */
     int figure[PANELS_MOST], panels;
+    struct unit unit_of_figure[PANELS_MOST]; /* in which the figure of a panel is drawn */
+    /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
+    struct study_point *point[PANELS_MOST];
     bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
     const char *unit;
     const char *header;             /* header of history.csv with the units of figures */
@@ -53,5 +64,16 @@ void values_find_indices_in_runs(int **value_at, const struct study *study, cons
 /* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
  * while there are at most max_lines lines. Of further keys only the first value is shown. */
 void roles_assign_to_keys(struct study_picture *picture, int max_lines);
+
+/* Computes the unit of the figure of each panel and the points of its lines, p->unit_of_figure and p->point, from the
+ * roles of the keys. Replaces points computed before. Release them with study_points_free. */
+void study_points_compute(struct study_picture *p);
+
+/* Frees the points of p. */
+void study_points_free(struct study_picture *p);
+
+/* Finds the smallest and the largest value of the points of panel number `panel`, error bars included, in the unit of
+ * the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
+void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
 
 #endif

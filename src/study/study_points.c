@@ -1,0 +1,82 @@
+/* Points of the pictures of a study: means and scatter of a figure over the runs of each point, in the unit of its
+ * panel. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "study_picture.h"
+
+/* Returns the index of the line to which a run belongs, computed from its values of the keys that distinguish lines.
+ * Returns -1 if the run is not in the picture. */
+static int line_of(const struct study_picture *p, int run)
+{
+    int line = 0;
+    for (int k = 0; k < p->keys; k++) {
+        const int at = p->value_at[k][run];
+        if (at < 0 || (p->role[k] == ROLE_HELD && at > 0)) return -1;
+        if (p->role[k] == ROLE_LINES) line = line * p->key[k].values + at;
+    }
+    return line;
+}
+
+/* Computes the points of a panel as an array [lines][values of the key along the horizontal axis], which the caller
+ * releases with memory_free. value: [runs] the figure of the panel; factor: unit of the panel. */
+static struct study_point *means_find(const struct study_picture *p, const double *value, double factor)
+{
+    const int across = p->key[p->across].values;
+    struct study_point *point = NEW("study.points", (int64_t)p->lines * across, struct study_point);
+    for (int pass = 0; pass < 2; pass++) {
+        for (int c = 0; c < p->study->n; c++) {
+            const int line = line_of(p, c);
+            if (line < 0 || isnan(value[c])) continue;
+            struct study_point *to = &point[line * across + p->value_at[p->across][c]];
+            if (pass == 0)
+                to->mean += value[c] / factor, to->runs++;
+            else
+                to->scatter += square(value[c] / factor - to->mean);
+        }
+        for (int k = 0; k < p->lines * across && pass == 0; k++)
+            point[k].mean = point[k].runs > 0 ? point[k].mean / point[k].runs : NAN;
+    }
+    for (int k = 0; k < p->lines * across; k++)
+        point[k].scatter = point[k].runs > 1 ? sqrt(point[k].scatter / (point[k].runs - 1)) : 0;
+    return point;
+}
+
+/* Returns the unit in which a figure is drawn. figure: column of the figure in the table of the study. */
+static struct unit figure_unit(const struct study_picture *p, int figure)
+{
+    const double *value = p->table->value[figure];
+    char unit[UNIT_ROOM];
+    double largest = 0;
+    for (int c = 0; c < p->table->cases; c++)
+        if (isfinite(value[c])) largest = fmax(largest, fabs(value[c]));
+    study_write_unit_of_result(unit, sizeof unit, p->header, p->table->figure[figure]);
+    return unit_for_largest_value_if_prefixable(unit, largest);
+}
+
+void study_points_compute(struct study_picture *p)
+{
+    study_points_free(p);
+    for (int panel = 0; panel < p->panels; panel++) {
+        p->unit_of_figure[panel] = figure_unit(p, p->figure[panel]);
+        p->point[panel] = means_find(p, p->table->value[p->figure[panel]], p->unit_of_figure[panel].factor);
+    }
+}
+
+void study_points_free(struct study_picture *p)
+{
+    for (int panel = 0; panel < p->panels; panel++) {
+        memory_free(p->point[panel]);
+        p->point[panel] = NULL;
+    }
+}
+
+void study_points_range(const struct study_picture *p, int panel, double *low, double *high)
+{
+    *low = INFINITY, *high = -INFINITY;
+    for (int k = 0; k < p->lines * p->key[p->across].values; k++) {
+        const struct study_point *at = &p->point[panel][k];
+        if (at->runs == 0) continue;
+        *low = fmin(*low, at->mean - at->scatter), *high = fmax(*high, at->mean + at->scatter);
+    }
+}
