@@ -9,72 +9,11 @@
 #include "scene/words.h"
 #include "study_picture.h"
 
-enum { LINES_MOST = CURVE_COLOURS, COLUMNS_MOST = 3, TICS_MOST = 12, STEPS_MOST = 4 };
-
-/* Sizes in the pictures of a study [pixel]: usual and least width and height of a panel; height of a line of text;
- * width of the numbers at an axis; height of a title; height of tics and label below the axis; width of a colour bar.
- */
-enum { WIDE = 320, HIGH = 220, LEAST = 60, ROW = 24, NUMBERS = 115, TITLE = 45, BELOW = 70, COLOURS = 150 };
-enum {
-    COLOURS_NARROW = 88,
-    SAMPLE = 50,
-    TICS_UP = 26
-}; /* of an entry of the key without its text; least distance of
-    * tics of a vertical axis */
-
-/* Returns the width of a character in the pictures of a study [pixel]. */
-static int character(void) { return picture_is_too_narrow_for_key() ? 8 : 10; }
+/* Largest number of lines, and of intervals of a horizontal axis; least distance of the tics of a vertical axis and gap
+ * between a map and its colour bar [pixel]. */
+enum { LINES_MOST = CURVE_COLOURS, STEPS_MOST = 4, TICS_UP = 26, COLOUR_GAP = 8 };
 
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
-
-/* Writes the title of line number `line`, its values of the keys that distinguish lines, as `60GPa, 1mm`. */
-static void line_title(char *text, size_t capacity, const struct study_picture *p, int line)
-{
-    size_t used = 0;
-    int rest = p->lines;
-    *text = '\0';
-    for (int k = 0; k < p->keys; k++) {
-        char value[LABEL_ROOM];
-        if (p->role[k] != ROLE_LINES) continue;
-        rest /= p->key[k].values;
-        study_value_label(value, &p->key[k], line / rest % p->key[k].values);
-        if (used < capacity)
-            used += (size_t)snprintf(text + used, capacity - used, "%s%s", used > 0 ? ", " : "", value);
-    }
-}
-
-/* Returns the SI unit that numbers without a unit have as values of the key. Returns "" if the values of the key have
- * units or are no numbers. */
-static const char *unit_unsaid(const struct varied_key *key)
-{
-    const char *unit = "";
-    return varied_key_values_are_numbers(key, &unit) && !*unit ? scene_key_unit(key->key) : "";
-}
-
-/* Writes the name of a key to text[capacity], with the unit of its values if they have none themselves. */
-static void key_text(char *text, size_t capacity, const struct varied_key *key)
-{
-    const char *unit = unit_unsaid(key);
-    snprintf(text, capacity, *unit ? "%s [%s]" : "%s%s", key->key, unit);
-}
-
-/* Writes the names of the varied keys that have the role `role` in the picture (on the axis, as lines, held at one
- * value, or averaged over) to text[capacity], separated by commas: `material.young, load`. with_value: true to add the
- * first value of each key. */
-static void keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
-{
-    size_t used = 0;
-    *text = '\0';
-    for (int k = 0; k < p->keys; k++) {
-        char value[LABEL_ROOM], name[NOTE_ROOM];
-        if (p->role[k] != role) continue;
-        study_value_label(value, &p->key[k], 0);
-        key_text(name, sizeof name, &p->key[k]);
-        if (used < capacity)
-            used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", name,
-                                     with_value ? " = " : "", with_value ? value : "");
-    }
-}
 
 static void screen_label(FILE *to, const struct study_picture *p, const char *text, double x, double y, const char *how)
 {
@@ -83,25 +22,11 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Composes the notes below the panels. The first lists the keys for which the picture shows only the first value, the
- * second those over which it shows means, such as random seeds. map: true for maps, false for lines with error bars. */
-static void notes_find(struct study_picture *p, bool map)
-{
-    char keys[NOTE_ROOM - 64];
-    p->notes = 0;
-    keys_text(keys, sizeof keys, p, ROLE_HELD, true);
-    if (*keys) snprintf(p->note[p->notes++], NOTE_ROOM, "at %s alone", keys);
-    keys_text(keys, sizeof keys, p, ROLE_CHANCE, false);
-    if (*keys)
-        snprintf(p->note[p->notes++], NOTE_ROOM,
-                 map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
-}
-
 /* Sends the labels of a key's values as tics of an axis, at the positions 0, 1, 2 and so on. If there are many values,
  * some labels are omitted. axis: "x" or "y"; rotated: labels are slanted. */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
-    const int each = (key->values + TICS_MOST - 1) / TICS_MOST;
+    const int each = (key->values + STUDY_TICS_MOST - 1) / STUDY_TICS_MOST;
     fprintf(to, "set %stics %s (", axis, rotated ? "rotate by 40 right" : "norotate");
     for (int v = 0; v < key->values; v += each) {
         char text[LABEL_ROOM];
@@ -113,104 +38,8 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
     fputs(")\n", to);
 }
 
-static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
-
-/* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
-static bool words_touch(const struct study_picture *p, const struct varied_key *key)
-{
-    return tics_shown(key) * (study_longest_label_length(key) + 2) * character() > p->wide;
-}
-
-/* ---- layout ------------------------------------------------------------------------------------------------------ */
-
-static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
-
-/* Sets the columns of panels, and the size of a panel before its margins are known. */
-static void panels_arrange(struct study_picture *p)
-{
-    const struct picture_size given = picture_size_get();
-    const int most = picture_is_too_narrow_for_key() ? 1 + (p->panels > 2) : COLUMNS_MOST;
-    p->columns = p->panels < most ? p->panels : most;
-    p->wide = WIDE, p->high = HIGH;
-    if (given.width) p->wide = given.width / p->columns - NUMBERS;
-}
-
-/* Computes the size of the picture from the size of a panel, its margins and the notes. If the user has chosen the size
- * of the picture, computes the size of a panel from it instead. */
-static void size_settle(struct study_picture *p)
-{
-    const struct picture_size given = picture_size_get();
-    const int around = TITLE + p->below, rows = panel_rows(p);
-    const int under = p->notes * ROW + p->strip;
-    p->width = p->columns * (p->left + p->wide + p->right) + p->legend;
-    if (given.width) {
-        p->width = given.width;
-        p->wide = (int)fmax((given.width - p->legend) / p->columns - p->left - p->right, LEAST);
-        p->high = (int)fmax(given.height ? (given.height - under) / rows - around : 0.7 * p->wide, LEAST);
-    }
-    p->height = given.height ? given.height : rows * (around + p->high) + under;
-    for (int k = 0; k < p->notes && !given.width; k++) {
-        const int wide = ((int)strlen(p->note[k]) + 2) * character();
-        p->width = wide > p->width ? wide : p->width;
-    }
-}
-
-/* Sets the margins of the panels for the texts at their axes. up: key along the vertical axis of a map; NULL for a
- * picture with lines. */
-static void margins_find(struct study_picture *p, const struct varied_key *up)
-{
-    const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
-    const bool narrow = picture_is_too_narrow_for_key();
-    const int along = study_longest_label_length(&p->key[p->across]) * character();
-    p->left = up       ? (study_longest_label_length(up) + (narrow ? 6 : 7)) * character()
-              : narrow ? 8 * character()
-                       : NUMBERS;
-    p->right = up           ? (narrow ? COLOURS_NARROW : COLOURS)
-               : p->numbers ? 3 * character()
-               : p->slanted ? 2 * character()
-                            : 2 * character() + along / 2;
-    p->below = BELOW + (p->slanted ? (int)(slope * along) - ROW / 2 : 0);
-    if (p->slanted && p->left < (int)(run * along)) p->left = (int)(run * along);
-}
-
-/* Computes the space of the key of the lines: its width beside the panels, or in a narrow picture its columns and its
- * height below them. */
-static void key_space_find(struct study_picture *p)
-{
-    char text[256];
-    keys_text(text, sizeof text, p, ROLE_LINES, false);
-    int longest = 0;
-    const int title = (int)strlen(text);
-    for (int l = 0; l < p->lines; l++) {
-        line_title(text, sizeof text, p, l);
-        longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
-    }
-    if (picture_is_too_narrow_for_key()) {
-        const int columns = (picture_size_get().width - 2 * character()) / (SAMPLE + longest * character());
-        p->key_columns = columns < 1 ? 1 : columns < p->lines ? columns : p->lines;
-        p->strip = (1 + (p->lines + p->key_columns - 1) / p->key_columns) * ROW;
-    } else {
-        p->key_columns = 1;
-        p->legend = ((longest + 5 > title ? longest + 5 : title) + 2) * character();
-    }
-}
-
-/* Computes the margins of the panels, the space of the key and the size of the picture from the lengths of their texts.
- * up: key along the vertical axis of a map; NULL for a picture with lines. */
-static void room_find(struct study_picture *p, const struct varied_key *up)
-{
-    p->legend = p->strip = 0;
-    p->slanted = false;
-    panels_arrange(p);
-    if (!up && p->lines > 1) key_space_find(p);
-    notes_find(p, up != NULL);
-    margins_find(p, up);
-    size_settle(p);
-    if (p->numbers && !up) return;
-    p->slanted = words_touch(p, &p->key[p->across]);
-    margins_find(p, up);
-    size_settle(p);
-}
+/* ---- panels -------------------------------------------------------------------------------------------------------
+ */
 
 static status picture_open(struct gnuplot *g, const struct study_picture *p, const char *name)
 {
@@ -221,7 +50,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
           "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
           g->to);
     for (int k = 0; k < p->notes; k++)
-        screen_label(g->to, p, p->note[k], character(), (p->notes - k - 0.4) * ROW, "left");
+        screen_label(g->to, p, p->note[k], study_character_width(), (p->notes - k - 0.4) * STUDY_ROW, "left");
     return OK;
 }
 
@@ -231,7 +60,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 {
     const int column = panel % p->columns, row = panel / p->columns;
     const int x = column * (p->left + p->wide + p->right) + p->left;
-    const int y = p->height - row * (TITLE + p->high + p->below) - TITLE;
+    const int y = p->height - row * (STUDY_TITLE + p->high + p->below) - STUDY_TITLE;
     const char *figure = p->table->figure[p->figure[panel]];
     const struct unit unit = p->unit_of_figure[panel];
     char text[512];
@@ -240,16 +69,18 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - p->high) / p->height);
     snprintf(text, sizeof text, *unit.name ? "%s [%s]" : "%s%s", figure, unit.name);
-    const double room = p->left + p->wide + p->right - character(), wide = 0.95 * character() * (double)strlen(text);
+    const double room = p->left + p->wide + p->right - study_character_width(),
+                 wide = 0.95 * study_character_width() * (double)strlen(text);
     fputs("set title ", to);
     gnuplot_write_quoted_string(to, text);
     fprintf(to, " font ',%.3g'\n", fmax(13 * fmin(1, room / wide), 7));
-    if (*p->unit)
-        snprintf(text, sizeof text, "%s [%s]", p->key[p->across].key, p->unit);
-    else
-        key_text(text, sizeof text, &p->key[p->across]);
-    screen_label(to, p, text, x + 0.5 * p->wide, y - p->high - p->below + 0.9 * ROW, "center");
-    if (up) screen_label(to, p, up, x - p->left + 0.8 * ROW, y - 0.5 * p->high, "center rotate by 90");
+    study_key_text(text, sizeof text, &p->key[p->across]);
+    screen_label(to, p, text, x + 0.5 * p->wide, y - p->high - p->below + 0.9 * STUDY_ROW, "center");
+    if (!up) return;
+    screen_label(to, p, up, x - p->left + 0.8 * STUDY_ROW, y - 0.5 * p->high, "center rotate by 90");
+    fprintf(to, "set colorbox user origin screen %.5f,%.5f size screen %.5f,%.5f\n",
+            (double)(x + p->wide + COLOUR_GAP) / p->width, (double)(y - p->high) / p->height,
+            (double)STUDY_COLOUR_BAR / p->width, (double)p->high / p->height);
 }
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
@@ -257,7 +88,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 /* Sends the points of each line of panel number `panel` as a data block: position along the axis, mean and scatter. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
-    const struct varied_key *across = &p->key[p->across];
+    const struct varied_key *across = &p->key[p->across].shown;
     const struct study_point *point = p->point[panel];
     const char *unit;
     for (int l = 0; l < p->lines; l++) {
@@ -292,40 +123,45 @@ static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];
     const bool below = p->strip > 0;
-    const int x = below ? character() : p->width - p->legend + character();
-    const int y = below ? p->notes * ROW + p->strip : p->height - TITLE + ROW;
-    keys_text(text, sizeof text, p, ROLE_LINES, false);
+    const int x = below ? study_character_width() : p->width - p->legend + study_character_width();
+    const int y = below ? p->notes * STUDY_ROW + p->strip : p->height - STUDY_TITLE + STUDY_ROW;
+    study_keys_text(text, sizeof text, p, ROLE_LINES, false);
     fputs("unset border\nunset tics\nunset title\nunset grid\nset offsets\nset lmargin at screen 0\n"
           "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
           to);
-    screen_label(to, p, text, x, y - 0.5 * ROW, "left");
+    screen_label(to, p, text, x, y - 0.5 * STUDY_ROW, "left");
     fprintf(to, "set key at screen %.5f,%.5f left top horizontal maxcols %d maxrows %d\nplot [0:1] [0:1] ",
-            (double)x / p->width, (double)(y - ROW) / p->height, p->key_columns,
+            (double)x / p->width, (double)(y - STUDY_ROW) / p->height, p->key_columns,
             (p->lines + p->key_columns - 1) / p->key_columns);
     for (int l = 0; l < p->lines; l++) {
-        line_title(text, sizeof text, p, l);
+        study_line_title(text, sizeof text, p, l);
         fprintf(to, "%sNaN with linespoints lw 1.6 pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "", curve_colour[l]);
         gnuplot_write_quoted_string(to, text);
     }
     putc('\n', to);
 }
 
-/* Sends the distance of the tics of the vertical axis of panel number `panel`, so that their numbers do not touch. */
-static void send_figure_tics(FILE *to, const struct study_picture *p, int panel)
+/* Sends the distance of the tics of the axis with the figure of panel number `panel`, so that their numbers do not
+ * touch. axis: `y`, or `cb` for the colour bar of a map. */
+static void send_figure_tics(FILE *to, const struct study_picture *p, int panel, const char *axis)
 {
     double low, high;
     study_points_range(p, panel, &low, &high);
-    if (high > low)
-        fprintf(to, "set ytics %.10g\n", axis_tick_distance(1.2 * (high - low), (int)fmax(p->high / TICS_UP, 2)));
+    const int most = (int)fmax(p->high / TICS_UP, 2);
+    if (!(high > low))
+        fprintf(to, "set %stics autofreq\n", axis);
+    else if (*axis == 'y')
+        fprintf(to, "set ytics %.10g\n", axis_tick_distance(1.2 * (high - low), most));
     else
-        fputs("set ytics autofreq\n", to);
+        fprintf(to, "set cbtics %.10g\n",
+                axis_tick_distance(high - low, most < STUDY_COLOUR_STEPS ? most : STUDY_COLOUR_STEPS));
 }
 
 /* Sends the distance of the tics of a horizontal axis with the values of the key across. */
 static void send_number_tics(FILE *to, const struct study_picture *p)
 {
-    const struct varied_key *key = &p->key[p->across];
-    const int most = (int)fmin(fmax(p->wide / (7 * character()), 1), STEPS_MOST);
+    const struct varied_key *key = &p->key[p->across].shown;
+    const int most = (int)fmin(fmax(p->wide / (7 * study_character_width()), 1), STEPS_MOST);
     double low = INFINITY, high = -INFINITY;
     const char *unit;
     for (int v = 0; v < key->values; v++) {
@@ -344,17 +180,17 @@ static status draw_lines(struct study_picture *p)
     struct gnuplot g;
     roles_assign_to_keys(p, LINES_MOST);
     study_points_compute(p);
-    room_find(p, NULL);
-    study_picture_name(name, p->key[p->across].key);
+    study_layout_find(p, NULL);
+    study_picture_name(name, p->key[p->across].given.key);
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
     if (p->numbers)
         send_number_tics(g.to, p);
     else
-        send_tics(g.to, "x", &p->key[p->across], p->slanted);
+        send_tics(g.to, "x", &p->key[p->across].shown, p->slanted);
     for (int panel = 0; panel < p->panels; panel++) {
         panel_begin(g.to, p, panel, NULL);
-        send_figure_tics(g.to, p, panel);
+        send_figure_tics(g.to, p, panel, "y");
         plot_panel(g.to, p, panel);
         fputs("unset label\n", g.to);
     }
@@ -369,15 +205,14 @@ static status draw_lines(struct study_picture *p)
  * horizontal axis, the one with the index `up` along the vertical axis. Returns FAILED if gnuplot fails. */
 static status draw_study_map(struct study_picture *p, int up)
 {
-    const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];
+    const struct varied_key *across = &p->key[p->across].shown, *key_up = &p->key[up].shown;
     struct gnuplot g;
     char name[NOTE_ROOM];
-    key_text(name, sizeof name, key_up);
+    study_key_text(name, sizeof name, &p->key[up]);
     roles_assign_to_keys(p, across->values * key_up->values);
     if (p->role[up] == ROLE_CHANCE) p->role[up] = ROLE_LINES, p->lines = key_up->values, p->chance = false;
     study_points_compute(p);
-    room_find(p, key_up);
-    p->unit = "";
+    study_layout_find(p, key_up);
     char picture[PICTURE_NAME_ROOM];
     study_picture_name(picture, "map");
     TRY(picture_open(&g, p, picture));
@@ -392,6 +227,7 @@ static status draw_study_map(struct study_picture *p, int up)
                 fprintf(g.to, "%d %d %.10g\n", v, l, p->point[panel][l * across->values + v].mean);
         fputs("EOD\n", g.to);
         panel_begin(g.to, p, panel, name);
+        send_figure_tics(g.to, p, panel, "cb");
         fprintf(g.to, "plot $m%d using 1:2:3 with image notitle\nunset label\n", panel);
     }
     fputs("unset multiplot\n", g.to);
@@ -408,7 +244,7 @@ static bool map_keys(const struct study_picture *p, int *up, int *across)
     for (int all = 0; all < 2; all++) {
         int n = 0, last[2] = {0};
         for (int k = 0; k < p->keys; k++)
-            if (p->key[k].values > 1 && (all || !key_has_no_physical_meaning(p->key[k].key))) {
+            if (p->key[k].shown.values > 1 && (all || !key_has_no_physical_meaning(p->key[k].given.key))) {
                 if (n < 2) last[n] = k;
                 n++;
             }
@@ -422,11 +258,9 @@ static status draw_all(struct study_picture *p)
 {
     int up;
     for (int k = 0; k < p->keys; k++) {
-        if (p->key[k].values < 2) continue;
+        if (p->key[k].shown.values < 2) continue;
         p->across = k;
-        p->unit = "";
-        p->numbers = varied_key_values_are_numbers(&p->key[k], &p->unit);
-        if (!p->numbers) p->unit = "";
+        p->numbers = p->key[k].numbers;
         TRY(draw_lines(p));
     }
     return map_keys(p, &up, &p->across) ? draw_study_map(p, up) : OK;
@@ -436,17 +270,19 @@ status study_draw_results_over_keys(const struct study_table *t, const struct st
                                     int keys, const char *const *result, int results)
 {
     char header[HEADER_ROOM];
-    struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
+    struct study_picture p = {.table = t, .study = s, .keys = keys, .header = header};
     TRY(panels_show_named_figures(&p, result, results));
     if (results == 0) panels_choose_figures(&p);
     if (p.panels == 0) return OK;
     study_read_history_header(header, sizeof header, s);
+    p.key = shown_keys_make(s, key, keys);
     p.value_at = NEW("study.value_at", keys, int *);
     p.role = NEW("study.roles", keys, enum key_role);
-    values_find_indices_in_runs(p.value_at, s, key, keys);
+    values_find_indices_in_runs(p.value_at, s, p.key, keys);
     const status drawn = draw_all(&p);
     for (int k = 0; k < keys; k++) memory_free(p.value_at[k]);
     study_points_free(&p);
+    shown_keys_free(p.key, keys);
     memory_free(p.value_at);
     memory_free(p.role);
     return drawn;

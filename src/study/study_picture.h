@@ -7,10 +7,31 @@
 
 enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
 
+/* Sizes in the pictures of a study [pixel]: height of a line of text; height of the title of a panel; width of a colour
+ * bar. Largest number of labels along an axis, and of intervals of a colour bar. */
+enum { STUDY_ROW = 24, STUDY_TITLE = 45, STUDY_COLOUR_BAR = 14, STUDY_TICS_MOST = 12, STUDY_COLOUR_STEPS = 5 };
+
 /* Role of a varied key in a picture. NONE: it has a single value. ACROSS: its values are along the horizontal axis.
  * LINES: each of its values has a line. HELD: the picture shows only the runs with its first value. CHANCE: it has no
  * physical meaning, such as a random seed, and runs that differ in it alone are combined to one point with a bar. */
 enum key_role { ROLE_NONE, ROLE_ACROSS, ROLE_LINES, ROLE_HELD, ROLE_CHANCE };
+
+/* A varied key as a picture shows it. given: key and values as they follow -s, in the order of the picture; shown:
+ * words of the key, and values without what all of them have in common. If the values are numbers with one unit, they
+ * are in ascending order and without the unit. */
+struct shown_key {
+    struct varied_key given, shown;
+    char unit[UNIT_ROOM]; /* of the shown values; "": none, or each value has its own */
+    bool numbers;         /* the shown values are numbers with one unit or without unit */
+};
+
+/* Returns the shown keys of key[key_count], the varied keys of a study. Words come from the scene of the study: the
+ * name or the face of what a key belongs to, as in `traction on y+`. If vectors differ in a single component, this
+ * component is shown. Release them with shown_keys_free. */
+struct shown_key *shown_keys_make(const struct study *study, const struct varied_key *key, int key_count);
+
+/* Frees shown[key_count]. */
+void shown_keys_free(struct shown_key *shown, int key_count);
 
 /* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
  * of its panel, and number of runs. The mean of a point without runs is NAN. */
@@ -23,7 +44,7 @@ struct study_point {
 struct study_picture {
     const struct study_table *table;
     const struct study *study;
-    const struct varied_key *key;
+    struct shown_key *key; /* [keys] owned */
     int keys;
     int **value_at;      /* [keys][runs] index of the key's value in a run; -1: another value */
     enum key_role *role; /* [keys] */
@@ -32,16 +53,15 @@ struct study_picture {
     struct unit unit_of_figure[PANELS_MOST]; /* in which the figure of a panel is drawn */
     /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
     struct study_point *point[PANELS_MOST];
-    bool numbers, chance; /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
-    const char *unit;
-    const char *header;             /* header of history.csv with the units of figures */
-    int columns, wide, high;        /* columns of panels; width and height of a panel [pixel] */
+    bool numbers, chance;    /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
+    const char *header;      /* header of history.csv with the units of figures */
+    int columns, wide, high; /* columns of panels; width and height of a panel [pixel] */
     int left, right, below, height; /* margins of a panel; height of the picture [pixel] */
     int legend, strip, key_columns; /* width of the key right of all panels, or its height below them [pixel]; number of
                                      * its columns */
     bool slanted;                   /* the labels of values at the horizontal axis are slanted */
     int width, notes;
-    char note[2][NOTE_ROOM];
+    char note[3][NOTE_ROOM];
 };
 
 /* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
@@ -58,8 +78,7 @@ bool key_has_no_physical_meaning(const char *key);
 
 /* Fills value_at[key_count][study->n] with the index of the value that each of the keys key[key_count] has in each run
  * of `study`; -1 for another value. The caller frees each value_at[k]. */
-void values_find_indices_in_runs(int **value_at, const struct study *study, const struct varied_key *key,
-                                 int key_count);
+void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count);
 
 /* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
  * while there are at most max_lines lines. Of further keys only the first value is shown. */
@@ -75,5 +94,29 @@ void study_points_free(struct study_picture *p);
 /* Finds the smallest and the largest value of the points of panel number `panel`, error bars included, in the unit of
  * the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
+
+/* Returns true if each point of each panel has a value. */
+bool study_points_complete(const struct study_picture *p);
+
+/* Returns the width of a character in the pictures of a study [pixel]. */
+int study_character_width(void);
+
+/* Writes the title of line number `line`, its values of the keys that distinguish lines, to text[capacity], as `60, 1`.
+ */
+void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
+
+/* Writes the words of a key and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
+void study_key_text(char *text, size_t capacity, const struct shown_key *key);
+
+/* Writes the words of the varied keys that have the role `role` in the picture (on the axis, as lines, held at one
+ * value, or averaged over) to text[capacity], separated by commas: `Young's modulus of glass [GPa], spacing of
+ * particles [mm]`. with_value: true to add the first value of each key. */
+void study_keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value);
+
+/* Composes the notes below the panels, and computes columns, sizes and margins of the panels, the space of the key and
+ * the size of the picture from the lengths of their texts. In a picture whose size the user has chosen, the panels have
+ * the number of columns that makes them largest. p: with its points; up: key along the vertical axis of a map, NULL for
+ * a picture with lines. */
+void study_layout_find(struct study_picture *p, const struct varied_key *up);
 
 #endif

@@ -13,7 +13,7 @@ static int line_of(const struct study_picture *p, int run)
     for (int k = 0; k < p->keys; k++) {
         const int at = p->value_at[k][run];
         if (at < 0 || (p->role[k] == ROLE_HELD && at > 0)) return -1;
-        if (p->role[k] == ROLE_LINES) line = line * p->key[k].values + at;
+        if (p->role[k] == ROLE_LINES) line = line * p->key[k].shown.values + at;
     }
     return line;
 }
@@ -22,7 +22,7 @@ static int line_of(const struct study_picture *p, int run)
  * releases with memory_free. value: [runs] the figure of the panel; factor: unit of the panel. */
 static struct study_point *means_find(const struct study_picture *p, const double *value, double factor)
 {
-    const int across = p->key[p->across].values;
+    const int across = p->key[p->across].shown.values;
     struct study_point *point = NEW("study.points", (int64_t)p->lines * across, struct study_point);
     for (int pass = 0; pass < 2; pass++) {
         for (int c = 0; c < p->study->n; c++) {
@@ -74,9 +74,17 @@ void study_points_free(struct study_picture *p)
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high)
 {
     *low = INFINITY, *high = -INFINITY;
-    for (int k = 0; k < p->lines * p->key[p->across].values; k++) {
+    for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++) {
         const struct study_point *at = &p->point[panel][k];
         if (at->runs == 0) continue;
         *low = fmin(*low, at->mean - at->scatter), *high = fmax(*high, at->mean + at->scatter);
     }
+}
+
+bool study_points_complete(const struct study_picture *p)
+{
+    for (int panel = 0; panel < p->panels; panel++)
+        for (int k = 0; k < p->lines * p->key[p->across].shown.values; k++)
+            if (p->point[panel][k].runs == 0) return false;
+    return true;
 }

@@ -60,19 +60,20 @@ bool key_has_no_physical_meaning(const char *key)
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-void values_find_indices_in_runs(int **value_at, const struct study *study, const struct varied_key *key, int key_count)
+void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count)
 {
     for (int k = 0; k < key_count; k++) {
         value_at[k] = NEW("study.value_at", study->n, int);
         int last = 0;
         for (int c = 0; c < study->n; c++) {
-            const char *own = study_case_value_of_key(&study->at[c], key[k].key);
+            const struct varied_key *given = &key[k].given;
+            const char *own = study_case_value_of_key(&study->at[c], given->key);
             int tried = 0;
-            while (tried < key[k].values && strcmp(key[k].value[last], own) != 0) {
-                last = (last + 1) % key[k].values;
+            while (tried < given->values && strcmp(given->value[last], own) != 0) {
+                last = (last + 1) % given->values;
                 tried++;
             }
-            value_at[k][c] = tried < key[k].values ? last : -1;
+            value_at[k][c] = tried < given->values ? last : -1;
         }
     }
 }
@@ -82,12 +83,12 @@ void roles_assign_to_keys(struct study_picture *picture, int max_lines)
     picture->lines = 1;
     picture->chance = false;
     for (int k = 0; k < picture->keys; k++) {
-        const int values = picture->key[k].values;
-        picture->role[k] = k == picture->across                               ? ROLE_ACROSS
-                           : values < 2                                       ? ROLE_NONE
-                           : key_has_no_physical_meaning(picture->key[k].key) ? ROLE_CHANCE
-                           : picture->lines * values > max_lines              ? ROLE_HELD
-                                                                              : ROLE_LINES;
+        const int values = picture->key[k].shown.values;
+        picture->role[k] = k == picture->across                                     ? ROLE_ACROSS
+                           : values < 2                                             ? ROLE_NONE
+                           : key_has_no_physical_meaning(picture->key[k].given.key) ? ROLE_CHANCE
+                           : picture->lines * values > max_lines                    ? ROLE_HELD
+                                                                                    : ROLE_LINES;
         if (picture->role[k] == ROLE_LINES) picture->lines *= values;
         picture->chance |= picture->role[k] == ROLE_CHANCE;
     }

@@ -332,12 +332,20 @@ END
     done
     # Of the width alone: the key is below the panels, and what is written at the axes has space.
     : >all
-    "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm -s boundary.0.traction='[0, 10 MPa],[0, 20 MPa]' --of energy.kinetic \
+    "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm -s boundary.0.traction='[0, 10 MPa],[1 MPa, 20 MPa]' --of energy.kinetic \
         --of crack.length_end --size 60mm -o column >out 2>err
     is "sweep --size 60mm: $(cat err)" $? 0
     for picture in particles.spacing boundary.0.traction map; do uncut column/pictures/$picture.png; done
     holds "a key below, of two columns" grep -a -q "set key at screen 0[.]02.* horizontal maxcols 2 maxrows 1" all
     holds "slanted values" grep -a -q "set xtics rotate by 40 right ('\[0, 10 MPa\]' 0" all
+    # A map says what its axes are, in words and one unit, and its colour bar has no more numbers than fit.
+    : >all
+    "$cleave" sweep strip.yaml -s particles.spacing=2000um,1000um -s boundary.0.traction='[0, 20 MPa],[0, 10 MPa]' --of energy.kinetic \
+        --of crack.length_end --of crack.start_time --size 85mm --format pdf -o words >out 2>err
+    for label in 'traction on y+ \[MPa\]' 'spacing of particles \[µm\]'; do holds "words at an axis: $(cat err)" grep -a -q "set label '$label' at" all; done
+    holds "numbers in ascending order" grep -a -q "set ytics norotate ('1000' 0,'2000' 1)" all
+    is "a map has its own tics at each colour bar" "$(grep -a -c 'set cbtics' all)" 3
+    between "the width of a map" "$(sed -n 's/^set [lr]margin at screen //p' all | tail -n 2 | paste -s -d ' ' - | awk '{ print $2 - $1 }')" 0.5 0.9
     # Also as a PDF of that size; films are no pictures of studies.
     : >all
     "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 --size 85mmx60mm --format pdf -o finer >out 2>err
@@ -405,7 +413,7 @@ holds "it names the nearest" grep -q "no such figure in sweep.csv; do you mean c
 # Numbers of a key without a unit are in SI, which the axis says, and so does the page.
 : >all
 "$cleave" sweep strip.yaml -s materials.0.energy_release_rate=10,20 --of energy.kinetic -o tough >out 2>err
-holds "the unit of a key: $(cat err)" grep -a -q "set label 'materials.0.energy_release_rate \[J/m^2\]'" all
+holds "the unit of a key: $(cat err)" grep -a -q "set label 'energy release rate of glass \[J/m^2\]'" all
 "$cleave" report tough -o new/page/tough.html >out 2>err
 is "report into a folder that is not there: $(cat err)" $? 0
 holds "the page has the unit of the key" grep -q '"materials.0.energy_release_rate": "J/m^2"' new/page/tough.html

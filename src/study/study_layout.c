@@ -1,0 +1,195 @@
+/* Layout of the pictures of a study: texts around the panels and the space that they need. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study_picture.h"
+
+enum { COLUMNS_MOST = 3 };
+
+/* Sizes in the pictures of a study [pixel]: usual width and height of a panel; width below which panels have a row of
+ * their own, and least width; width of the numbers at an axis; height of tics and label below the axis; width of an
+ * entry of the key without its text. */
+enum { WIDE = 320, HIGH = 220, NARROW_PANEL = 150, LEAST = 60, NUMBERS = 100, BELOW = 68, SAMPLE = 50 };
+
+static const double PROPORTION = 0.7; /* height of a panel over its width in pictures of a given width */
+
+int study_character_width(void) { return picture_is_too_narrow_for_key() ? 7 : 9; }
+
+/* ---- texts ------------------------------------------------------------------------------------------------------- */
+
+void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line)
+{
+    size_t used = 0;
+    int rest = p->lines;
+    *text = '\0';
+    for (int k = 0; k < p->keys; k++) {
+        char value[LABEL_ROOM];
+        if (p->role[k] != ROLE_LINES) continue;
+        const struct varied_key *key = &p->key[k].shown;
+        rest /= key->values;
+        study_value_label(value, key, line / rest % key->values);
+        if (used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, "%s%s", used > 0 ? ", " : "", value);
+    }
+}
+
+void study_key_text(char *text, size_t capacity, const struct shown_key *key)
+{
+    snprintf(text, capacity, *key->unit ? "%s [%s]" : "%s%s", key->shown.key, key->unit);
+}
+
+void study_keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (int k = 0; k < p->keys; k++) {
+        char value[LABEL_ROOM], name[NOTE_ROOM];
+        if (p->role[k] != role) continue;
+        study_value_label(value, &p->key[k].shown, 0);
+        study_key_text(name, sizeof name, &p->key[k]);
+        if (used < capacity)
+            used += (size_t)snprintf(text + used, capacity - used, "%s%s%s%s", used > 0 ? ", " : "", name,
+                                     with_value ? " = " : "", with_value ? value : "");
+    }
+}
+
+/* Composes the notes below the panels. The first lists the keys for which the picture shows only the first value, the
+ * second those over which it shows means, such as random seeds, the third explains points without a value. map: true
+ * for maps, false for lines with error bars. */
+static void notes_find(struct study_picture *p, bool map)
+{
+    char keys[NOTE_ROOM - 64];
+    p->notes = 0;
+    study_keys_text(keys, sizeof keys, p, ROLE_HELD, true);
+    if (*keys) snprintf(p->note[p->notes++], NOTE_ROOM, "at %s alone", keys);
+    study_keys_text(keys, sizeof keys, p, ROLE_CHANCE, false);
+    if (*keys)
+        snprintf(p->note[p->notes++], NOTE_ROOM,
+                 map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
+    if (map && !study_points_complete(p)) snprintf(p->note[p->notes++], NOTE_ROOM, "white: no value");
+}
+
+static int tics_shown(const struct varied_key *key)
+{
+    return key->values < STUDY_TICS_MOST ? key->values : STUDY_TICS_MOST;
+}
+
+/* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
+static bool words_touch(const struct study_picture *p, const struct varied_key *key)
+{
+    return tics_shown(key) * (study_longest_label_length(key) + 2) * study_character_width() > p->wide;
+}
+
+/* ---- layout ------------------------------------------------------------------------------------------------------ */
+
+static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
+
+/* Returns the largest number of characters of the numbers beside the colour bars of the maps. */
+static int colour_numbers_length(const struct study_picture *p)
+{
+    int longest = 0;
+    for (int panel = 0; panel < p->panels; panel++) {
+        double low, high;
+        study_points_range(p, panel, &low, &high);
+        const double step = high > low ? axis_tick_distance(high - low, STUDY_COLOUR_STEPS) : 0;
+        for (int k = 0; k <= STUDY_COLOUR_STEPS && high >= low; k++) {
+            char text[32];
+            const double at = step > 0 ? (ceil(low / step) + k) * step : low;
+            if (at <= high) longest = (int)fmax(longest, snprintf(text, sizeof text, "%.4g", at));
+        }
+    }
+    return longest;
+}
+
+/* Computes the size of the picture from the size of a panel, its margins and the notes. If the user has chosen the size
+ * of the picture, computes the size of a panel from it instead. */
+static void size_settle(struct study_picture *p)
+{
+    const struct picture_size given = picture_size_get();
+    const int around = STUDY_TITLE + p->below, rows = panel_rows(p);
+    const int under = p->notes * STUDY_ROW + p->strip;
+    p->width = p->columns * (p->left + p->wide + p->right) + p->legend;
+    if (given.width) {
+        p->width = given.width;
+        p->wide = (int)fmax((given.width - p->legend) / p->columns - p->left - p->right, LEAST);
+        p->high =
+            (int)fmax(given.height ? (given.height - under) / rows - around : fmin(PROPORTION * p->wide, HIGH), LEAST);
+    }
+    p->height = given.height ? given.height : rows * (around + p->high) + under;
+    for (int k = 0; k < p->notes && !given.width; k++) {
+        const int wide = ((int)strlen(p->note[k]) + 2) * study_character_width();
+        p->width = wide > p->width ? wide : p->width;
+    }
+}
+
+/* Sets the margins of the panels for the texts at their axes. up: key along the vertical axis of a map; NULL for a
+ * picture with lines. */
+static void margins_find(struct study_picture *p, const struct varied_key *up)
+{
+    const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
+    const bool narrow = picture_is_too_narrow_for_key();
+    const int letter = study_character_width(), along = study_longest_label_length(&p->key[p->across].shown) * letter;
+    p->left = up ? (study_longest_label_length(up) + 6) * letter : narrow ? 9 * letter : NUMBERS;
+    p->right = up           ? 2 * STUDY_COLOUR_BAR + (colour_numbers_length(p) + 3) * letter
+               : p->numbers ? 3 * letter
+               : p->slanted ? 2 * letter
+                            : 2 * letter + along / 2;
+    p->below = BELOW + (p->slanted ? (int)(slope * along) - STUDY_ROW / 2 : 0);
+    if (p->slanted && p->left < (int)(run * along)) p->left = (int)(run * along);
+}
+
+/* Computes the space of the key of the lines: its width beside the panels, or in a narrow picture its columns and its
+ * height below them. */
+static void key_space_find(struct study_picture *p)
+{
+    char text[256];
+    study_keys_text(text, sizeof text, p, ROLE_LINES, false);
+    int longest = 0;
+    const int title = (int)strlen(text);
+    for (int l = 0; l < p->lines; l++) {
+        study_line_title(text, sizeof text, p, l);
+        longest = (int)strlen(text) > longest ? (int)strlen(text) : longest;
+    }
+    if (picture_is_too_narrow_for_key()) {
+        const int columns =
+            (picture_size_get().width - 2 * study_character_width()) / (SAMPLE + longest * study_character_width());
+        p->key_columns = columns < 1 ? 1 : columns < p->lines ? columns : p->lines;
+        p->strip = (1 + (p->lines + p->key_columns - 1) / p->key_columns) * STUDY_ROW;
+    } else {
+        p->key_columns = 1;
+        p->legend = ((longest + 5 > title ? longest + 5 : title) + 2) * study_character_width();
+    }
+}
+
+/* Computes the layout with p->columns columns of panels. up: key along the vertical axis of a map; NULL for a picture
+ * with lines. */
+static void columns_try(struct study_picture *p, const struct varied_key *up)
+{
+    p->wide = WIDE, p->high = HIGH;
+    p->slanted = false;
+    margins_find(p, up);
+    size_settle(p);
+    if (p->numbers && !up) return;
+    p->slanted = words_touch(p, &p->key[p->across].shown);
+    margins_find(p, up);
+    size_settle(p);
+}
+
+void study_layout_find(struct study_picture *p, const struct varied_key *up)
+{
+    const struct picture_size given = picture_size_get();
+    const int most = p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST;
+    double largest = 0;
+    int best = most;
+    p->legend = p->strip = 0;
+    if (!up && p->lines > 1) key_space_find(p);
+    notes_find(p, up != NULL);
+    for (p->columns = most; p->columns >= 1; p->columns--) {
+        columns_try(p, up);
+        const double size = given.height ? fmin(p->wide, p->high / PROPORTION) : fmin(p->wide, NARROW_PANEL);
+        if (size > largest) largest = size, best = p->columns;
+    }
+    p->columns = best;
+    columns_try(p, up);
+}
