@@ -34,6 +34,11 @@ struct value_range history_value_range(const struct history *history, const int 
 void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
                        int column_count);
 
+/* Writes the colour of the curve of the k-th of `times` times in gnuplot's notation to `text`: a shade of the
+ * sequential scale, dark for the first time. */
+enum { COLOUR_ROOM = 8 };
+void curves_write_colour_of_time(char text[COLOUR_ROOM], int k, int times);
+
 /* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
  * [pixel]; columns and lines of its key, and whether the key is below the panels. */
 struct curves_layout {

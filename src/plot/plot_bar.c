@@ -19,7 +19,7 @@ static const struct {
 } quantity[QUANTITIES] = {
     {"stress", "exact_stress", "stress", "Pa"},
     {"strain", "exact_strain", "strain", ""},
-    {"velocity", "exact_velocity", "velocity", "m/s"},
+    {"velocity", "exact_velocity", "velocity x", "m/s"},
     {"damage", NULL, "damage", ""},
 };
 
@@ -181,9 +181,12 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
     struct unit second = unit_for_largest_value(show[frames - 1].time, "s");
-    for (int k = 0; k < frames; k++)
+    for (int k = 0; k < frames; k++) {
+        char colour[COLOUR_ROOM];
+        curves_write_colour_of_time(colour, k, frames);
         fprintf(to, "%s$f%d using 1:%d with lines lw 2.2 lc rgb '%s' title '%.4g %s'", k ? ", " : "plot ", k, 2 * q + 2,
-                curve_colour[k % CURVE_COLOURS], show[k].time / second.factor, second.name);
+                colour, show[k].time / second.factor, second.name);
+    }
     for (int k = 0; k < frames && quantity[q].exact; k++)
         fprintf(to, ", $f%d using 1:%d with lines lw 1.1 dt (9,5) lc rgb '#222222' %s", k, 2 * q + 3,
                 k ? "notitle" : "title 'exact'");

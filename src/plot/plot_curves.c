@@ -52,6 +52,13 @@ void curves_write_data(FILE *gnuplot, const struct series *series, const int *co
     fputs("EOD\n", gnuplot);
 }
 
+void curves_write_colour_of_time(char text[COLOUR_ROOM], int k, int times)
+{
+    const double lightest = 0.82; /* yellow is not visible on white */
+    const struct colour c = colour_on_sequential_scale(lightest * k / fmax(times - 1, 1));
+    snprintf(text, COLOUR_ROOM, "#%02x%02x%02x", c.red, c.green, c.blue);
+}
+
 void curves_write_time_axis(FILE *gnuplot, const struct series *series)
 {
     double end = history_value_at(series->h, series->h->rows - 1, series->time) / series->second.factor;
@@ -96,7 +103,8 @@ static status draw_crack(struct sheet sheet, const char *title, const struct ser
     char label[64];
     struct gnuplot g;
     if (!shown[0] && !shown[1])
-        return report_picture_not_drawn(sheet.path, "no crack grows, no particle becomes peridynamic");
+        return report_picture_not_drawn(sheet.path, s->bar ? "a crack of a bar has no length; profiles have the damage"
+                                                           : "no crack grows, no particle becomes peridynamic");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
     curves_write_data(g.to, s, column, factor, 2);
     curves_write_title(&g, title, "crack");

@@ -98,9 +98,12 @@ static status field_unknown(const char *name, const char *const *names)
 status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim)
 {
     const char *names[COUNT_OF(fields)];
+    char component[NAME_MAX_LENGTH];
+    const bool vector = !strcmp(name, "velocity") || !strcmp(name, "displacement");
+    snprintf(component, sizeof component, "%s%s", name, dim == 1 && vector ? "_x" : "");
     for (size_t k = 0; k < COUNT_OF(fields); k++) {
         names[k] = fields[k].name;
-        if (strcmp(name, names[k]) != 0) continue;
+        if (strcmp(component, names[k]) != 0) continue;
         *field = &fields[k];
         if (!lacks_component(*field, dim)) return OK;
         return status_set(REFUSED, "plot: --field %s: a run in %d dimension%s has no such component", name, dim,
@@ -129,8 +132,12 @@ status plot_field_read(float **value, const struct plot_field *field, const stru
 
 void plot_field_write_label(char *text, size_t capacity, const struct plot_field *field)
 {
-    const bool mises = strcmp(field->name, "von_mises") == 0;
-    snprintf(text, capacity, "%s", mises ? "von Mises stress" : field->name);
+    const bool mises = strcmp(field->name, "von_mises") == 0, speed = strcmp(field->stored, "speed") == 0;
+    snprintf(text, capacity, "%s%s",
+             mises   ? "von Mises stress"
+             : speed ? "speed"
+                     : field->name,
+             field->component == MAGNITUDE ? " magnitude" : "");
     for (char *c = text; *c; c++)
         if (*c == '_') *c = ' ';
 }

@@ -6,20 +6,10 @@
 #include "base/memory.h"
 #include "curves_parts.h"
 
-/* Writes the colour of the curve of the k-th of `frames` frames into text[capacity]: one of the fixed colours if they
- * suffice, else a shade of a scale from dark to light. */
-static void frame_colour(char *text, size_t capacity, int k, int frames)
-{
-    const struct colour c = colour_on_sequential_scale(0.88 * k / fmax(frames - 1, 1));
-    if (frames <= CURVE_COLOURS)
-        snprintf(text, capacity, "%s", curve_colour[k]);
-    else
-        snprintf(text, capacity, "#%02x%02x%02x", c.red, c.green, c.blue);
-}
-
 /* A particle of a profile. loose: it belongs to a piece of at most LOOSE_MOST particles. */
 struct station {
     float x, value[3]; /* position; velocity, stress, damage, or a field in value[0] */
+    int32_t fragment;  /* index of its fragment; -1: none, or the frame does not have it */
     bool loose;
 };
 
@@ -43,10 +33,12 @@ static int plot_curves_by_place(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Returns true if the bar has separated between the neighbours a and b: they are far apart, or one has no bond left. */
+/* Returns true if the bar has separated between the neighbours a and b: they are far apart, belong to different
+ * fragments, or one has no bond left. */
 static bool stations_are_parted(const struct station *a, const struct station *b, double spacing)
 {
-    return b->x - a->x > SEPARATED * spacing || fmaxf(a->value[2], b->value[2]) > ALL_BONDS;
+    return b->x - a->x > SEPARATED * spacing || (a->fragment >= 0 && b->fragment >= 0 && a->fragment != b->fragment) ||
+           fmaxf(a->value[2], b->value[2]) > ALL_BONDS;
 }
 
 /* Makes the profile of a frame. value: values of a field at its particles, or NULL for velocity, stress and damage;
@@ -56,7 +48,8 @@ static struct bar_profile profile_make(const struct output_frame *f, const float
     struct bar_profile p = {NEW("plot.profile", f->n, struct station), f->n, f->t};
     for (int64_t i = 0; i < f->n; i++)
         p.at[i] = (struct station){.x = f->X[0][i] + f->u[0][i],
-                                   .value = {value ? value[i] : f->v[0][i], f->stress[0][i], f->damage[i]}};
+                                   .value = {value ? value[i] : f->v[0][i], f->stress[0][i], f->damage[i]},
+                                   .fragment = f->fragment ? f->fragment[i] : -1};
     array_sort(p.at, p.n, sizeof *p.at, plot_curves_by_place);
     for (int64_t i = 0, from = 0; i < p.n; i++) {
         if (i + 1 < p.n && !stations_are_parted(&p.at[i], &p.at[i + 1], spacing)) continue;
@@ -174,8 +167,8 @@ static void plot_profiles(FILE *to, const struct bar_profile *profile, int profi
     struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");
     fputs("plot ", to);
     for (int k = 0; k < profiles; k++) {
-        char colour[8];
-        frame_colour(colour, sizeof colour, k, profiles);
+        char colour[COLOUR_ROOM];
+        curves_write_colour_of_time(colour, k, profiles);
         fprintf(to, "%s$f%d using 1:%d with lines lw 1.8 lc rgb '%s' title '%.3g %s'", k > 0 ? ", " : "", k, column + 2,
                 colour, profile[k].t / second.factor, second.name);
         if (profile_has_loose(&profile[k]))
@@ -200,7 +193,7 @@ static status profiles_draw(struct sheet sheet, const char *title, const struct 
     const double factor[4] = {metre.factor, speed.factor, pascal.factor, 1};
     const int panels = of[2].high > 0 ? 3 : 2;
     of[2] = (struct value_range){0, 1};
-    snprintf(label[0], sizeof label[0], "velocity [%s]", speed.name);
+    snprintf(label[0], sizeof label[0], "velocity x [%s]", speed.name);
     snprintf(label[1], sizeof label[1], "stress [%s]", pascal.name);
     title_compose_with_particles_outside(text, title, profiles_outside(profile, profiles, x, of, 2));
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, 130 + 263 * panels));

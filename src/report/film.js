@@ -28,7 +28,7 @@ function displacementFields() {
     const most = Math.hypot(...film.reach), axes = ["x", "y", "z"].slice(0, film.dim);
     if (!(most > 0)) return [];
     const of = (name, scale, low, high, axis) => ({name, unit: "m", scale, low, high, least: low, most: high, axis});
-    return [of("displacement", "zero", 0, most, -1)].concat(
+    return (film.dim > 1 ? [of("displacement", "zero", 0, most, -1)] : []).concat(
         axes.map((a, d) => of("displacement_" + a, "signs", -film.reach[d], film.reach[d], d))
             .filter((f) => f.high > 0));
 }
@@ -418,7 +418,8 @@ function thinnedText() {
     const cut = film.fields.filter((f) => f.scale !== "category" && f.axis === undefined &&
             (f.most > f.high * 1.001 + 1e-12 || f.least < f.low - Math.abs(f.low) * 1e-3));
     if (cut.length)
-        parts.push("Colours leave out the most extreme particles (0.05 % at either end): " +
+        parts.push((film.dim === 1 ? "Values beyond the stored range are drawn at its ends (0.05 % at either end): " :
+                                     "Colours leave out the most extreme particles (0.05 % at either end): ") +
             cut.map((f) => f.name.replace(/_/g, " ") + " reaches " +
                        quantity(Math.abs(f.most) > Math.abs(f.least) ? f.most : f.least, f.unit, 3))
                 .join(", ") +

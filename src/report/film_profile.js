@@ -1,7 +1,15 @@
 // Frames of a bar: the field over the position, in place of the body.
 
-// Draws the field of a frame over the position. Where neighbours are 1.5 spacings apart the bar has separated, as
-// in cleave plot.
+// Returns whether the bar has separated between particles i and j of a frame, as in cleave plot: they are 1.5 spacings
+// apart, belong to different fragments, or one has no bond left. now: positions.
+function areParted(frame, now, i, j) {
+    const size = particlesOf(film, film.sets[frame.set]).size, damage = damageOf(frame);
+    const fragment = frame.values.fragment ? arrayOf(frame.values.fragment) : null;
+    return Math.abs(now[i] - now[j]) > 1.5 * Math.max(size[i], size[j]) ||
+        Boolean(damage && Math.max(damage[i], damage[j]) === 254) || Boolean(fragment && fragment[i] !== fragment[j]);
+}
+
+// Draws the field of a frame over the position, with gaps where the bar has separated.
 function drawProfile(context, width, height, frame) {
     const x = view.x_of[0], order = Array.from(x.keys()).sort((a, b) => x[a] - x[b]), field = view.field;
     const metre = unitFor(film.box.high[0] - film.box.low[0], "m"),
@@ -13,9 +21,8 @@ function drawProfile(context, width, height, frame) {
     context.fillStyle = curveColours[0];
     context.strokeStyle = curveColours[0];
     context.beginPath();
-    const now = positionsOf(film, frame, 1)[0], size = particlesOf(film, film.sets[frame.set]).size;
-    const joined = (k) => k > 0 && k < order.length &&
-        Math.abs(now[order[k]] - now[order[k - 1]]) <= 1.5 * Math.max(size[order[k]], size[order[k - 1]]);
+    const now = positionsOf(film, frame, 1)[0];
+    const joined = (k) => k > 0 && k < order.length && !areParted(frame, now, order[k], order[k - 1]);
     order.forEach((i, k) => {
         const at = [axes.x(x[i]), axes.y(valueOf(field, view.codes[i]))];
         context[joined(k) ? "lineTo" : "moveTo"](...at);

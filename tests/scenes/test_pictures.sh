@@ -451,6 +451,9 @@ END
 : >all
 "$cleave" plot spall $small >out 2>err
 refused "colours is for maps; a run in one dimension has curves" spall --field stress_xx --colours magma
+holds "the profiles say which component: $(cat err)" grep -a -q "set ylabel 'velocity x" all
+holds "colours of times are in order" grep -a -q "using 1:2 with lines lw 1.8 lc rgb '#440154' title '0 " all
+holds "no crack.png of a bar, with the reason" grep -q "crack.png is not drawn: a crack of a bar has no length" out
 holds "a lone particle is a point: $(cat err)" grep -a -q '$l3 using 1:2 with points' all
 holds "and outside the axis of velocities" grep -a -q "profiles (1 particle is outside the picture)" all
 between "whose axis is that of the bar" "$(sed -n 's/^set yrange .*:\([0-9.]*\)\].*/\1/p' all | head -n 1)" 0.5 20

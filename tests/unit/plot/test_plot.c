@@ -73,6 +73,27 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find_by_name(&field, "stress_yy", 1), REFUSED);
 }
 
+/* Vectors have one meaning in all pictures of a bar, their component along it; elsewhere the label says magnitude. */
+static void labels_say_component_or_magnitude(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *label;
+        int dim;
+    } want[] = {{"velocity", "velocity x", 1},
+                {"displacement", "displacement x", 1},
+                {"speed", "speed", 1},
+                {"velocity", "speed", 2},
+                {"displacement", "displacement magnitude", 3}};
+    for (size_t k = 0; k < COUNT_OF(want); k++) {
+        const struct plot_field *field;
+        char label[NAME_MAX_LENGTH];
+        assert_int_equal(plot_field_find_by_name(&field, want[k].name, want[k].dim), OK);
+        plot_field_write_label(label, sizeof label, field);
+        assert_string_equal(label, want[k].label);
+    }
+}
+
 /* Index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
 static void fields_name_components(void **state)
 {
@@ -468,23 +489,15 @@ static void words_have_units(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_follow_from_stress),
-        cmocka_unit_test(unknown_fields_are_refused),
-        cmocka_unit_test(fields_name_components),
-        cmocka_unit_test(slices_show_damage),
-        cmocka_unit_test(slices_are_near_the_middle),
-        cmocka_unit_test(axes_have_prefixes),
-        cmocka_unit_test(one_particle_sets_no_scale),
-        cmocka_unit_test(solids_are_seen_from_outside),
-        cmocka_unit_test(cameras_are_right_handed),
-        cmocka_unit_test(colours_keep_their_order),
-        cmocka_unit_test(words_have_units),
-        cmocka_unit_test(hot_spots_leave_colours),
-        cmocka_unit_test(stretched_bodies_are_closed),
-        cmocka_unit_test(stretched_solids_are_closed),
-        cmocka_unit_test(slits_are_lines_of_the_body),
-        cmocka_unit_test(rigid_bodies_are_shown),
-        cmocka_unit_test(ends_of_colours_are_counted),
+        cmocka_unit_test(fields_follow_from_stress),    cmocka_unit_test(unknown_fields_are_refused),
+        cmocka_unit_test(fields_name_components),       cmocka_unit_test(labels_say_component_or_magnitude),
+        cmocka_unit_test(slices_show_damage),           cmocka_unit_test(slices_are_near_the_middle),
+        cmocka_unit_test(axes_have_prefixes),           cmocka_unit_test(one_particle_sets_no_scale),
+        cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
+        cmocka_unit_test(colours_keep_their_order),     cmocka_unit_test(words_have_units),
+        cmocka_unit_test(hot_spots_leave_colours),      cmocka_unit_test(stretched_bodies_are_closed),
+        cmocka_unit_test(stretched_solids_are_closed),  cmocka_unit_test(slits_are_lines_of_the_body),
+        cmocka_unit_test(rigid_bodies_are_shown),       cmocka_unit_test(ends_of_colours_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
