@@ -131,12 +131,14 @@ status report_picture_not_drawn(const char *path, const char *reason);
 
 enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
+struct view;
 
 /* Composes the title of a picture in title[TITLE_LENGTH]: `name, method: what`, with name and method of the run in
  * r->folder; unknown parts are left out. If r->title is given, it is the title. c: particles of the picture, for which
- * the position of the slice and the factor on displacements are added, or NULL. */
+ * the position of the slice, in the unit of the axes, and the factor on displacements are added, or NULL; view:
+ * rectangle of the picture, NULL if c is. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
-                           const struct plotted_particles *c);
+                           const struct plotted_particles *c, const struct view *view);
 
 /* Unit for display: displayed value = SI value / factor. */
 struct unit {
@@ -371,8 +373,8 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
 void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
                                const struct plotted_particles *c, enum map map);
 
-/* Returns the colour of rigid bodies. */
-struct colour rigid_body_colour(void);
+/* Returns the colour of rigid bodies in a map of the kind `map`: faded in MAP_CRACKS, as the body there. */
+struct colour rigid_body_colour(enum map map);
 
 /* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
@@ -388,10 +390,9 @@ void rigids_paint_in_plane(struct colour *pixel, int width, int height, const st
 
 /* Paints the rigid bodies of c, as seen from outside by a camera, into the image pixel[height * width], rows from
  * bottom to top. A pixel is painted where a body is nearer to the viewer than the depth stored in depth[height * width]
- * [m], which is then updated. v: visible rectangle; colour_weight: weight of the colour of the bodies against white, 1
- * for the full colour. */
+ * [m], which is then updated. v: visible rectangle; map: quantity that the colours show. */
 void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, double colour_weight);
+                               const struct plotted_particles *c, enum map map);
 
 /* Output file of a picture. */
 struct sheet {

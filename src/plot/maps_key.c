@@ -183,7 +183,7 @@ void map_key_make(struct map_key *key, enum map map, const struct view *view, bo
         snprintf(more, sizeof more, "and %d more", named->more);
         if (named->more > 0) map_key_add(key, (struct colour){0}, more);
     }
-    if (has_rigid_bodies) map_key_add(key, rigid_body_colour(), "rigid");
+    if (has_rigid_bodies) map_key_add(key, rigid_body_colour(map), "rigid");
 }
 
 /* Draws an entry of the key: a square in its colour, unless that is transparent, and its text. x, y: position from the

@@ -27,7 +27,7 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     if (map == MAP_FRAGMENT) snprintf(what, sizeof what, "%d fragments", (int)cloud[0].fragments);
     if (map == MAP_CRACKS) snprintf(what, sizeof what, "cracks, where damage is above %.2f", CRACK_DAMAGE);
     if (map == MAP_FIELD) plot_field_write_label(what, sizeof what, view->field);
-    picture_compose_title(title, r, what, &cloud[0]);
+    picture_compose_title(title, r, what, &cloud[0], view);
     return maps_draw_panels_of_frames((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
@@ -151,7 +151,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 {
     char title[TITLE_LENGTH];
     const int skipped = frames->shown > 1 && frames->show[0].number == 0;
-    picture_compose_title(title, r, "beside the exact solution", NULL);
+    picture_compose_title(title, r, "beside the exact solution", NULL, NULL);
     return bar_and_exact_solution_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, r->folder,
                                        probe, frames->show + skipped, frames->shown - skipped);
 }
@@ -164,7 +164,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
     if (run_find_exact_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct output_frame *f = NULL;
     TRY(frames_read_selected(&f, r->folder, frames));
-    picture_compose_title(title, r, "profiles", NULL);
+    picture_compose_title(title, r, "profiles", NULL, NULL);
     const status s =
         bar_profiles_draw((struct sheet){sheet_path(r, DRAWN_PROFILES).text, r->format}, title, f, frames->shown);
     frames_free(f, frames->shown);
@@ -207,7 +207,7 @@ static status draw_pictures(struct plot_request *r)
     const bool frames = run_has_file(r->folder, "frames.hdf.series"), history = run_has_file(r->folder, "history.csv");
     TRY(pictures_folder_make(r->pictures, r->overwrite));
     if (frames) TRY(draw_frames(r));
-    picture_compose_title(title, r, "", NULL);
+    picture_compose_title(title, r, "", NULL, NULL);
     if (history) TRY(history_curves_draw(r, title));
     if (printf("pictures in %s\n", printable_name(r->pictures).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));

@@ -11,8 +11,6 @@
 static const double HALF = 0.52;
 
 static const double STRAIGHT = 0.999; /* cosine of the angle to an axis below which a view is along this axis */
-/* Share of its colour that the body keeps behind its cracks. */
-static const double GHOST = 0.45;
 
 struct scene_canvas {
     struct colour *pixel;
@@ -140,8 +138,7 @@ void cubes_paint_particles(struct colour *pixel, int width, int height, const st
     const struct colour ghost = colour_mixed_with_white(colour_on_damage_scale(0), GHOST);
     for (int64_t i = 0; i < c->n; i++)
         paint_cube(&v, c, i, map == MAP_CRACKS ? ghost : particle_colour(view, c, i, map));
-    if (c->position[2])
-        rigids_paint_from_outside(pixel, v.depth, width, height, view, c, map == MAP_CRACKS ? GHOST : 1);
+    if (c->position[2]) rigids_paint_from_outside(pixel, v.depth, width, height, view, c, map);
     if (map == MAP_CRACKS) {
         canvas_clear_depth(&v);
         for (int64_t i = 0; i < c->n; i++)

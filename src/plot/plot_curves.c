@@ -141,6 +141,7 @@ struct energies {
 
 /* Energies below this fraction of the largest one are not drawn: their curves coincide with the axis. */
 #define ENERGY_SHOWN 5e-4
+#define WORK_COLOUR "#c8c8c8" /* of the external work */
 
 /* Selects for drawing the energies whose largest value is at least ENERGY_SHOWN of the largest one of all, and chooses
  * their unit. */
@@ -160,17 +161,20 @@ static void choose_energies(struct energies *e, const struct history *h)
     for (int k = 0; k < e->n; k++) e->factor[k] = e->joule.factor;
 }
 
-/* Plots all selected energies, and as a dashed line their sum without the external work. */
+/* Plots all selected energies, and as a dashed line their sum without the external work. The external work, which the
+ * sum covers where the energy balance closes, is a broad band below all other curves. */
 static void plot_energies(FILE *to, const struct energies *e)
 {
     fputs("plot ", to);
-    for (int k = 0; k < e->n; k++)
-        fprintf(to, "$data using 1:%d with lines lw 2.2 lc rgb '%s' title '%s', ", k + 2, e->row[k]->colour,
-                e->row[k]->label);
+    for (int work = 1; work >= 0; work--)
+        for (int k = 0; k < e->n; k++)
+            if ((e->row[k] == &ledger[LEDGER_WORK]) == work)
+                fprintf(to, "$data using 1:%d with lines lw %s lc rgb '%s' title '%s', ", k + 2, work ? "6" : "2.2",
+                        work ? WORK_COLOUR : e->row[k]->colour, e->row[k]->label);
     fputs("$data using 1:(0", to);
     for (int k = 0; k < e->n; k++)
         if (e->row[k] != &ledger[LEDGER_WORK]) fprintf(to, "+$%d", k + 2);
-    fputs(") with lines lw 1.6 dt (6,4) lc rgb '#3d3d3d' title 'sum'\n", to);
+    fputs(") with lines lw 1.6 dt (6,4) lc rgb '#000000' title 'sum'\n", to);
 }
 
 /* Returns a distance of tics, 1, 2 or 5 times a power of ten, with which one or two tics are between 0 and `top`. */

@@ -40,11 +40,12 @@ static bool same_everywhere(const struct plotted_particles *cloud, int clouds)
     return true;
 }
 
-static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c)
+static void field_title(char *title, const struct plot_request *r, const struct plotted_particles *c,
+                        const struct view *view)
 {
     char name[TITLE_LENGTH];
     plot_field_write_label(name, sizeof name, r->projection.field);
-    picture_compose_title(title, r, name, c);
+    picture_compose_title(title, r, name, c, view);
 }
 
 /* Prints the first named values of a field, such as the names of materials, and the number of further ones. */
@@ -84,7 +85,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
                  *r->projection.field->unit ? " " : "", r->projection.field->unit);
         return report_picture_not_drawn(path, why);
     }
-    field_title(title, r, &cloud[0]);
+    field_title(title, r, &cloud[0], &view);
     const enum map map = map_of_field(r->projection.field);
     struct categories categories;
     if (map == MAP_CATEGORY) {
@@ -128,7 +129,7 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     for (int k = 0; s == OK && k < frames->shown; k++)
         s = plot_field_read(&value[k], r->projection.field, &f[k],
                             run_frame_path(r->folder, frames->show[k].number).text);
-    field_title(title, r, NULL);
+    field_title(title, r, NULL, NULL);
     if (s == OK)
         s = field_profiles_draw((struct sheet){path, r->format}, title, r->projection.field, value, f, frames->shown);
     for (int k = 0; k < frames->shown; k++) memory_free(value[k]);

@@ -12,6 +12,7 @@
 #include "output/pictures.h"
 #include "output/summary_read.h"
 #include "plot/plot.h"
+#include "maps_parts.h"
 
 enum { PATH_LENGTH = 4096 };
 
@@ -196,14 +197,14 @@ status report_picture_not_drawn(const char *path, const char *reason)
 }
 
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
-                           const struct plotted_particles *c)
+                           const struct plotted_particles *c, const struct view *view)
 {
     const char *folder = r->folder;
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], layer[NAME_MAX_LENGTH] = "";
     if (summary_read_string(folder, "name", name, sizeof name) != OK) path_last_name(name, sizeof name, folder);
     bool known = summary_read_string(folder, "method", method, sizeof method) == OK;
     if (c != NULL && c->normal >= 0) {
-        struct unit metre = unit_for_length(fmax(fabs(c->layer), c->spacing));
+        const struct unit metre = panel_axis_unit(view);
         snprintf(layer, sizeof layer, ", %c = %.4g %s", 'x' + c->normal, c->layer / metre.factor, metre.name);
     }
     if (r->title)

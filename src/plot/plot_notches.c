@@ -8,8 +8,9 @@
 
 /* Colours of the faces. FACE: in maps of damage; GAP: in maps of fields, the white of a gap. */
 static const struct colour FACE = {122, 16, 32, 255}, GAP = {255, 255, 255, 255};
-static const double LINE_HALF = 0.7; /* half width of a line [pixel] */
-static const double GAP_SEEN = 3;    /* distance of the faces from which the gap between them is left open [pixel] */
+/* LINE_HALF: half width of a line, at least LINE_LEAST pixels, so that it looks alike in pictures of any resolution;
+ * GAP_SEEN: distance of the faces from which the gap between them is left open [widths of the image]. */
+static const double LINE_HALF = 1.0 / 600, LINE_LEAST = 0.7, GAP_SEEN = 1.0 / 140;
 
 /* BESIDE: largest distance of the particles whose motion is that of a face [spacings]; RUBBLE: damage above which a
  * particle has no part of a face. */
@@ -80,19 +81,20 @@ static bool face_at(const struct faces *f, int side, double s, double *x)
     return true;
 }
 
-/* Paints the pixels within LINE_HALF of the line between the points a[2] and b[2] [pixel]. */
+/* Paints the pixels within half a line width of the line between the points a[2] and b[2] [pixel]. */
 static void line_paint(struct colour *pixel, int width, int height, const double *a, const double *b, struct colour c)
 {
+    const double half = fmax(LINE_HALF * width, LINE_LEAST);
     int low[2], high[2];
     const int size[2] = {width, height};
     for (int k = 0; k < 2; k++) {
-        const double from = fmin(a[k], b[k]) - LINE_HALF, to = fmax(a[k], b[k]) + LINE_HALF;
+        const double from = fmin(a[k], b[k]) - half, to = fmax(a[k], b[k]) + half;
         if (!(to >= 0 && from <= size[k])) return; /* outside the picture, or NaN */
         low[k] = (int)fmax(floor(from), 0), high[k] = (int)fmin(floor(to), size[k] - 1);
     }
     for (int row = low[1]; row <= high[1]; row++)
         for (int column = low[0]; column <= high[0]; column++)
-            if (segment_distance_from_point(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= LINE_HALF)
+            if (segment_distance_from_point(a, b, (double[]){column + 0.5, row + 0.5}, 2) <= half)
                 pixel[(int64_t)row * width + column] = c;
 }
 
@@ -118,7 +120,7 @@ static void faces_paint(struct colour *pixel, int width, int height, const struc
             if (is[side] && was[side]) line_paint(pixel, width, height, last[side], x[side], colour);
             last[side][0] = x[side][0], last[side][1] = x[side][1], was[side] = is[side];
         }
-        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN)
+        if (is[0] && hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]) < GAP_SEEN * width)
             line_paint(pixel, width, height, x[0], x[1], colour);
     }
 }

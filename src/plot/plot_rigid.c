@@ -13,7 +13,10 @@ static const struct colour RIGID = {120, 120, 126, 255};
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 };
 
-struct colour rigid_body_colour(void) { return RIGID; }
+struct colour rigid_body_colour(enum map map)
+{
+    return map == MAP_CRACKS ? colour_mixed_with_white(RIGID, GHOST) : RIGID;
+}
 
 void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const struct scene *s,
                                            const struct rigid_placement *placement, const real *low, const real *high)
@@ -143,7 +146,7 @@ static double brightness_at(const struct rigid_shown *r, const double *x, const 
 }
 
 void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
-                               const struct plotted_particles *c, double colour_weight)
+                               const struct plotted_particles *c, enum map map)
 {
     const int size[2] = {width, height};
     for (int b = 0; b < c->rigids; b++) {
@@ -165,8 +168,9 @@ void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, in
             }
             if (!(level <= small) || z <= depth[q]) continue;
             depth[q] = (float)z;
-            pixel[q] = colour_mixed_with_white(
-                colour_mixed_with_black(RIGID, brightness_at(r, x, c->camera.towards, small)), colour_weight);
+            pixel[q] =
+                colour_mixed_with_white(colour_mixed_with_black(RIGID, brightness_at(r, x, c->camera.towards, small)),
+                                        map == MAP_CRACKS ? GHOST : 1);
         }
     }
 }

@@ -88,7 +88,7 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
     for (int b = 0; b < c->rigids && s->dim == 1; b++) {
         const struct rigid_shown *r = &c->rigid[b];
         const real middle[DIM_MAX] = {0.5 * (r->low[0] + r->high[0])};
-        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_body_colour());
+        cloud_add(c, middle, 1, r->high[0] - r->low[0], rigid_body_colour(MAP_CATEGORY));
     }
     memory_free(at);
 }
@@ -169,7 +169,7 @@ static void key_of_parts(struct marks *m)
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        marks_add_colour_to_key(m, rigid_body_colour(), text);
+        marks_add_colour_to_key(m, rigid_body_colour(MAP_CATEGORY), text);
     }
 }
 

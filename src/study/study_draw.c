@@ -13,6 +13,9 @@
  * between a map and its colour bar [pixel]. */
 enum { LINES_MOST = CURVE_COLOURS, STEPS_MOST = 4, TICS_UP = 26, COLOUR_GAP = 8 };
 
+/* A colour bar of positive values begins at 0 if the smallest one is below this share of the largest [1]. */
+static const double ZERO_NEAR = 0.25;
+
 /* ---- text around the panels -------------------------------------------------------------------------------------- */
 
 static void screen_label(FILE *to, const struct study_picture *p, const char *text, double x, double y, const char *how)
@@ -148,6 +151,9 @@ static void send_figure_tics(FILE *to, const struct study_picture *p, int panel,
     double low, high;
     study_points_range(p, panel, &low, &high);
     const int most = (int)fmax(p->high / TICS_UP, 2);
+    const bool from_zero = low > 0 && low < ZERO_NEAR * high;
+    if (*axis == 'c') fputs(from_zero ? "set cbrange [0:*]\n" : "set cbrange [*:*]\n", to);
+    if (*axis == 'c' && from_zero) low = 0;
     if (!(high > low))
         fprintf(to, "set %stics autofreq\n", axis);
     else if (*axis == 'y')

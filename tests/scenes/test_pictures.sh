@@ -225,6 +225,9 @@ is "plot --slice: exit status" $? 0
 holds "a slice has the particles of a layer" grep -q "of 2 frames, 72 particles" out
 "$cleave" plot results/block --field speed --view x+ --times last >out 2>err
 holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywhere" out
+: >all
+"$cleave" plot results/block --slice z=0.5mm --field damage --times last $small -o slice.png >out 2>err
+holds "a slice is in the unit of the axes: $(cat err)" grep -a -q "set label 1 'block, pd: damage, z = 0.5 mm'" all
 refused "no particle is at this position; they are from 0.5 to 5.5 mm" results/block --slice z=9mm
 refused "one of them" results/block --slice z=3mm --view iso
 
@@ -297,6 +300,7 @@ END
         for name in kinetic viscous "external work" sum K_II growth "crack growth (left)" "peridynamic share (right)"; do
             holds "$size: $name is in a key" grep -a -q "title '$name" all
         done
+        holds "$size: the external work does not hide the sum" grep -a -q "lines lw 6 lc rgb '#c8c8c8' title 'external work'.*title 'sum'" all
         is "$size: labels of time axes" "$(grep -a -c "xlabel 'time \[µs\]'" all)" 5
         "$cleave" plot tips --size $size --format pdf -o "narrow$size" >out 2>err
         is "pdf --size $size: $(cat err)" $? 0

@@ -73,6 +73,14 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find_by_name(&field, "stress_yy", 1), REFUSED);
 }
 
+/* The key of rigid bodies has their colour also where bodies are faded behind cracks. */
+static void rigid_bodies_are_faded_behind_cracks(void **state)
+{
+    (void)state;
+    const struct colour full = rigid_body_colour(MAP_DAMAGE), faded = rigid_body_colour(MAP_CRACKS);
+    assert_true(faded.red > full.red + 50 && faded.green > full.green + 50 && faded.blue > full.blue + 50);
+}
+
 /* Vectors have one meaning in all pictures of a bar, their component along it; elsewhere the label says magnitude. */
 static void labels_say_component_or_magnitude(void **state)
 {
@@ -489,15 +497,25 @@ static void words_have_units(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_follow_from_stress),    cmocka_unit_test(unknown_fields_are_refused),
-        cmocka_unit_test(fields_name_components),       cmocka_unit_test(labels_say_component_or_magnitude),
-        cmocka_unit_test(slices_show_damage),           cmocka_unit_test(slices_are_near_the_middle),
-        cmocka_unit_test(axes_have_prefixes),           cmocka_unit_test(one_particle_sets_no_scale),
-        cmocka_unit_test(solids_are_seen_from_outside), cmocka_unit_test(cameras_are_right_handed),
-        cmocka_unit_test(colours_keep_their_order),     cmocka_unit_test(words_have_units),
-        cmocka_unit_test(hot_spots_leave_colours),      cmocka_unit_test(stretched_bodies_are_closed),
-        cmocka_unit_test(stretched_solids_are_closed),  cmocka_unit_test(slits_are_lines_of_the_body),
-        cmocka_unit_test(rigid_bodies_are_shown),       cmocka_unit_test(ends_of_colours_are_counted),
+        cmocka_unit_test(fields_follow_from_stress),
+        cmocka_unit_test(unknown_fields_are_refused),
+        cmocka_unit_test(fields_name_components),
+        cmocka_unit_test(labels_say_component_or_magnitude),
+        cmocka_unit_test(rigid_bodies_are_faded_behind_cracks),
+        cmocka_unit_test(slices_show_damage),
+        cmocka_unit_test(slices_are_near_the_middle),
+        cmocka_unit_test(axes_have_prefixes),
+        cmocka_unit_test(one_particle_sets_no_scale),
+        cmocka_unit_test(solids_are_seen_from_outside),
+        cmocka_unit_test(cameras_are_right_handed),
+        cmocka_unit_test(colours_keep_their_order),
+        cmocka_unit_test(words_have_units),
+        cmocka_unit_test(hot_spots_leave_colours),
+        cmocka_unit_test(stretched_bodies_are_closed),
+        cmocka_unit_test(stretched_solids_are_closed),
+        cmocka_unit_test(slits_are_lines_of_the_body),
+        cmocka_unit_test(rigid_bodies_are_shown),
+        cmocka_unit_test(ends_of_colours_are_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
