@@ -1,4 +1,4 @@
-/* Selects the frames of a run that are shown; units, paths and titles of pictures. */
+/* Selects the frames of a run that are shown; paths and titles of pictures. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,42 +15,6 @@
 #include "maps_parts.h"
 
 enum { PATH_LENGTH = 4096 };
-
-/* ---- units ------------------------------------------------------------------------------------------------------- */
-
-/* Returns the unit with the SI prefix for which the number for `largest_value`, a value without prefix, has one to
- * three digits before the decimal point. unit_name: the unit without prefix. */
-struct unit unit_for_largest_value(double largest_value, const char *unit_name)
-{
-    static const struct {
-        double factor;
-        const char *prefix;
-    } si[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}};
-    struct unit u = {1, ""};
-    int k = 0;
-    while (k + 1 < (int)COUNT_OF(si) && fabs(largest_value) < si[k].factor * 0.9995) k++;
-    if (!(fabs(largest_value) > 1e-15)) k = 3; /* zero or not finite: no prefix */
-    u.factor = si[k].factor;
-    snprintf(u.name, sizeof u.name, "%s%s", si[k].prefix, unit_name);
-    return u;
-}
-
-struct unit unit_for_length(double largest_length)
-{
-    return largest_length > 5e-4 && largest_length < 0.9995 ? (struct unit){1e-3, "mm"}
-                                                            : unit_for_largest_value(largest_length, "m");
-}
-
-struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value)
-{
-    static const char *const prefixed[] = {"s", "m/s", "N", "J", "Pa", "W"};
-    struct unit u = {1, ""};
-    snprintf(u.name, sizeof u.name, "%s", unit_name);
-    if (strcmp(unit_name, "m") == 0) return unit_for_length(largest_value);
-    for (size_t k = 0; k < COUNT_OF(prefixed); k++)
-        if (strcmp(unit_name, prefixed[k]) == 0) return unit_for_largest_value(largest_value, unit_name);
-    return u;
-}
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 

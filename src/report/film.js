@@ -261,7 +261,12 @@ function setFrame(k) {
 function setField(name) {
     view.field = film.fields.find((f) => f.name === name) || film.fields[0];
     byId("field").value = view.field.name;
-    setLimits(view.field.low, view.field.high);
+    setLimits(view.field.low, usualEnd(view.field));
+}
+
+// The usual upper end of the colours of a field. For damage it is a multiple of 0.1 from 0.5, as in cleave plot.
+function usualEnd(field) {
+    return field.name === "damage" ? Math.min(Math.max(Math.ceil(10 * field.most - 1e-3) / 10, 0.5), 1) : field.high;
 }
 
 function setLimits(low, high) {
@@ -492,7 +497,7 @@ function showFilm() {
     view.magnify = 1;
     film.box = boxOf(film.frames[film.frames.length - 1], 1);
     view.field = film.fields.find((f) => f.name === firstField());
-    view.low = view.field.low, view.high = view.field.high;
+    view.low = view.field.low, view.high = usualEnd(view.field);
     makeLut();
     resetView();
     setField(view.field.name);

@@ -115,7 +115,9 @@ function paintCells(to, cx, cy, ax, ay, bx, by, paint) {
 }
 
 // Edges of the cubes of all particles, which deform with the body: the vectors along the axes, edges[9 * i + 3 * k + d]
-// [m], and for each side of an axis whether a neighbour joins there, joins[6 * i + 2 * k + side].
+// [m], and for each side of an axis what is there, joins[6 * i + 2 * k + side]: 0, no cube; JOINED or PARTED, a
+// neighbour.
+const JOINED = 1, PARTED = 2;
 function deformedCubes(set, x, damage, shown) {
     const edges = new Float32Array(9 * set.n), joins = new Uint8Array(6 * set.n), at = [0, 0];
     for (let i = 0; i < set.n; i++)
@@ -123,7 +125,7 @@ function deformedCubes(set, x, damage, shown) {
             for (const side of [0, 1]) {
                 const j = set.beside[2 * k + side][i];
                 at[side] = j >= 0 && !apart(damage, i, j) ? j : i;
-                joins[6 * i + 2 * k + side] = at[side] !== i && shown(j);
+                joins[6 * i + 2 * k + side] = j < 0 || !shown(j) ? 0 : at[side] === i ? PARTED : JOINED;
             }
             const first = 9 * i + 3 * k, share = at[0] !== i && at[1] !== i ? 0.5 : 1;
             for (let d = 0; d < 3; d++) edges[first + d] = (x[d][at[0]] - x[d][at[1]]) * share;
@@ -134,12 +136,16 @@ function deformedCubes(set, x, damage, shown) {
     return {edges, joins};
 }
 
-// Is face `side` of cube i along axis k covered by its neighbour, a cube of nearly the same shape?
-function covered(set, cubes, i, k, side) {
-    if (!cubes.joins[6 * i + 2 * k + side]) return false;
-    const from = 9 * i, to = 9 * set.beside[2 * k + side][i], limit = 0.1 * set.size[i];
+// Is face `side` of cube i along axis k covered by its neighbour, a cube of nearly the same shape that has not moved
+// away?
+function covered(set, x, cubes, i, k, side) {
+    const joins = cubes.joins[6 * i + 2 * k + side];
+    if (!joins) return false;
+    const j = set.beside[2 * k + side][i], from = 9 * i, to = 9 * j, limit = 0.1 * set.size[i];
     for (let e = 0; e < 9; e++)
         if (Math.abs(cubes.edges[from + e] - cubes.edges[to + e]) > limit) return false;
+    for (let d = 0; d < 3 && joins === PARTED; d++)
+        if (Math.abs(x[d][j] - x[d][i] - (side ? -1 : 1) * cubes.edges[from + 3 * k + d]) > limit) return false;
     return true;
 }
 
@@ -164,7 +170,7 @@ function paintSpace(to, see, set, x, colour, shown, damage) {
             const out = edge[k][0] * (a[1] * b[2] - a[2] * b[1]) + edge[k][1] * (a[2] * b[0] - a[0] * b[2]) +
                 edge[k][2] * towards;
             const side = towards * out > 0 ? 0 : 1;
-            if (towards === 0 || covered(set, cubes, i, k, side)) continue;
+            if (towards === 0 || covered(set, x, cubes, i, k, side)) continue;
             const half = side ? -0.5 : 0.5, centre = middle.map((m, r) => m + half * edge[k][r]);
             centre[0] += to.width / 2, centre[1] += to.height / 2;
             paintFace(to, i, centre, a, b, shadesOf(colour(i))[k]);

@@ -30,9 +30,19 @@ function slits() {
     return owner.reduce((n, i, at) => n + (i < 0 && near(at, 1) && near(at, -1)), 0);
 }
 
+// Number of faces of cubes that are painted although a parted neighbour still covers them: a dotted lattice.
+function bareFaces() {
+    const frame = film.frames[view.frame], set = particlesOf(film, film.sets[frame.set]), sides = [0, 1, 2, 3, 4, 5];
+    const cubes = deformedCubes(set, view.x_of, damageOf(frame), () => true);
+    const bare = (i, s) => set.beside[s][i] >= 0 && !covered(set, view.x_of, cubes, i, s >> 1, s & 1);
+    return Array.from(set.X[0]).reduce((n, _, i) => n + sides.filter((s) => bare(i, s)).length, 0);
+}
+
 async function probeFilm(seen) {
     seen.frames = film.frames.length;
     seen.shown_at_first = view.frame;
+    seen.limits = [view.low, view.high];
+    seen.bare = film.dim === 3 ? bareFaces() : 0;
     seen.slits = film.dim > 1 ? slits() : 0;
     seen.first_field = view.field.name;
     if (film.dim === 2)

@@ -55,6 +55,7 @@ if [ -n "$browser" ]; then
     cp -r results/plate opened
     seen opened
     says opened "s['problems'] == [] and s['frames'] == 6 and s['shown_at_first'] == 5 and s['played_to'] == 5"
+    says opened "s['limits'] == [0, 0.7]"       # of damage, as in cleave plot
     says opened "'frame 0' in s['when_first'] and s['column_added']"
     says opened "s['crack_last'][0] - s['crack_last'][1] > 60 and s['whole_last'] == [226, 228, 231]"
     # What matters comes first: energies, the largest one before others, then the crack; what is not an energy is last in the list.
@@ -187,12 +188,16 @@ solver: static
 steps: {number: 2}
 boundary: [{fixed: all, face: y-}, {displacement: [free, 1 um], face: y+, time: {ramp: {until: 1 s}}}]
 END
+# Particles that a pre-crack has parted and that have not moved apart show no lattice of dots.
+sed -e 's/^name: .*/name: notched/' -e '/^boundary/d' block.yaml >notched.yaml
+echo 'cracks: [{polygon: [[4 mm, -1 mm, -1 mm], [4 mm, 3 mm, -1 mm], [4 mm, 3 mm, 5 mm], [4 mm, -1 mm, 5 mm]]}]' >>notched.yaml
 if [ -n "$browser" ]; then
-    for name in metal steps; do
+    for name in metal steps notched; do
         "$cleave" run $name.yaml -o $name -q --report >out 2>err
         seen $name
     done
     says metal "s['problems'] == [] and s['slits'] < 50 and s['first_field'] == 'plastic_strain'"
+    says notched "s['problems'] == [] and s['bare'] == 0"
     says steps "s['problems'] == [] and s['over'] == 'load step' and s['when_first'] == 'frame 0, load step 0' and s['first_field'] == 'von_mises'"
 fi
 "$cleave" sweep plate.yaml -s particles.spacing=2mm,1mm -s thickness=1mm,2mm -o sweep -q >out 2>err
