@@ -8,26 +8,10 @@
 #include <strings.h>
 
 #include "base/memory.h"
+#include "abaqus_lines.h"
 #include "abaqus_type.h"
 
-enum {
-    FIELD = 96,
-    PARAMETERS_MAX = 16,
-    PARTS_MAX = 256,
-    LABEL_MAX = 999999999,
-    GENERATED_MOST = 16,
-    DEPTH_MAX = 10,
-    PATH_LENGTH = 4096
-};
-
-/* A keyword line: its name and parameters, such as *ELSET, ELSET=grip, GENERATE. */
-struct keyword {
-    char name[FIELD]; /* in capitals, without blanks and star */
-    int n;            /* length of `of` */
-    struct parameter {
-        char name[FIELD], value[FIELD];
-    } of[PARAMETERS_MAX];
-};
+enum { PARTS_MAX = 256, GENERATED_MOST = 16, DEPTH_MAX = 10, PATH_LENGTH = 4096 };
 
 /* A range of nodes and elements whose labels are unique: one part of the deck, or all that is outside parts. */
 struct scope {
@@ -41,8 +25,8 @@ struct scope {
 struct deck {
     struct source *s;
     struct element_mesh *m;
-    struct keyword key; /* the keyword read last */
-    int scopes, now;    /* number of scopes, current scope; scope 0 is outside parts */
+    struct abaqus_keyword key; /* the keyword read last */
+    int scopes, now;           /* number of scopes, current scope; scope 0 is outside parts */
     struct scope *scope;
     int64_t generated; /* members added by GENERATE or from other sets */
     int64_t length;    /* of the deck with the files that it includes so far [byte] */
@@ -50,123 +34,7 @@ struct deck {
     bool in_step;      /* between *STEP and *END STEP, whose loads are not read */
 };
 
-/* ---- lines and fields ------------------------------------------------------------------------------------------ */
-
-/* Returns true if the reading position of s is at the end of a line or of the file. */
-static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
-
-/* Reads the next field of the current line into field[FIELD]: the text up to a comma, without surrounding blanks.
- * Fields of FIELD or more characters are cut. Returns false if the line has no further field; a comma at its end adds
- * none. */
-static bool deck_field(struct source *s, char field[FIELD])
-{
-    size_t n = 0;
-    while (!at_end_of_line(s) && isspace((unsigned char)s->text[s->at])) s->at++;
-    if (at_end_of_line(s)) return false;
-    for (; !at_end_of_line(s) && s->text[s->at] != ','; s->at++)
-        if (n + 1 < FIELD) field[n++] = s->text[s->at];
-    while (n > 0 && isspace((unsigned char)field[n - 1])) n--;
-    field[n] = '\0';
-    if (!at_end_of_line(s)) s->at++;
-    return true;
-}
-
-/* Advances to the next line that is neither empty nor a comment. Returns true if it is a line of data. Returns false if
- * it is a keyword, or at the end of the file. */
-static bool data_line(struct source *s)
-{
-    while (s->at < s->length) {
-        int64_t at = s->at;
-        while (at < s->length && (s->text[at] == ' ' || s->text[at] == '\t' || s->text[at] == '\r')) at++;
-        const bool empty = at >= s->length || s->text[at] == '\n';
-        const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
-        if (!empty && !comment) return s->text[at] != '*';
-        source_skip_to_next_line(s);
-    }
-    return false;
-}
-
-/* Parses a field as a number *value, also with Fortran's exponent letter d. An empty field is 0, as Abaqus
- * prescribes. Returns REFUSED unless it is a finite number. */
-static status deck_real(const struct source *s, const char *field, real *value)
-{
-    char text[FIELD], *end;
-    snprintf(text, sizeof text, "%s", field);
-    for (char *c = text; *c; c++)
-        if (*c == 'd' || *c == 'D') *c = 'e';
-    *value = strtod(text, &end);
-    if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
-    if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
-    return source_report_fault(s, "%.40s is no number", field);
-}
-
-/* Returns true if a field is a label, not the name of a set. */
-static bool is_label(const char *field) { return isdigit((unsigned char)field[0]); }
-
-/* Parses a field as the label of a node or element. Returns REFUSED unless it is a whole number from 0 to LABEL_MAX. */
-static status deck_label(const struct source *s, const char *field, int32_t *label)
-{
-    real value;
-    *label = 0;
-    TRY(deck_real(s, field, &value));
-    if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
-        return source_report_fault(s, "%.40s is no number of a node or an element", field);
-    *label = (int32_t)value;
-    return OK;
-}
-
-/* ---- keywords ------------------------------------------------------------------------------------------------- */
-
-/* Copies the word `from` to to[FIELD] in capitals and without blanks. */
-static void word_plain(char *to, const char *from)
-{
-    size_t n = 0;
-    for (; *from && n + 1 < FIELD; from++)
-        if (!isspace((unsigned char)*from)) to[n++] = (char)toupper((unsigned char)*from);
-    to[n] = '\0';
-}
-
-/* Appends the parameter in `field`, NAME or NAME=VALUE, to a keyword; modifies the field. Parameters beyond
- * PARAMETERS_MAX are ignored. */
-static void parameter_add(struct keyword *k, char *field)
-{
-    char *equals = strchr(field, '=');
-    if (k->n == PARAMETERS_MAX) return;
-    struct parameter *p = &k->of[k->n++];
-    p->value[0] = '\0';
-    if (equals) {
-        *equals++ = '\0';
-        equals += strspn(equals, " \t\"");
-        snprintf(p->value, sizeof p->value, "%.*s", (int)strcspn(equals, "\""), equals);
-    }
-    word_plain(p->name, field);
-}
-
-/* Reads a keyword line into d->key, and stops at its end so that messages name this line. A keyword continues on the
- * next line after a trailing comma. */
-static void keyword_read(struct deck *d)
-{
-    struct source *s = d->s;
-    char field[FIELD];
-    bool more;
-    d->key = (struct keyword){0};
-    deck_field(s, field);
-    word_plain(d->key.name, field + (field[0] == '*'));
-    do {
-        while (deck_field(s, field)) parameter_add(&d->key, field);
-        int64_t last = s->at - 1;
-        while (last > 0 && (s->text[last] == ' ' || s->text[last] == '\r')) last--;
-        more = s->at < s->length && last >= 0 && s->text[last] == ',' && data_line(s);
-    } while (more);
-}
-
-/* Returns the value of the parameter `name` of the current keyword, "" if it has no value; NULL if it is missing. */
-static const char *parameter(const struct deck *d, const char *name)
-{
-    for (int k = 0; k < d->key.n; k++)
-        if (strcmp(d->key.of[k].name, name) == 0) return d->key.of[k].value;
-    return NULL;
-}
+static const char *parameter(const struct deck *d, const char *name) { return abaqus_parameter(&d->key, name); }
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
@@ -190,12 +58,12 @@ static status nodes_read(struct deck *d)
         return source_report_fault(
             d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected", system);
     TRY(set_named(d, "NSET", true, &set));
-    for (char field[FIELD]; data_line(d->s); source_skip_to_next_line(d->s)) {
+    for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         real X[DIM_MAX] = {0};
-        deck_field(d->s, field);
-        TRY(deck_label(d->s, field, &label));
-        for (int k = 0; k < DIM_MAX && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &X[k]));
+        abaqus_read_field(d->s, field);
+        TRY(abaqus_parse_label(d->s, field, &label));
+        for (int k = 0; k < DIM_MAX && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &X[k]));
         TRY(element_mesh_add_node(d->m, d->s, X, label));
         if (set >= 0) element_mesh_add_to_set(d->m, set, label);
     }
@@ -212,20 +80,20 @@ static status element_nodes(struct deck *d, const struct abaqus_shape *size, int
     for (int k = 0; k < ELEMENT_MIDDLES_MAX; k++) middle[k] = 0;
     for (int k = 0; k < size->nodes;) {
         int32_t label;
-        if (!deck_field(d->s, field)) {
+        if (!abaqus_read_field(d->s, field)) {
             source_skip_to_next_line(d->s);
-            if (!data_line(d->s))
+            if (!abaqus_find_data_line(d->s))
                 return source_report_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
             continue;
         }
-        TRY(deck_label(d->s, field, &label));
+        TRY(abaqus_parse_label(d->s, field, &label));
         int slot = k - corners;
         if (size->nodes == 27 && slot >= edges) slot = slot == edges ? -1 : slot - 1;
         if (k < corners) node[k] = label;
         if (k >= corners && slot >= 0) middle[slot] = label;
         k++;
     }
-    if (!deck_field(d->s, field) || field[0] == '\0') return OK;
+    if (!abaqus_read_field(d->s, field) || field[0] == '\0') return OK;
     return source_report_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes,
                                field);
 }
@@ -236,7 +104,7 @@ static status elements_read(struct deck *d)
 {
     int set;
     char type[FIELD], field[FIELD];
-    word_plain(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
+    abaqus_plain_word(type, parameter(d, "TYPE") ? parameter(d, "TYPE") : "");
     const struct abaqus_shape *size;
     TRY(abaqus_shape_of_type(&size, d->s, type));
     TRY(set_named(d, "ELSET", false, &set));
@@ -245,10 +113,10 @@ static status elements_read(struct deck *d)
         text_replace_control_characters(d->m->skipped);
         return OK;
     }
-    for (; data_line(d->s); source_skip_to_next_line(d->s)) {
+    for (; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label, node[ELEMENT_CORNERS_MAX], middle[ELEMENT_MIDDLES_MAX];
-        deck_field(d->s, field);
-        TRY(deck_label(d->s, field, &label));
+        abaqus_read_field(d->s, field);
+        TRY(abaqus_parse_label(d->s, field, &label));
         TRY(element_nodes(d, size, node, middle));
         TRY(element_mesh_add_element(d->m, d->s, size->kind, node, label));
         if (size->nodes > element_corners[size->kind]) element_mesh_set_middle_nodes_of_last_element(d->m, middle);
@@ -265,7 +133,7 @@ static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
     char field[FIELD];
-    for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_label(d->s, field, &bound[k]));
+    for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_label(d->s, field, &bound[k]));
     if (bound[2] < 1 || bound[1] < bound[0]) return source_report_fault(d->s, "first, last and step are expected");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->length)
@@ -322,19 +190,19 @@ static status set_read(struct deck *d, bool of_nodes)
     const bool generate = parameter(d, "GENERATE") != NULL;
     TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
     if (set < 0) return source_report_fault(d->s, "a set without a name");
-    for (char field[FIELD]; data_line(d->s); source_skip_to_next_line(d->s)) {
+    for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         if (generate) {
             TRY(generate_line(d, set));
             continue;
         }
-        while (deck_field(d->s, field)) {
+        while (abaqus_read_field(d->s, field)) {
             if (field[0] == '\0') continue;
-            if (!is_label(field)) {
+            if (!abaqus_is_label(field)) {
                 TRY(set_join(d, set, field, of_nodes));
                 continue;
             }
-            TRY(deck_label(d->s, field, &label));
+            TRY(abaqus_parse_label(d->s, field, &label));
             element_mesh_add_to_set(d->m, set, label);
         }
     }
@@ -422,12 +290,12 @@ static status instance_read(struct deck *d)
     if (p->placed)
         return source_report_fault(d->s, "part %.40s is in the assembly twice; a part of its own for each is expected",
                                    p->name);
-    if (data_line(d->s)) {
-        for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
+    if (abaqus_find_data_line(d->s)) {
+        for (int k = 0; k < 3 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &shift[k]));
         source_skip_to_next_line(d->s);
     }
-    if (data_line(d->s))
-        for (int k = 0; k < 7 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &turn[k]));
+    if (abaqus_find_data_line(d->s))
+        for (int k = 0; k < 7 && abaqus_read_field(d->s, field); k++) TRY(abaqus_parse_real(d->s, field, &turn[k]));
     const bool turns = turn[6] != 0 && memcmp(turn, turn + 3, 3 * sizeof *turn) != 0;
     for (int64_t k = p->node; k < p->node_end; k++) {
         for (int a = 0; a < DIM_MAX; a++) d->m->node[k][a] += shift[a];
@@ -442,27 +310,43 @@ static status instance_read(struct deck *d)
 
 static status keywords_read(struct deck *d);
 
-/* Reads the keywords of the file that *INCLUDE names, sought in the folder of the file that includes it. Returns
- * REFUSED if it cannot be read, does not begin with a keyword, or if files include each other without end. */
-static status include_read(struct deck *d)
+/* Calls read(d) for the file that the parameter INPUT of the current keyword names, sought in the folder of the file
+ * that names it. keywords: true if the file has keywords, as that of *INCLUDE; false if it has the data lines of the
+ * current keyword. Returns REFUSED if the file cannot be read or has the other kind of lines, or if files include each
+ * other without end. */
+static status input_read(struct deck *d, status (*read)(struct deck *d), bool keywords)
 {
     const char *name = parameter(d, "INPUT"), *folder = d->s->path, *slash = strrchr(folder, '/');
     struct source file, *const outer = d->s;
-    char path[PATH_LENGTH];
-    if (!name || !*name) return source_report_fault(d->s, "*INCLUDE without INPUT, the name of a file");
+    char path[PATH_LENGTH], keyword[FIELD];
+    snprintf(keyword, sizeof keyword, "%s", d->key.name);
+    if (!name || !*name) return source_report_fault(d->s, "*%s without INPUT, the name of a file", keyword);
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
         return source_report_fault(d->s, "the name of an included file is too long");
     if (d->depth >= DEPTH_MAX) return source_report_fault(d->s, "more than %d files include each other", DEPTH_MAX);
     if (source_read_whole_file(&file, path) != OK)
-        return source_report_fault(d->s, "*INCLUDE: %.200s", status_message());
+        return source_report_fault(d->s, "*%s: %.200s", keyword, status_message());
     d->s = &file, d->depth++, d->length += file.length;
-    status s =
-        data_line(&file) ? source_report_fault(&file, "an included file begins with a keyword, such as *NODE") : OK;
-    if (s == OK) s = keywords_read(d);
+    status s = OK;
+    if (keywords && abaqus_find_data_line(&file))
+        s = source_report_fault(&file, "an included file begins with a keyword, such as *NODE");
+    if (s == OK) s = read(d);
+    while (s == OK && abaqus_find_data_line(&file)) source_skip_to_next_line(&file); /* of types that are left out */
+    if (s == OK && file.at < file.length)
+        s = source_report_fault(&file, "a keyword among the data lines of *%.40s; data lines alone are expected",
+                                keyword);
     d->s = outer, d->depth--;
     source_close(&file);
     return s;
+}
+
+/* Reads the data lines of the current keyword, *NODE, *ELEMENT, *NSET or *ELSET. Returns REFUSED for invalid data. */
+static status data_read(struct deck *d)
+{
+    const char *name = d->key.name;
+    if (strcmp(name, "NODE") == 0) return nodes_read(d);
+    return strcmp(name, "ELEMENT") == 0 ? elements_read(d) : set_read(d, strcmp(name, "NSET") == 0);
 }
 
 /* Reads the data lines of the current keyword, or skips them if it has no meaning for the mesh. Returns REFUSED for
@@ -470,23 +354,18 @@ static status include_read(struct deck *d)
 static status keyword_follow(struct deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"};
-    const char *name = d->key.name, *file = parameter(d, "INPUT");
+    const char *name = d->key.name;
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
             return source_report_fault(
                 d->s, "keyword *%s is not supported; a deck that lists all nodes and elements in x, y, z is expected",
                 name);
-    const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
-    const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
     if (strcmp(name, "STEP") == 0) d->in_step = true;
     if (strcmp(name, "ENDSTEP") == 0) d->in_step = false;
-    if (strcmp(name, "INCLUDE") == 0) return d->in_step ? OK : include_read(d); /* files of steps have loads */
-    if (file && (node || element || nset || elset))
-        return source_report_fault(d->s, "*%s reads %.60s; one file is expected: put the lines of %.60s here", name,
-                                   file, file);
-    if (node) return nodes_read(d);
-    if (element) return elements_read(d);
-    if (nset || elset) return set_read(d, nset);
+    if (strcmp(name, "INCLUDE") == 0) /* files of steps have loads */
+        return d->in_step ? OK : input_read(d, keywords_read, true);
+    if (!strcmp(name, "NODE") || !strcmp(name, "ELEMENT") || !strcmp(name, "NSET") || !strcmp(name, "ELSET"))
+        return parameter(d, "INPUT") ? input_read(d, data_read, false) : data_read(d);
     if (strcmp(name, "PART") == 0) return scope_change(d, parameter(d, "NAME"));
     if (strcmp(name, "ENDPART") == 0) return scope_change(d, NULL);
     if (strcmp(name, "INSTANCE") == 0) return instance_read(d);
@@ -497,10 +376,10 @@ static status keyword_follow(struct deck *d)
 static status keywords_read(struct deck *d)
 {
     while (source_skip_blanks(d->s)) {
-        while (data_line(d->s)) source_skip_to_next_line(d->s); /* data lines of a skipped keyword */
+        while (abaqus_find_data_line(d->s)) source_skip_to_next_line(d->s); /* data lines of a skipped keyword */
         if (d->s->at >= d->s->length) break;
         source_skip_blanks(d->s);
-        keyword_read(d);
+        abaqus_read_keyword(d->s, &d->key);
         TRY(keyword_follow(d));
     }
     return OK;

@@ -1,0 +1,114 @@
+/* Lines, fields and keywords of Abaqus .inp files. */
+#include "abaqus_lines.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LABEL_MAX = 999999999 };
+
+/* ---- lines and fields ------------------------------------------------------------------------------------------ */
+
+/* Returns true if the reading position of s is at the end of a line or of the file. */
+static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
+
+bool abaqus_read_field(struct source *s, char field[FIELD])
+{
+    size_t n = 0;
+    while (!at_end_of_line(s) && isspace((unsigned char)s->text[s->at])) s->at++;
+    if (at_end_of_line(s)) return false;
+    for (; !at_end_of_line(s) && s->text[s->at] != ','; s->at++)
+        if (n + 1 < FIELD) field[n++] = s->text[s->at];
+    while (n > 0 && isspace((unsigned char)field[n - 1])) n--;
+    field[n] = '\0';
+    if (!at_end_of_line(s)) s->at++;
+    return true;
+}
+
+bool abaqus_find_data_line(struct source *s)
+{
+    while (s->at < s->length) {
+        int64_t at = s->at;
+        while (at < s->length && (s->text[at] == ' ' || s->text[at] == '\t' || s->text[at] == '\r')) at++;
+        const bool empty = at >= s->length || s->text[at] == '\n';
+        const bool comment = at + 1 < s->length && s->text[at] == '*' && s->text[at + 1] == '*';
+        if (!empty && !comment) return s->text[at] != '*';
+        source_skip_to_next_line(s);
+    }
+    return false;
+}
+
+status abaqus_parse_real(const struct source *s, const char *field, real *value)
+{
+    char text[FIELD], *end;
+    snprintf(text, sizeof text, "%s", field);
+    for (char *c = text; *c; c++)
+        if (*c == 'd' || *c == 'D') *c = 'e';
+    *value = strtod(text, &end);
+    if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
+    if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
+    return source_report_fault(s, "%.40s is no number", field);
+}
+
+bool abaqus_is_label(const char *field) { return isdigit((unsigned char)field[0]); }
+
+status abaqus_parse_label(const struct source *s, const char *field, int32_t *label)
+{
+    real value;
+    *label = 0;
+    TRY(abaqus_parse_real(s, field, &value));
+    if (!(value >= 0 && value <= LABEL_MAX && value == floor(value)))
+        return source_report_fault(s, "%.40s is no number of a node or an element", field);
+    *label = (int32_t)value;
+    return OK;
+}
+
+/* ---- keywords ------------------------------------------------------------------------------------------------- */
+
+void abaqus_plain_word(char *to, const char *from)
+{
+    size_t n = 0;
+    for (; *from && n + 1 < FIELD; from++)
+        if (!isspace((unsigned char)*from)) to[n++] = (char)toupper((unsigned char)*from);
+    to[n] = '\0';
+}
+
+/* Appends the parameter in `field`, NAME or NAME=VALUE, to a keyword; modifies the field. Parameters beyond
+ * PARAMETERS_MAX are ignored. */
+static void parameter_add(struct abaqus_keyword *k, char *field)
+{
+    char *equals = strchr(field, '=');
+    if (k->n == PARAMETERS_MAX) return;
+    struct parameter *p = &k->of[k->n++];
+    p->value[0] = '\0';
+    if (equals) {
+        *equals++ = '\0';
+        equals += strspn(equals, " \t\"");
+        snprintf(p->value, sizeof p->value, "%.*s", (int)strcspn(equals, "\""), equals);
+    }
+    abaqus_plain_word(p->name, field);
+}
+
+void abaqus_read_keyword(struct source *s, struct abaqus_keyword *keyword)
+{
+    char field[FIELD];
+    bool more;
+    *keyword = (struct abaqus_keyword){0};
+    abaqus_read_field(s, field);
+    abaqus_plain_word(keyword->name, field + (field[0] == '*'));
+    do {
+        while (abaqus_read_field(s, field)) parameter_add(keyword, field);
+        int64_t last = s->at - 1;
+        while (last > 0 && (s->text[last] == ' ' || s->text[last] == '\r')) last--;
+        more = s->at < s->length && last >= 0 && s->text[last] == ',' && abaqus_find_data_line(s);
+    } while (more);
+}
+
+const char *abaqus_parameter(const struct abaqus_keyword *keyword, const char *name)
+{
+    for (int k = 0; k < keyword->n; k++)
+        if (strcmp(keyword->of[k].name, name) == 0) return keyword->of[k].value;
+    return NULL;
+}
