@@ -227,6 +227,17 @@ plain("a time that is no number", "time: ", lambda: run.frames.at(float("nan")))
 plain("a time beyond the run", "time: 1 s is not in the run, whose frames are from 0 to 6e-06 s", lambda: run.frames.at(1.0))
 plain("a slice beyond the body", "no particle at x = 1 m; they are from 0.0005 to 0.0195 m", lambda: frame.slice(x=1.0))
 plain("a negative thickness", "thickness: ", lambda: frame.slice(x=5e-3, thickness=-1e-3))
+plain("an axis that a plane frame does not have", "slice: this frame has x and y, no z", lambda: frame.slice(z=0))
+plain("text as a position", "x: a number [m], not '5 mm'", lambda: frame.slice(x="5 mm"))
+plain("text as a thickness", "thickness: a number from 0 [m], not '1 mm'", lambda: frame.slice(x=5e-3, thickness="1 mm"))
+plain("text as a time", "time: a number [s], not '2 us'", lambda: run.frames.at("2 us"))
+plain("text as threads", "threads: a whole number, not 'two'", lambda: cleave.run(scene, threads="two"))
+plain("a share of a job", "jobs: a whole number, not 1.5", lambda: cleave.sweep(scene, {"method": ["pd", "mpm"]}, jobs=1.5))
+plain("a budget that is no time", "budget: a number [s] or text", lambda: cleave.converge(scene, budget=[5]))
+try:
+    frame[["damage", "body"]]
+except IndexError as fault:
+    holds("several names: %s" % fault, "the name of a field, or a mask" in str(fault))
 try:
     import pandas
     table = empty.to_pandas()
@@ -240,6 +251,7 @@ except ImportError:
     matplotlib = None
 if matplotlib:
     plain("no particles", "no particles to draw", lambda: empty.plot("damage"))
+    plain("magnify='ten'", "magnify: a number from 0, not 'ten'", lambda: run.plot(magnify="ten"))
     plain("magnify=-1", "magnify: a number from 0, not -1", lambda: run.plot(magnify=-1))
     for limits in ((1, 0), (0, 0), (0, np.nan), (0,), 5e6, ("0 MPa", "5 MPa")):
         plain("limits", "limits: two numbers in the SI unit of the field, the lower one first", lambda: run.plot("damage", limits=limits))

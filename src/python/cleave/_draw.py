@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._errors import need
+from ._errors import need, number_of
 from ._fields import components, scale_of
 from ._rigid import outlines_of
 from ._shape import corners_of, crack_faces
@@ -47,14 +47,16 @@ def _name_of(frame: Any, field: Optional[str]) -> str:
 
 
 def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
-    """Returns one number for each particle, what it is in words, and its unit. A vector is shown by its length, principal
-    stresses by the largest one. Raises KeyError for a tensor."""
+    """Returns one number for each particle, what it is in words, and its unit. A vector is shown by its length, in a bar by its component
+    along it, principal stresses by the largest one. Raises KeyError for a tensor."""
     values, words, unit = frame[name], name.replace("_", " "), frame.unit(name)
     if values.ndim > 1 and values.shape[1] == 6:
         parts = ", ".join("%s_%s" % (name, part) for part in components(name, values))
         raise KeyError("%s: it has several components, draw one of %s" % (name, parts))
     if name == "principal_stress":
         return values[:, 0], "principal stress", unit                # the largest one
+    if values.ndim > 1 and frame.dimension == 1:
+        return values[:, 0].astype(float), words + " x", unit
     if values.ndim > 1:
         return np.linalg.norm(values[:, :3], axis=1), "|%s|" % words, unit
     return values.astype(float), {"von_mises": "von Mises stress"}.get(name, words), unit
@@ -171,8 +173,7 @@ def _check(frame: Any, magnify: float, limits: Any, colours: Optional[str]) -> N
     """Raises ValueError for a frame without particles, and for options that mean nothing."""
     if len(frame) == 0:
         raise ValueError("no particles to draw")
-    if not (np.isfinite(magnify) and magnify >= 0):
-        raise ValueError("magnify: a number from 0, not %g" % magnify)
+    number_of(magnify, "magnify", "a number from 0", 0.0)
     if limits is not None:
         try:
             low, high = (float(end) for end in limits)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import importlib
+import math
 import re
 from types import ModuleType
-from typing import Optional
+from typing import Any, Optional
 
 PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): (?P<message>.*)", re.S)
 MISSING = re.compile(r"(?P<key>\w+): missing(?: in [^;]*)?;")
@@ -55,6 +56,26 @@ class SceneError(Error):
 
 _OPTIONS = ((r"another -o\b", "another output"), (r"--(overwrite|resume)\b", r"\1=True"), (r"--(levels|runs|budget|of)\b", r"\1"),
             (r"^-s (?=\S+=)", ""))
+
+
+def number_of(value: Any, name: str, wanted: str = "a number", least: float = -math.inf) -> float:
+    """Returns an argument as a number. name, wanted: its name and what it is, for the message. Raises ValueError for what is no finite
+    number, as text, or a number below `least`."""
+    try:
+        number = math.nan if isinstance(value, (str, bytes)) else float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if math.isfinite(number) and number >= least:
+        return number
+    raise ValueError("%s: %s, not %s" % (name, wanted, "%g" % number if isinstance(value, float) else repr(value)))
+
+
+def count_of(value: Any, name: str) -> str:
+    """Returns an argument that is a number of things as text. Raises ValueError, with its name, for what is no whole number."""
+    number = number_of(value, name, "a whole number")
+    if number != int(number):
+        raise ValueError("%s: a whole number, not %g" % (name, number))
+    return str(int(number))
 
 
 def in_python(text: str) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import Error, need
+from ._errors import Error, need, number_of
 from ._fields import DERIVED, UNITS, components
 
 if TYPE_CHECKING:
@@ -191,7 +191,10 @@ class Frame:
         stress and velocity if they are not stored. Raises KeyError with the names that are there.
         """
         if not isinstance(which, str):
-            rows = np.arange(len(self))[which]
+            try:
+                rows = np.arange(len(self))[which]
+            except IndexError:
+                raise IndexError("frame[...]: the name of a field, or a mask or indices of its %d particles" % len(self)) from None
             return Frame(self.path, self.time, np.atleast_1d(rows if self._rows is None else self._rows[rows]))
         values = self._found(which)
         if values is None and "_" in which:
@@ -218,14 +221,16 @@ class Frame:
         thickness  of the layer [m]; default: the layers of particles that the plane cuts; of a plane midway between two
                    layers the upper one
 
-        Raises ValueError for a plane that no particle is at.
+        Raises ValueError for a plane that no particle is at, and along an axis that the frame does not have.
         """
         given = [(k, at) for k, at in enumerate((x, y, z)) if at is not None]
         if len(given) != 1:
             raise ValueError("slice takes one of x, y, z [m]")
-        axis, at = given[0]
-        if thickness is not None and not thickness >= 0:
-            raise ValueError("thickness: a number from 0 [m], not %r" % (thickness,))
+        axis, at = given[0][0], number_of(given[0][1], "xyz"[given[0][0]], "a number [m]")
+        if axis >= self.dimension:
+            raise ValueError("slice: this frame has %s, no %s" % (["x alone", "x and y"][self.dimension - 1], "xyz"[axis]))
+        if thickness is not None:
+            thickness = number_of(thickness, "thickness", "a number from 0 [m]", 0.0)
         places = self.reference[:, axis]
         distance = places - at
         tiny = 1e-6 * self.spacing
@@ -305,13 +310,12 @@ class Frames(collections.abc.Sequence):
         before the first or after the last frame by more than half an interval between frames."""
         if not self._listed:
             raise IndexError("the run has no frames yet")
-        if np.isnan(float(time)):
-            raise ValueError("time: a number [s], not nan")
+        time = number_of(time, "time", "a number [s]")
         times = self.times
         room = 0.5 * float(np.diff(times).max(initial=0.0)) + 1e-9 * float(np.abs(times).max())
-        if not times.min() - room <= float(time) <= times.max() + room:
+        if not times.min() - room <= time <= times.max() + room:
             raise ValueError("time: %g s is not in the run, whose frames are from %g to %g s" % (time, times.min(), times.max()))
-        return self[int(np.argmin(np.abs(times - float(time))))]
+        return self[int(np.argmin(np.abs(times - time)))]
 
     def __len__(self) -> int:
         return len(self._listed)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ._errors import need
+from ._errors import need, number_of
 from ._shape import corners_of
 
 _VERTEX = 1
@@ -21,6 +21,7 @@ def grid_of(frame: Any, cells: str, magnify: float) -> Any:
     from vtkmodules.vtkCommonCore import vtkPoints
     if cells not in ("points", "boxes"):
         raise ValueError('cells: "points" or "boxes", not %r' % (cells,))
+    number_of(magnify, "magnify", "a number from 0", 0.0)
     count, dim = len(frame), frame.dimension
     if cells == "points":
         kind, corners = _VERTEX, 1

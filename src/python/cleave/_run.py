@@ -225,8 +225,8 @@ class Run:
         """Draws a field of a frame by matplotlib and returns the axes. Each particle is drawn with the shape that it has been
         deformed to, solids as a section, bars as a curve; rigid bodies are outlines. Axes are in m, mm or µm.
 
-        field       name as of frame[...]; a vector is drawn by its length. Default: damage if
-                    bonds are broken, else plastic strain if there is any, else von Mises stress
+        field       name as of frame[...]; a vector is drawn by its length, of a bar by its component along it. Default:
+                    damage if bonds are broken, else plastic strain if there is any, else von Mises stress
         time        frame nearest to this time [s], within the run; default: the last one
         ax          axes to draw into; default: new ones
         magnify     factor on displacements [1]

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optio
 
 import numpy as np
 
-from ._errors import MISSING, PLACE, Error, SceneError, in_python
+from ._errors import MISSING, PLACE, Error, SceneError, count_of, in_python, number_of
 from ._program import Progress, call_fully, value_text
 from ._run import Run
 from ._yaml import scene_text
@@ -158,7 +158,7 @@ def _scene_of(scene: Union[Path, Scene, Mapping[str, Any]], changes: Optional[Ma
 
 
 def _threads(threads: Optional[int]) -> List[str]:
-    return [] if threads is None else ["-t", str(int(threads))]
+    return [] if threads is None else ["-t", count_of(threads, "threads")]
 
 
 def _finish(command: str, scene: Scene, words: Iterable[Any], output: Optional[Path], said: str, quiet: bool, progress: Callback) -> Run:
@@ -212,7 +212,7 @@ def sweep(scene: Union[Path, Scene, Mapping[str, Any]], values: Mapping[str, Any
     for key, listed in values.items():
         many = isinstance(listed, (list, tuple, np.ndarray, range))
         words += ["-s", "%s=%s" % (key, ",".join(value_text(value) for value in listed) if many else value_text(listed))]
-    words += _threads(threads) + (["-j", str(int(jobs))] if jobs else []) + ["--overwrite"] * bool(overwrite)
+    words += _threads(threads) + (["-j", count_of(jobs, "jobs")] if jobs else []) + ["--overwrite"] * bool(overwrite)
     return _finish("sweep", _scene_of(scene, overrides), words, output, r"table: (.*)/sweep\.csv$", quiet, progress)
 
 
@@ -235,9 +235,9 @@ def converge(scene: Union[Path, Scene, Mapping[str, Any]], of: Union[str, Iterab
     Other arguments and exceptions: run.
     """
     words = [word for figure in ([of] if isinstance(of, str) else of) for word in ("--of", figure)]
-    for option, value in (("--levels", levels), ("--runs", runs), ("-j", jobs)):
-        words += [] if value is None else [option, str(int(value))]
+    for option, name, value in (("--levels", "levels", levels), ("--runs", "runs", runs), ("-j", "jobs", jobs)):
+        words += [] if value is None else [option, count_of(value, name)]
     if budget is not None:
-        words += ["--budget", budget.replace(" ", "") if isinstance(budget, str) else "%.6gs" % budget]
+        words += ["--budget", budget.replace(" ", "") if isinstance(budget, str) else "%.6gs" % number_of(budget, "budget", 'a number [s] or text, as "5 min"')]
     words += _threads(threads) + ["--horizon"] * bool(horizon) + ["--overwrite"] * bool(overwrite)
     return _finish("converge", _scene_of(scene, overrides), words, output, r"^all figures in (.*)/converge\.csv$", quiet, progress)
