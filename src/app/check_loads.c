@@ -219,7 +219,7 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
     for (int64_t k = 0; k < l->n; k++)
         area += l->boundary->kind == BOUNDARY_ABSORBING ? l->outer[k] : l->share[l->boundary->face][k];
     printf(", %.4g m^2", area);
-    if (face_exact(scene, l->boundary, &exact) && fabs(area / exact - 1) > 1e-6)
+    if (face_exact(scene, l->boundary, &exact) && fabs(area / exact - 1) >= OFF_LEAST)
         printf(" (%.2f %% %s than the face of its box)", 100 * fabs(area / exact - 1), area > exact ? "more" : "less");
 }
 

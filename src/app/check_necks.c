@@ -7,16 +7,15 @@
 
 #include "base/arrays.h"
 #include "base/memory.h"
+#include "check_parts.h"
 #include "check_uneven.h"
 #include "scene/fill.h"
 
 #define NARROW 12       /* rows; in wider necks one row is less than the reported errors */
 #define COVERED 0.02    /* least share of a covered cell */
 #define WITHIN 1e-6     /* least depth of a point that is not on the surface [spacings] */
-#define OFF_LEAST 0.02  /* least relative error that is reported, in the mean and at the narrowest chord, */
-#define OFF_CURVED 0.05 /* ... and if the sides are curved or slanted, which lattices follow in steps */
+#define OFF_CURVED 0.05 /* least relative error that is reported if the sides are curved or slanted */
 #define GROWTH 0.25     /* least increase of the width on both sides of a neck [spacings] */
-#define LENGTH_OFF 0.02 /* least relative error of lengths in 1D that is reported */
 #define POINTS_MOST 4e6 /* largest number of points of pieces in 1D; more take too long */
 enum {
     LONGEST = 64,   /* largest number of columns with one number of rows; more are a part, not a neck */
@@ -411,7 +410,7 @@ void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *
 }
 
 /* Compares the length of a part of a 1D body, from `low` to `high` [m], with the length that its particles represent:
- * their number times the spacing. Adds the part to the list if the relative difference exceeds LENGTH_OFF. first:
+ * their number times the spacing. Adds the part to the list if the relative difference exceeds OFF_LEAST. first:
  * coordinate of a particle of the body's lattice [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {
@@ -422,7 +421,7 @@ static void length_judge(struct uneven_list *list, real low, real high, real fir
                              .filled = rows * h,
                              .at = {0.5 * (low + high)},
                              .measured = true};
-    if (fabs(u.off) > LENGTH_OFF) uneven_list_add_narrow_part(list, &u, false);
+    if (fabs(u.off) > OFF_LEAST) uneven_list_add_narrow_part(list, &u, false);
 }
 
 void uneven_list_add_parts_of_1d_body(struct uneven_list *list)

@@ -8,6 +8,11 @@
 #include "arguments.h"
 #include "engine/engine.h"
 
+/* Least relative error of a length, an area or a volume of the particles that is reported [1]. Loads, stiffnesses and
+ * masses have the same error; below 2 % it is less than what the usual resolution leaves of stress-intensity factors,
+ * so that nobody would change the spacing for it. */
+#define OFF_LEAST 0.02
+
 /* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
 
 /* Basis of the estimated run time. COST_TRIED: all steps were done and measured. COST_SCALED: the first steps were

@@ -8,8 +8,7 @@
 #include "check_parts.h"
 #include "check_uneven.h"
 
-#define OFF_LEAST 0.02    /* least relative error of the area of sections that is reported, */
-#define OFF_SLANTING 0.05 /* ... and if faces are slanting or curved, which steps follow with this error */
+#define OFF_SLANTING 0.05 /* least relative error of sections that is reported if faces are slanting or curved */
 #define ALIKE 0.2         /* largest relative difference in area of the sections of one part, */
 #define EVEN 0.04         /* ... and of sections with faces along the axis */
 #define COVERED 0.02      /* least share of a covered cell */

@@ -211,7 +211,7 @@ body: {mesh: {file: arc.inp, unit: m}}
 particles: {spacing: 20 mm}
 END
 says "a ring of one element" 'encloses 2.328 m^2' "$work/arc.yaml"
-between "its particles" "$(awk '/^filled/ { print $7 }' "$work/said")" 0.2316 0.2340
+between "its particles, of 4e-4 m^2" "$(awk '/^particles/ { print $2 + 0 }' "$work/said")" 5790 5850
 
 # ---- faces -------------------------------------------------------------------------------------------------------------
 
