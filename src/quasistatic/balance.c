@@ -197,7 +197,7 @@ static status solve_whole(struct run *e, real t)
             memory_archive_free(&saved);
             return solved;
         }
-        trial_equilibrium_undo(e, &saved, NULL);
+        trial_equilibrium_end(e, &saved, false, NULL);
     }
     return status_set(FAILED,
                       "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached: "

@@ -152,7 +152,7 @@ static status increment_find_now(struct run *e, real stressed)
         tried = increment_break_try(e, &second);
         if (second.cost > 0) s->behind = increment_extrapolate_before_first(&s->ahead, &second);
     }
-    trial_equilibrium_undo(e, &saved, &s->next);
+    trial_equilibrium_end(e, &saved, false, &s->next);
     s->next.n = bonds;
     s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);
     return tried;
@@ -185,12 +185,9 @@ static status increment_find_at_due(struct run *e)
         s->next.n = 0;
         if (found == OK) found = increment_find_now(e, 0);
     }
-    if (s->particles == particles)
-        trial_equilibrium_undo(e, &saved, NULL);
-    else {
-        memory_archive_free(&saved); /* converted points cannot be restored */
-        if (found == OK) found = equilibrium_find_at_time(e, from);
-    }
+    const bool converted = s->particles != particles; /* points that converted cannot be restored */
+    trial_equilibrium_end(e, &saved, converted, NULL);
+    if (converted && found == OK) found = equilibrium_find_at_time(e, from);
     return found == OK && s->next.n == 0 ? increment_find_now(e, stretch_ratio_of_trial(s)) : found;
 }
 

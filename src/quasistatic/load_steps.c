@@ -80,9 +80,8 @@ static status approach_loads(struct run *e, real t)
             const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
             t = real_max(from,
                          statics_time_of_load_size(e, low + share * (statics_norm_of_prescribed_loads(e, t) - low)));
-            trial_equilibrium_undo(e, &saved, NULL);
-        } else
-            memory_archive_free(&saved);
+        }
+        trial_equilibrium_end(e, &saved, !far, NULL);
         TRY(gone);
     }
     if (far) TRY(equilibrium_find_at_time(e, t));
@@ -185,10 +184,7 @@ static status step_by_opening(struct run *e)
         trial_equilibrium_begin(e, &saved);
         const status found = opening_go_to(e, wanted, t);
         t = e->statics->t;
-        if (found == OK)
-            trial_equilibrium_undo(e, &saved, NULL);
-        else
-            memory_archive_free(&saved);
+        trial_equilibrium_end(e, &saved, found != OK, NULL);
         TRY(found);
     }
     if (e->statics->next.n == 0) TRY(approach_loads(e, t));

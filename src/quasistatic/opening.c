@@ -104,10 +104,7 @@ static status find_opening_of_yielding_body(struct run *e, real wanted, real t, 
         t = found == OK ? opening_search_next(&search, tried, *at - wanted) : tried;
         ends = k + 1 == BRACKETS_MOST || t == tried;
         const bool kept = opening_is_near(*at, wanted, ends ? OPENING_FAR : OPENING_ERROR);
-        if (found != OK || kept)
-            memory_archive_free(&saved);
-        else
-            trial_equilibrium_undo(e, &saved, NULL);
+        trial_equilibrium_end(e, &saved, found != OK || kept, NULL);
         TRY(found);
         ends |= kept;
     }

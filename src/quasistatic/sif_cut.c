@@ -187,7 +187,7 @@ static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct
     trial_equilibrium_begin(e, &saved);
     status tried = list_break_try(e, l, &tip->ahead);
     if (tried == OK && tip->grown == 0) tried = behind_first_set(e, tip);
-    trial_equilibrium_undo(e, &saved, l);
+    trial_equilibrium_end(e, &saved, false, l);
     return tried;
 }
 
@@ -239,7 +239,7 @@ static status increment_try_together(struct run *e)
     if (selected < 2) return OK;
     trial_equilibrium_begin(e, &saved);
     const status tried = list_break_try(e, &s->next, &s->ahead);
-    trial_equilibrium_undo(e, &saved, &s->next);
+    trial_equilibrium_end(e, &saved, false, &s->next);
     for (int k = 0; k < s->sif.n && separate > 0; k++)
         if (s->sif.tip[k].selected) s->sif.tip[k].ahead.release *= s->ahead.release / separate;
     if (grown) s->due = increments_joint_energy_balance_load_size(&s->ahead, &s->behind);

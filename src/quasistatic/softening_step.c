@@ -183,10 +183,10 @@ static status step_try(struct run *e, real t, real spent)
     if (found != OK) {
         work_account_free(&account);
         softening_restore_equilibrium_stretches(&e->bonds);
-        trial_equilibrium_undo(e, &saved, NULL);
+        trial_equilibrium_end(e, &saved, false, NULL);
         return found;
     }
-    memory_archive_free(&saved);
+    trial_equilibrium_end(e, &saved, true, NULL);
     family_losses_add(&e->bonds, &e->part, &e->loads, account.x);
     work_account_end_and_estimate_error(&account, s, &e->part, &e->loads, 0);
     const real lost = e->loads.work + e->loads.constraint_work - worked + stored -

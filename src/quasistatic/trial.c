@@ -32,8 +32,12 @@ void trial_equilibrium_begin(struct run *e, struct memory_archive *m)
     INVARIANT(saved == OK);
 }
 
-void trial_equilibrium_undo(struct run *e, struct memory_archive *m, const struct break_list *broken_bonds)
+void trial_equilibrium_end(struct run *e, struct memory_archive *m, bool kept, const struct break_list *broken_bonds)
 {
+    if (kept) {
+        memory_archive_free(m);
+        return;
+    }
     if (broken_bonds) bonds_restore_broken(e->statics, &e->bonds, &e->part, broken_bonds);
     memory_archive_rewind_for_loading(m);
     const status restored = trial_archive(e, &m->archive);

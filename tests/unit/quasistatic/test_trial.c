@@ -49,9 +49,9 @@ static void test_trial_within_trial(void **state)
     flow(&e, 0.25);
     trial_equilibrium_begin(&e, &inner);
     flow(&e, 0.5);
-    trial_equilibrium_undo(&e, &inner, NULL);
+    trial_equilibrium_end(&e, &inner, false, NULL);
     expect(&e, 0.375);
-    trial_equilibrium_undo(&e, &outer, NULL);
+    trial_equilibrium_end(&e, &outer, false, NULL);
     expect(&e, 0.125);
     flow(&e, 0.5);
     plastic_state_restore(&e.statics->plastic, &e.bonds, &e.part, e.optional);
