@@ -57,6 +57,10 @@ struct convergence {
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
                                         const int *level, int run_count, int level_count, const double *resolution);
 
+/* Computes mean, standard deviation and error of the mean of the figure value[run_count] of runs that differ by chance
+ * alone, such as by a random seed, and stores them in *l. Values that are not finite are left out. */
+void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count);
+
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
  * probability `probability` [1], from the means of all spacing levels and their errors (convergence_interval.c).
  * `centre` and the result have the unit of the figure. */

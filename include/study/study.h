@@ -230,6 +230,12 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
+/* Prints a line for each figure that study_draw_results_over_keys draws, with mean, standard deviation and half of the
+ * 95 % interval of the mean over the runs, if the only varied key of the study is a random seed; else prints nothing.
+ * Arguments as there. Returns REFUSED if there is no such figure. */
+status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
+                                    const struct varied_key *key, int keys, const char *const *result, int results);
+
 /* Draws figures of a study (numbers in summary.json) over the values of each of its varied keys, as pictures/KEY.png in
  * the folder of the study, and over two keys as pictures/map.png. key[keys]: keys of the study and their values;
  * result[results]: names of the figures, up to six; if results is 0, the first ones that differ between runs are drawn.

@@ -113,8 +113,8 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Reads the results of all finished runs of a study, writes its table sweep.csv and draws its pictures. Returns the
- * first status that is not OK. */
+/* Reads the results of all finished runs of a study, writes its table sweep.csv, draws its pictures and prints
+ * means over a random seed that alone varies. Returns the first status that is not OK. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;
@@ -122,6 +122,7 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     status done = study_write_table(&table, s, a->key, a->keys);
     if (done == OK && table.figures > 0)
         done = study_draw_results_over_keys(&table, s, a->key, a->keys, a->of, a->asked);
+    if (done == OK) done = study_print_means_over_seeds(stdout, &table, s, a->key, a->keys, a->of, a->asked);
     study_table_free(&table);
     return done;
 }

@@ -26,23 +26,36 @@ double student_t_quantile_975(int degrees_of_freedom)
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
 /* Computes the mean, the standard deviation and the mean spacing of the runs of spacing level k, and stores them in *l.
- * Run i of all n runs has the spacing spacing[i] [m], the level level[i] and the measured value value[i]. Runs whose
- * value is not finite are left out. The deviation is NAN for a single run. */
+ * Run i of all n runs has the spacing spacing[i] [m], the level level[i] (NULL: k) and the measured value value[i].
+ * Runs whose value is not finite are left out. The deviation is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
     *l = (struct level_figures){0};
     for (int r = 0; r < n; r++)
-        if (level[r] == k && isfinite(value[r])) {
-            l->spacing += spacing[r], l->mean += value[r];
+        if ((!level || level[r] == k) && isfinite(value[r])) {
+            l->spacing += spacing ? spacing[r] : 0, l->mean += value[r];
             l->runs++;
         }
     if (l->runs == 0) return;
     l->spacing /= l->runs, l->mean /= l->runs;
     double sum = 0;
     for (int r = 0; r < n; r++)
-        if (level[r] == k && isfinite(value[r])) sum += square(value[r] - l->mean);
+        if ((!level || level[r] == k) && isfinite(value[r])) sum += square(value[r] - l->mean);
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
+}
+
+/* Returns half of the 95 % interval of the mean of `runs` runs with the standard deviation `deviation` (Student's t
+ * distribution), which was estimated with `freedom` degrees of freedom; 0 if there are none. */
+static double error_of_mean(double deviation, int freedom, int runs)
+{
+    return freedom > 0 ? student_t_quantile_975(freedom) * deviation / sqrt(runs) : 0;
+}
+
+void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count)
+{
+    level_find(l, NULL, value, NULL, run_count, 0);
+    l->error = error_of_mean(l->deviation, l->runs - 1, l->runs);
 }
 
 /* Computes the error of the mean of each spacing level, half of its 95 % interval, from the scatter of its runs
@@ -62,7 +75,7 @@ static void errors_find(struct convergence *c, const double *resolution)
         const bool alone = l->runs == 1;
         if (alone) l->deviation = freedom > 0 ? sqrt(sum / freedom) : 0;
         const int own = alone ? freedom : l->runs - 1;
-        l->error = own > 0 ? student_t_quantile_975(own) * l->deviation / sqrt(l->runs) : 0;
+        l->error = error_of_mean(l->deviation, own, l->runs);
         if (resolution) l->error = hypot(l->error, resolution[k]);
     }
 }

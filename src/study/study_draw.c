@@ -7,6 +7,7 @@
 #include "output/output_files.h"
 #include "plot/plot.h"
 #include "scene/words.h"
+#include "study/convergence.h"
 #include "study_picture.h"
 
 /* Largest number of lines, and of intervals of a horizontal axis; least distance of the tics of a vertical axis and gap
@@ -105,17 +106,33 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
     }
 }
 
+/* Appends the mean over all runs, and the mean plus and minus the standard deviation, to the plot command of panel
+ * number `panel`. */
+static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int panel)
+{
+    const double factor = p->unit_of_figure[panel].factor;
+    struct level_figures all;
+    convergence_summarise_runs(&all, p->table->value[p->figure[panel]], p->table->cases);
+    for (int k = -1; k <= 1 && all.runs > 1; k++)
+        fprintf(to, ", %.10g with lines lw 1.2 dt %d lc rgb '#333333' notitle", (all.mean + k * all.deviation) / factor,
+                k == 0 ? 1 : 2);
+}
+
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
     for (int l = 0; l < p->lines; l++) {
-        fprintf(to, "%s$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, $p%d_%d using ",
-                l > 0 ? ", " : "", panel, l, curve_colour[l], panel, l);
+        if (l > 0) fputs(", ", to);
+        if (!p->seeds)
+            fprintf(to, "$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, ", panel, l,
+                    curve_colour[l]);
+        fprintf(to, "$p%d_%d using ", panel, l);
         fprintf(to,
                 p->chance ? "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' notitle"
                           : "1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle",
                 curve_colour[l]);
     }
+    if (p->seeds) plot_mean_of_seeds(to, p, panel);
     putc('\n', to);
 }
 

@@ -67,6 +67,9 @@ static void notes_find(struct study_picture *p, bool map)
     if (*keys)
         snprintf(p->note[p->notes++], NOTE_ROOM,
                  map ? "means over %s" : "points and bars: mean and standard deviation over %s", keys);
+    if (p->seeds)
+        snprintf(p->note[p->notes++], NOTE_ROOM,
+                 "full line: mean; dashed lines: mean plus and minus the standard deviation");
     if (map && !study_points_complete(p)) snprintf(p->note[p->notes++], NOTE_ROOM, "white: no value");
 }
 

@@ -54,6 +54,7 @@ struct study_picture {
     /* [panels][lines][values of the key along the horizontal axis], set by study_points_compute, owned */
     struct study_point *point[PANELS_MOST];
     bool numbers, chance;    /* positions along the axis are the values, else 0, 1, 2; a ROLE_CHANCE key varies */
+    bool seeds;              /* a random seed is the only varied key */
     const char *header;      /* header of history.csv with the units of figures */
     int columns, wide, high; /* columns of panels; width and height of a panel [pixel] */
     int left, right, below, height; /* margins of a panel; height of the picture [pixel] */
@@ -61,7 +62,7 @@ struct study_picture {
                                      * its columns */
     bool slanted;                   /* the labels of values at the horizontal axis are slanted */
     int width, notes;
-    char note[3][NOTE_ROOM];
+    char note[4][NOTE_ROOM];
 };
 
 /* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
@@ -71,6 +72,12 @@ void panels_choose_figures(struct study_picture *picture);
 /* Chooses the figures with the names figure_name[figure_count] for the panels. Returns REFUSED if a name is not in the
  * table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
+
+/* Returns true if `key` is the seed of random numbers, such as material.scatter.seed. */
+bool key_is_seed(const char *key);
+
+/* Returns the index of the seed among the keys key[key_count] if it is the only one with several values, else -1. */
+int study_index_of_only_seed(const struct shown_key *key, int key_count);
 
 /* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
  * combined to one point with a bar. */

@@ -47,17 +47,32 @@ status panels_show_named_figures(struct study_picture *picture, const char *cons
     for (int k = 0; k < figure_count && k < PANELS_MOST; k++) {
         const int f = study_index_of_result(t, figure_name[k]);
         if (f < 0)
-            return status_set(REFUSED, "sweep: --of %s: there is no such figure in sweep.csv; do you mean %s?",
+            return status_set(REFUSED,
+                              "sweep: --of %s: there is no such figure in sweep.csv%s its first line names all",
                               printable_name(figure_name[k]).text,
-                              word_find_most_similar(figure_name[k], (const char *const *)t->figure, t->figures));
+                              word_propose_similar(figure_name[k], (const char *const *)t->figure, t->figures).text);
         picture->figure[picture->panels++] = f;
     }
     return OK;
 }
 
+bool key_is_seed(const char *key)
+{
+    const char *dot = strrchr(key, '.');
+    return dot && strcmp(dot, ".seed") == 0;
+}
+
 bool key_has_no_physical_meaning(const char *key)
 {
-    return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
+    return key_is_seed(key) || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
+}
+
+int study_index_of_only_seed(const struct shown_key *key, int key_count)
+{
+    int varied = 0, at = 0;
+    for (int k = 0; k < key_count; k++)
+        if (key[k].given.values > 1) varied++, at = k;
+    return varied == 1 && key_is_seed(key[at].given.key) ? at : -1;
 }
 
 void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count)
@@ -82,6 +97,7 @@ void roles_assign_to_keys(struct study_picture *picture, int max_lines)
 {
     picture->lines = 1;
     picture->chance = false;
+    picture->seeds = study_index_of_only_seed(picture->key, picture->keys) >= 0;
     for (int k = 0; k < picture->keys; k++) {
         const int values = picture->key[k].shown.values;
         picture->role[k] = k == picture->across                                     ? ROLE_ACROSS

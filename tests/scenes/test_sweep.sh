@@ -131,6 +131,19 @@ near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { p
 apart=$(compute "1e6 * ($(figure seeds/density=2000,seed=1 energy.kinetic) - $(figure seeds/density=2000,seed=2 energy.kinetic)) / sqrt(2)")
 near "its bar is the standard deviation of two" "$(awk '/^\$p0_0/ { at = 1; next } at { print $3; exit }' drawn)" "${apart#-}" 1e-3
 
+# A seed alone: mean, standard deviation and 95 % interval of the mean, Student's t of two degrees of freedom over the root of three runs.
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s particles.irregularity=0.3 -s particles.seed=1:3:1 --of energy.kinetic -o alone -q >out
+said=$(grep '^energy.kinetic: mean ' out)
+set -- $(for k in 1 2 3; do figure alone/seed=$k energy.kinetic; done)
+mean=$(compute "1e6 * ($1 + $2 + $3) / 3")
+spread=$(compute "sqrt(((1e6 * $1 - $mean)^2 + (1e6 * $2 - $mean)^2 + (1e6 * $3 - $mean)^2) / 2)")
+near "mean over seeds: $said" "$(echo "$said" | awk '{ print $3 }')" "$mean" 1e-3
+near "standard deviation over seeds" "$(echo "$said" | sed 's/.*deviation \([^ ]*\) .*/\1/')" "$spread" 0.06
+near "interval of the mean over seeds" "$(echo "$said" | awk '{ print $5 }')" "$(compute "4.303 * $spread / sqrt(3)")" 0.06
+is "lines at the mean and beside it" "$(grep -c 'with lines lw 1.2 dt' drawn)" 1
+is "which the picture explains" "$(grep -c 'full line: mean; dashed lines: mean plus and minus the standard deviation' drawn)" 1
+
 # ---- failures are counted, errors are refused before anything runs ------------------------------------------------------
 
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails >out 2>err

@@ -1,0 +1,41 @@
+/* Prints means and error bars of the figures of a study that varies a random seed alone. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "plot/plot.h"
+#include "study/convergence.h"
+#include "study_picture.h"
+
+/* Prints mean, standard deviation and half of the 95 % interval of the mean of the figure `name` with the values
+ * value[cases] in the runs of a study. header: header line of history.csv, for its unit. */
+static void mean_print(FILE *to, const char *header, const char *name, const double *value, int cases)
+{
+    char text[UNIT_ROOM];
+    struct level_figures all;
+    convergence_summarise_runs(&all, value, cases);
+    if (all.runs < 2) return;
+    study_write_unit_of_result(text, sizeof text, header, name);
+    const struct unit unit = unit_for_largest_value_if_prefixable(text, fabs(all.mean));
+    fprintf(to, "%s: mean %.4g +- %.2g%s%s (95 %% interval), standard deviation %.2g%s%s, %d runs\n", name,
+            all.mean / unit.factor, all.error / unit.factor, *unit.name ? " " : "", unit.name,
+            all.deviation / unit.factor, *unit.name ? " " : "", unit.name, all.runs);
+}
+
+status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
+                                    const struct varied_key *key, int keys, const char *const *result, int results)
+{
+    char header[HEADER_ROOM];
+    struct study_picture p = {.table = t, .study = s, .key = shown_keys_make(s, key, keys), .keys = keys};
+    const bool seed = study_index_of_only_seed(p.key, keys) >= 0;
+    const status named = seed ? panels_show_named_figures(&p, result, results) : OK;
+    if (seed && results == 0) panels_choose_figures(&p);
+    study_read_history_header(header, sizeof header, s);
+    for (int k = 0; k < p.panels && named == OK; k++) {
+        const char *name = t->figure[p.figure[k]];
+        if (results > 0 || !study_result_is_technical(name))
+            mean_print(to, header, name, t->value[p.figure[k]], t->cases);
+    }
+    shown_keys_free(p.key, keys);
+    return named;
+}
