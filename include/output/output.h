@@ -56,6 +56,7 @@ struct frame_series {
 struct output {
     struct folder_lock lock; /* excludes a second process from the folder; held while `folder` is not NULL */
     char *folder;            /* path of the run's folder */
+    bool has_other_scene;    /* output_open has refused, with a message that begins with the key that differs */
     int n_series;            /* number of regions: series[1 .. n_series]; series[0] is the whole body */
     struct frame_series series[1 + SERIES_MOST];
     bool compress;

@@ -47,10 +47,10 @@ static void print_breaks(const struct run *e)
     if (broke || tip) printf("\n");
     if (isnan(w->driven_time)) return;
     if (in_steps)
-        printf("  first bond broken of particles that a boundary drives: in load step %.0f\n",
+        printf("  first broken bond of particles that a boundary moves: in load step %.0f\n",
                w->driven_time / e->clock.dt);
     else
-        printf("  first bond broken of particles that a boundary drives: at %.4g s\n", w->driven_time);
+        printf("  first broken bond of particles that a boundary moves: at %.4g s\n", w->driven_time);
 }
 
 /* Prints the energy that load steps released, and the area of the crack. */
@@ -90,7 +90,8 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
     const char *to = a->folder ? a->folder : folder;
     for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder_is_free(to, s->series[k].name));
-    TRY(output_open(out, to, s->text, mode, s->compress));
+    const status opened = output_open(out, to, s->text, mode, s->compress);
+    TRY(out->has_other_scene ? scene_prepend_location(s, opened) : opened);
     for (int k = 0; k < s->n_series; k++) TRY(output_add_frame_series(out, s->series[k].name, &s->series[k].region));
     return OK;
 }

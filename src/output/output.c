@@ -131,23 +131,50 @@ bool scene_file_has_text(const char *path, const char *scene_text)
     return same;
 }
 
-/* Writes a description of the first line in which the scenes a (earlier) and b (now) differ to text[capacity]. */
-static void difference_text(const char *a, const char *b, char *text, size_t capacity)
+/* Writes the path of the key in the line that begins at `line` of a scene.yaml to path[capacity], down to its second
+ * level: `thickness`, `mpm.cell`, `boundary[1]`. text: beginning of the file. */
+static void key_path_of_line(const char *text, const char *line, char *path, size_t capacity)
 {
-    const int line = scene_difference(&a, &b);
-    a += strspn(a, " "), b += strspn(b, " ");
-    enum { SHOWN = 200 };
-    const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n");
-    size_t own;
-    const int path = (int)(line_meaning(b, &own) - b);
-    if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0) {
-        snprintf(text, capacity, "line %d, %.*s: this list of values is not the one that the run began with", line,
-                 path, b);
-        return;
+    const char *top = text, *below = NULL;
+    int item = -1;
+    for (const char *c = text; c <= line && *c; c += strcspn(c, "\n"), c += *c == '\n') {
+        if (*c != ' ')
+            top = c, below = NULL, item = -1;
+        else if (strncmp(c, "  - ", 4) == 0)
+            item++;
+        else if (c[1] == ' ' && c[2] != ' ')
+            below = c + 2;
     }
+    const int length = (int)strcspn(top, ":\n");
+    if (item >= 0)
+        snprintf(path, capacity, "%.*s[%d]", length, top, item);
+    else
+        snprintf(path, capacity, "%.*s%s%.*s", length, top, below ? "." : "", below ? (int)strcspn(below, ":\n") : 0,
+                 below ? below : "");
+}
+
+/* Returns REFUSED with a message about the first line in which the scenes `former`, of the run in the folder, and `now`
+ * differ. The message begins with the path of the key in this line. */
+static status refuse_other_scene(const char *folder, const char *former, const char *now)
+{
+    enum { SHOWN = 200 };
+    const char *a = former, *b = now;
+    char key[100];
+    size_t own;
+    scene_difference(&a, &b);
+    key_path_of_line(*b ? now : former, *b ? b : a, key, sizeof key);
+    a += strspn(a, " -"), b += strspn(b, " -");
+    const int la = (int)strcspn(a, "\n"), lb = (int)strcspn(b, "\n"), path = (int)(line_meaning(b, &own) - b);
+    if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0)
+        return status_set(REFUSED,
+                          "%s: %s holds the run of another scene: %.*s has changed; choose another -o or --overwrite",
+                          key, folder, path, b);
     const bool lasts = strncmp(a, "duration:", strlen("duration:")) == 0;
-    snprintf(text, capacity, "line %d was `%.*s` and is now `%.*s`%s", line, la < SHOWN ? la : SHOWN, a,
-             lb < SHOWN ? lb : SHOWN, b, lasts ? "; a run that goes on keeps its duration" : "");
+    return status_set(REFUSED,
+                      "%s: %s holds the run of another scene, with `%.*s` instead of `%.*s`%s; choose another -o or "
+                      "--overwrite",
+                      key, folder, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN, b,
+                      lasts ? ": a run that goes on keeps its duration" : "");
 }
 
 /* Returns true if the file `path` is the scene.yaml of a run: its text is scene_text, or Cleave wrote it and it is
@@ -182,24 +209,21 @@ static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
 /* Checks the folder in which a run of the scene with the text scene_text would write. mode: whether an older run may be
- * overwritten. Returns REFUSED if the folder contains other files. Also returns REFUSED if it contains the run of
- * another scene, unless mode is OUTPUT_OVERWRITE. */
-static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
+ * overwritten. Returns REFUSED if the folder contains other files. Also returns REFUSED, and sets *other, if it
+ * contains the run of another scene, unless mode is OUTPUT_OVERWRITE. */
+static status folder_check(const char *folder, const char *scene_text, enum output_mode mode, bool *other)
 {
-    char difference[500], *text = NULL;
+    char *text = NULL;
     size_t length = 0;
     bool there;
     TRY(folder_check_writable(&run_kind, folder, scene_text, &there));
     if (!there) return OK;
     TRY(file_read_whole(path_join(folder, "scene.yaml").text, &text, &length));
     const bool same = length == strlen(text) && scene_texts_are_equal(text, scene_text);
-    difference_text(text, scene_text, difference, sizeof difference);
+    *other = !same && mode != OUTPUT_OVERWRITE;
+    const status checked = *other ? refuse_other_scene(folder, text, scene_text) : OK;
     memory_free(text);
-    if (same || mode == OUTPUT_OVERWRITE) return OK;
-    return status_set(REFUSED,
-                      "%s holds the run of another scene (scene.yaml: %s); choose another -o or replace it with "
-                      "--overwrite",
-                      folder, difference);
+    return checked;
 }
 
 /* Returns true if the folder holds any file of a run other than scene.yaml. */
@@ -376,10 +400,10 @@ static status files_guard(const char *folder)
     return regions_each(folder, "", frame_guard);
 }
 
-static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
+static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode, bool *other)
 {
     const struct path frames = path_join(folder, "frames"), scene = path_join(folder, "scene.yaml");
-    TRY(folder_check(folder, scene_text, mode));
+    TRY(folder_check(folder, scene_text, mode, other));
     TRY(mode_check(folder, mode));
     TRY(run_each(folder, file_check_replaceable));
     if (mode != OUTPUT_RESUME) TRY(files_guard(folder));
@@ -402,7 +426,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     memcpy(clean.text, folder, length);
     TRY(folder_make(clean.text));
     TRY(folder_lock(&o->lock, clean.text));
-    const status s = folder_prepare(clean.text, scene_text, mode);
+    const status s = folder_prepare(clean.text, scene_text, mode, &o->has_other_scene);
     if (s != OK) {
         folder_unlock(&o->lock, clean.text);
         return s;

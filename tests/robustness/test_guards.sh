@@ -324,7 +324,7 @@ is "a folder by a link: $(cat "$work/err")" $? 0
 holds "the run is where the link leads" test -s "$work/disk/summary.json" -a -L "$work/short"
 "$cleave" run -q "$work/strip.yaml" -o "$work/short/" --overwrite -s duration=0.9us 2>"$work/err"
 is "replaced by a link: $(cat "$work/err")" $? 0
-declined "a second run by the folder's name" "holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
+declined "a second run by the folder's name" "strip.yaml:[0-9:]*duration: .* holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
 rm -rf "$work/disk"
 cp -r "$work/papers" "$work/disk"
 declined "files of others behind a link" "holds files" run -q "$work/strip.yaml" -o "$work/short" --overwrite

@@ -284,7 +284,7 @@ static void folders_of_others_are_refused(void **state)
     open_fresh(&o, "folder/deep/run", false);
     output_close(&o);
     assert_int_equal(output_open(&o, "folder/deep/run", "name: \"other\"\n", OUTPUT_FIRST, false), REFUSED);
-    assert_message("folder/deep/run holds the run of another scene");
+    assert_message("name: folder/deep/run holds the run of another scene, with `");
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_int_equal(output_open(&o, "folder/deep/run/scene.yaml/x", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_int_equal(output_open(&o, "folder/deep", scene_text, OUTPUT_FIRST, false), REFUSED);
