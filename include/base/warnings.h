@@ -12,6 +12,10 @@ struct warnings {
     int n;
     bool silent; /* pilot run: warnings are stored, but not printed while it runs */
     char **text;
+    /* Writes where the scene file gives the key with which the warning `text` begins to place[PLACE_LENGTH]; "" if
+     * unknown. scene: the member below, not owned. The printed line ends with it; `text` does not have it. */
+    void (*locate)(const void *scene, const char *text, char *place);
+    const void *scene;
 };
 
 /* Appends a warning to the list w, composed as by printf, with `?` in place of control characters, unless the list
@@ -22,7 +26,8 @@ bool warnings_add_if_new(struct warnings *w, const char *format, ...) __attribut
  * contains already. */
 void warnings_append_new_from_list(struct warnings *w, const struct warnings *source_list, int first_warning);
 
-/* Prints the warnings of the list w, from number `first_warning` on, to `out`, each as one line `warning: text`. */
+/* Prints the warnings of the list w, from number `first_warning` on, to `out`, each as one line `warning: text`, with
+ * the location in the scene file, if w->locate finds one, in brackets at its end. */
 void warnings_print(const struct warnings *w, int first_warning, FILE *out);
 
 /* Appends a warning to the list w while a run is in progress and, if the list did not contain it and is not silent,

@@ -371,7 +371,7 @@ static void say_settings(const struct run *e)
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
-    struct warnings hints = {0}, found = {0};
+    struct warnings hints = {0}, found = {.locate = scene_find_location_of_message, .scene = s};
     int remarks = 0;
     s->active_set = false;           /* cost with the whole body active */
     s->accept |= 1u << ACCEPT_SHOCK; /* trial steps stay silent about collisions that advise_shocks announces */

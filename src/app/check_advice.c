@@ -260,8 +260,7 @@ static void advise_shocks(const struct scene *s, FILE *out)
         fprintf(
             out,
             "accuracy       bodies collide at %.3g m/s, %.3g times the speed at which the front of the wave breaks or "
-            "yields one of them; stress oscillates by 10 to 30 %% behind the front, and bonds can break too early: "
-            "%s\n",
+            "yields one. Behind it stress oscillates by 10 to 30 %%, so that bonds can break too early: %s\n",
             shock.speed, shock.share, shock.remedy);
 }
 

@@ -32,7 +32,11 @@ void warnings_append_new_from_list(struct warnings *w, const struct warnings *so
 
 void warnings_print(const struct warnings *w, int first_warning, FILE *out)
 {
-    for (int k = first_warning; k < w->n; k++) fprintf(out, "warning: %s\n", w->text[k]);
+    for (int k = first_warning; k < w->n; k++) {
+        char place[PLACE_LENGTH] = "";
+        if (w->locate) w->locate(w->scene, w->text[k], place);
+        fprintf(out, *place ? "warning: %s (%s)\n" : "warning: %s\n", w->text[k], place);
+    }
 }
 
 void warnings_print_to_stderr(const struct warnings *w, int first_warning)

@@ -361,6 +361,7 @@ status engine_create_run_from_predecessor(struct run *e, const struct scene *s, 
     run_parts_make(e);
     e->save = engine_save_or_load_run_state;
     e->scene = s;
+    e->warnings.locate = scene_find_location_of_message, e->warnings.scene = s;
     e->report->out = output;
     e->report->began = wall_clock_seconds();
     e->frame->hollow = omitted_cells;

@@ -67,25 +67,40 @@ static void place_of_key(const struct scene *s, const char *text, char *place)
                 snprintf(place, PLACE_LENGTH, "%.400s: ", s->key_place[k].place);
                 return;
             }
-        char *dot = strrchr(key, '.');
-        if (!dot) return;
-        *dot = 0;
+        char *dot = strrchr(key, '.'), *bracket = strrchr(key, '[');
+        if (!dot && !bracket) return;
+        *(dot ? dot : bracket) = 0;
     }
+}
+
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the boundary or body with whose name the message
+ * `text` begins. Writes nothing if there is none. */
+static void place_of_name(const struct scene *s, const char *text, char *place)
+{
+    for (int b = 0; b < s->boundaries && !*place; b++)
+        if (begins_with(text, "boundary ", s->boundary[b].name))
+            snprintf(place, PLACE_LENGTH, "%s", s->boundary[b].place);
+    for (int b = 0; b < s->bodies + s->rigids && !*place; b++)
+        if (begins_with(text, "body ", s->body[b].name) || begins_with(text, "bodies ", s->body[b].name) ||
+            begins_with(text, "rigid body ", s->body[b].name))
+            snprintf(place, PLACE_LENGTH, "%s", s->body[b].place);
+}
+
+void scene_find_location_of_message(const void *scene, const char *text, char *place)
+{
+    *place = 0;
+    place_of_name(scene, text, place);
+    if (!*place && text[strcspn(text, ": ")] == ':') place_of_key(scene, text, place);
+    char *end = strstr(place, ": "); /* the name of the key, which the message has */
+    if (end) *end = 0;
 }
 
 status scene_prepend_location(const struct scene *s, status result)
 {
     char place[PLACE_LENGTH] = "";
     if (result != REFUSED) return result;
-    const char *text = status_message();
-    for (int b = 0; b < s->boundaries && !*place; b++)
-        if (begins_with(text, "boundary ", s->boundary[b].name))
-            snprintf(place, sizeof place, "%s", s->boundary[b].place);
-    for (int b = 0; b < s->bodies + s->rigids && !*place; b++)
-        if (begins_with(text, "body ", s->body[b].name) || begins_with(text, "bodies ", s->body[b].name) ||
-            begins_with(text, "rigid body ", s->body[b].name))
-            snprintf(place, sizeof place, "%s", s->body[b].place);
-    if (!*place) place_of_key(s, text, place);
+    place_of_name(s, status_message(), place);
+    if (!*place) place_of_key(s, status_message(), place);
     if (!*place) snprintf(place, sizeof place, "%.500s: ", s->path);
     return status_prepend_location(place, result);
 }

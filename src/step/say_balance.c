@@ -98,11 +98,12 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM ||
         scene_silences_warning(s, ACCEPT_SHOCK))
         return false;
-    snprintf(text, capacity,
-             "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
-             "the wave breaks or yields one of them; stress oscillates by 10 to 30 %% behind the front, so that bonds "
-             "can break too early: %s; if this is meant: accept: [shock]",
-             w->break_time, shock.speed, shock.share, shock.remedy);
+    snprintf(
+        text, capacity,
+        "the first bond broke at %.4g s, in a collision at %.3g m/s, %.3g times the speed at which the front of "
+        "the wave breaks or yields a body. Behind it stress oscillates by 10 to 30 %%, so that bonds can break too "
+        "early: %s; if this is meant: accept: [shock]",
+        w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }
 

@@ -83,15 +83,11 @@ static real closing_speed(const struct scene *s, int a, int b)
  * change so that viscosity is possible. */
 static const char *remedy_of(const struct scene *s)
 {
-    if (s->space == SPACE_PLANE_STRESS)
-        return "viscosity does not act in plane stress: a run in space plane strain with material.viscosity: {} shows "
-               "what breaks without oscillations";
+    if (s->space == SPACE_PLANE_STRESS) return "compare with a run in space plane strain with material.viscosity: {}";
     if (s->model != MODEL_BOND && s->method != METHOD_MPM)
-        return "viscosity acts with model bond only: a run with model: bond and material.viscosity: {} shows what "
-               "breaks without oscillations";
-    if (s->levels > 0 && s->levels != LEVELS_AUTO)
-        return "material.viscosity: {} with mpm.levels: 0 spreads the front so that it does not oscillate";
-    return "material.viscosity: {} spreads the front so that it does not oscillate";
+        return "compare with a run with model: bond and material.viscosity: {}";
+    if (s->levels > 0 && s->levels != LEVELS_AUTO) return "use material.viscosity: {} and mpm.levels: 0";
+    return "use material.viscosity: {}, which spreads the front";
 }
 
 struct shock scene_most_severe_collision(const struct scene *s)

@@ -448,9 +448,9 @@ particles: {spacing: 0.5 mm}
 initial: [{body: a, velocity: [200, 0]}]
 END
 plates=$work/plates.yaml hits='^accuracy  *bodies collide at 200 m/s, .* bonds can break too early: '
-says "a collision in plane stress" "${hits}viscosity does not act in plane stress" "$plates"
-says "a collision in plane strain" "${hits}material.viscosity: {} spreads the front" "$plates" -s 'space=plane strain'
-says "a collision of ospd" "${hits}viscosity acts with model bond only" "$plates" -s 'space=plane strain' -s model=ospd
+says "a collision in plane stress" "${hits}compare with a run in space plane strain with material.viscosity" "$plates"
+says "a collision in plane strain" "${hits}use material.viscosity: {}, which spreads the front" "$plates" -s 'space=plane strain'
+says "a collision of ospd" "${hits}compare with a run with model: bond and material.viscosity" "$plates" -s 'space=plane strain' -s model=ospd
 silent "a collision with viscosity" 'bodies collide' "$plates" -s 'space=plane strain' -s 'material.viscosity={}'
 silent "bodies that part" 'bodies collide' "$plates" -s 'initial.0.velocity=[-200, 0]'
 silent "a speed elsewhere" 'bodies collide' "$plates" -s 'initial=[{velocity: [200, 0], region: {box: {from: [50 mm, 0], to: [60 mm, 10 mm]}}}]'
@@ -473,7 +473,7 @@ particles: {spacing: 1 mm}
 boundary: [{name: a, fixed: all, face: y-}, {name: b, velocity: [0, 0.5 m/s], face: y+}]
 END
 plate=$work/plate.yaml
-says "a region in m" '^warning: boundary a holds all 400 particles: nothing can move; check the units of its region (mm?)$' "$plate" \
+says "a region in m" '^warning: boundary a holds all 400 particles: nothing can move; check the units of its region (mm?) (' "$plate" \
     -s 'boundary=[{name: a, fixed: all, region: {box: {from: [0, 0], to: [20, 1]}}}]'
 silent "a region in mm" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, region: {box: {from: [0, 0], to: [20 mm, 1 mm]}}}'
 # The layer behind a face is three particles deep.
@@ -484,7 +484,7 @@ silent "two supports of different components" '^warning: boundar' "$plate" -s 'b
     -s 'boundary.b={name: b, velocity: [free, 0.5 m/s], face: y+}'
 # From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
-says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?)$' "$plate" \
+says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?) (' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [10, 10], radius: 2}}')"
 says "a hole beside a corner" 'solid 2 of its shape removes nothing, as it is outside' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [21.5 mm, 21.5 mm], radius: 2 mm}}')"
