@@ -4,11 +4,13 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/arrays.h"
 #include "base/memory.h"
 #include "check_parts.h"
 
 #define ELSEWHERE 10.0    /* [degrees] largest angle between the normal of a surface and the axis of an aligned face */
 #define SHARE_LEAST 0.05  /* least share of the area that is reported; a row at the edge of a slope is less */
+#define PLACE_GAP 1.5     /* least distance between two places of a face [spacings] */
 enum { AWAY = 4 };        /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
 #define COLUMNS_MOST 16.0 /* largest number of columns in the bounding box over the particles of the face */
 
@@ -126,12 +128,12 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
  * user to restrict the load: a region that begins at this coordinate contains nearly no inclined part of the face.
  * Returns INFINITY if no such coordinate is found. c: heights of the columns of particles of the face; all: area of the
  * whole face and of its inclined part. */
-static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct exposed_face *f,
-                          const struct ends *c, const struct elsewhere *all)
+static real elsewhere_cut(const struct particles *part, const struct scene *scene, const struct boundary *b,
+                          const struct exposed_face *f, const struct ends *c, const struct elsewhere *all)
 {
     for (int k = 0; k < 2 && isfinite(all->aligned); k++) {
         const real from = k == 0 ? all->aligned : all->last;
-        const struct elsewhere w = elsewhere_from(&e->part, e->scene, b, f, c, from);
+        const struct elsewhere w = elsewhere_from(part, scene, b, f, c, from);
         if (!(w.other > SHARE_LEAST * w.area)) return from;
     }
     return INFINITY;
@@ -153,6 +155,42 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     return all;
 }
 
+/* An exposed particle of a face, or a set of them: coordinate along the axis of the face [m, positive outwards] and
+ * area [m^2]. The coordinate is first, for compare_doubles. */
+struct part_of_face {
+    double at, area;
+};
+
+/* Prints where the face f of boundary b lies along its axis if its particles are at several places, with more than
+ * PLACE_GAP spacings between them, as on both steps of an L; and the region that leaves the outermost one alone. Places
+ * with less than SHARE_LEAST of the area are left out. */
+static void print_places_of_face(const struct particles *p, real spacing, const struct boundary *b,
+                                 const struct exposed_face *f)
+{
+    struct part_of_face *one = NEW("check.places", p->n, struct part_of_face);
+    double area = 0;
+    int64_t n = 0;
+    int places = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        if (f->normal[i] > 0) one[n++] = (struct part_of_face){b->side * p->X[b->face][i], f->normal[i]};
+    array_sort(one, n, sizeof *one, compare_doubles);
+    for (int64_t k = 0; k < n; k++) area += one[k].area;
+    for (int64_t k = 0, from = 0; k < n; k++) {
+        one[from].area += k > from ? one[k].area : 0;
+        if (k + 1 < n && one[k + 1].at - one[k].at <= PLACE_GAP * spacing) continue;
+        if (one[from].area > SHARE_LEAST * area) one[places++] = (struct part_of_face){one[from].at, one[from].area};
+        from = k + 1;
+    }
+    if (places > 1) {
+        printf("; this face has parts at %d places, near", places);
+        for (int k = 0; k < places && k < 4; k++)
+            printf("%s %c = %.4g m", k ? "," : "", "xyz"[b->face], b -> side *(one[k].at + 0.5 * spacing));
+        printf(": a region with %c %s %.6g m leaves the outermost alone", "xyz"[b->face],
+               b -> side > 0 ? ">=" : "<=", b->side * (one[places - 1].at - 0.5 * spacing));
+    }
+    memory_free(one);
+}
+
 void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
@@ -165,11 +203,13 @@ void print_oblique_share_of_loaded_face(const struct run *e, const struct bounda
     load_mark_particles_in_region(b, &e->part, s->spacing, selected);
     exposed_face_compute_areas(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
-        w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);
+        w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(&e->part, s, b, &f, &c, &w);
     memory_free(c.height);
+    const bool inclined = w.other > SHARE_LEAST * w.area;
+    if (!inclined && b->region.n == 0) print_places_of_face(&e->part, s->spacing, b, &f);
     exposed_face_free(&f);
     memory_free(selected);
-    if (!(w.other > SHARE_LEAST * w.area)) return;
+    if (!inclined) return;
     printf(
         "; on %.0f %% of the area seen from %c%c the surface is inclined to this direction, by %.0f degrees on average",
         100 * w.other / w.area, "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);

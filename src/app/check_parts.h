@@ -153,7 +153,8 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 void print_loads(const struct run *e);
 
 /* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,
- * the mean angle between normal and axis there, and a region that would exclude this part of the face. */
+ * the mean angle between normal and axis there, and a region that would exclude this part of the face. Prints instead
+ * where the face lies if it is in several planes and the boundary has no region. */
 void print_oblique_share_of_loaded_face(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
