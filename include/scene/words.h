@@ -28,8 +28,14 @@ const char *scene_key_unit(const char *path);
 /* Returns the index of `text` in the words a|b|c, or -1. */
 int word_index_in_list(const char *words, const char *text);
 
-/* Returns that one of the n > 0 names name[n] that has the smallest edit distance to `word`; the first one if there are
- * several. */
-const char *word_find_most_similar(const char *word, const char *const *name, int n);
+/* Text for a message between an unknown word and the next part of the sentence. */
+struct word_proposal {
+    char text[100];
+};
+
+/* Returns the text `; do you mean NAME?` with that one of the n > 0 names name[n] that has the smallest edit distance
+ * to `word`, the first one if there are several; the text `;` if that name is not similar to `word`
+ * (words_are_similar). */
+struct word_proposal word_propose_similar(const char *word, const char *const *name, int n);
 
 #endif

@@ -43,7 +43,7 @@ status command_find_by_name(const char *name, const struct command **found)
         if (!strcmp(name, commands[k].name)) return OK;
         if (edit_distance(name, commands[k].name) < edit_distance(name, nearest->name)) nearest = &commands[k];
     }
-    if (edit_distance(name, nearest->name) <= 2)
+    if (words_are_similar(name, nearest->name))
         return status_set(REFUSED, "unknown command %.40s; the nearest is %s", name, nearest->name);
     return status_set(REFUSED, "unknown command %.40s; cleave --help lists them", name);
 }

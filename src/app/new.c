@@ -30,8 +30,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of scene with the given name and stores it in *found. Returns REFUSED with the nearest name if there
- * is none. */
+/* Finds the kind of scene with the given name and stores it in *found. Returns REFUSED if there is none, with the
+ * nearest name if it is similar. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -39,8 +39,9 @@ static status kind_find(const char *name, const struct kind **found)
         if (!strcmp((*found)->name, name)) return OK;
         if (edit_distance((*found)->name, name) < edit_distance(nearest->name, name)) nearest = *found;
     }
-    return status_set(REFUSED, "there is no kind %.40s; the nearest is %s, and cleave new lists all", name,
-                      nearest->name);
+    const bool similar = words_are_similar(name, nearest->name);
+    return status_set(REFUSED, "there is no kind %.40s; %s%s%scleave new lists all", name,
+                      similar ? "the nearest is " : "", similar ? nearest->name : "", similar ? ", and " : "");
 }
 
 /* Finds the name of a new scene in its path: *name points to the first letter of the file name in `path`, *length is

@@ -226,8 +226,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
         TRY(option_check_has_value(word, value != NULL, usage));
         return options[k].read(w, value);
     }
-    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: cleave %s", printable_name(word).text,
-                      word_find_most_similar(word, name, COUNT_OF(name)), usage);
+    return status_set(REFUSED, "plot: unknown option %s%s usage: cleave %s", printable_name(word).text,
+                      word_propose_similar(word, name, COUNT_OF(name)).text, usage);
 }
 
 /* Sets the format of the picture from the file name extension of -o, unless --format is given. Returns REFUSED if the
@@ -308,7 +308,10 @@ static status check_folder(const char *folder)
                           "runs",
                           printable_name(folder).text, printable_name(folder).text);
     if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
-        return status_set(REFUSED, "%s holds no run: neither frames nor history.csv", folder);
+        return status_set(
+            REFUSED,
+            "%s holds no run, neither frames nor history.csv: give the folder that cleave run names at its end",
+            folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
 }
 

@@ -75,7 +75,7 @@ static bool lacks_component(const struct plot_field *field, int dim)
 }
 
 /* Returns REFUSED for a name that is no field. The message lists the components of the field `name`, or if it has none,
- * the field with the nearest name and the names of all fields. names[COUNT_OF(fields)]: names of all fields. */
+ * the field with a similar name and the names of all fields. names[COUNT_OF(fields)]: names of all fields. */
 static status field_unknown(const char *name, const char *const *names)
 {
     char all[1024] = "", components[256] = "";
@@ -91,8 +91,8 @@ static status field_unknown(const char *name, const char *const *names)
     if (listed > 0)
         return status_set(REFUSED, "plot: --field %s: it has several components, draw one of %s",
                           printable_name(name).text, components);
-    return status_set(REFUSED, "plot: --field %s: there is no such field; do you mean %s? There are %s",
-                      printable_name(name).text, word_find_most_similar(name, names, COUNT_OF(fields)), all);
+    return status_set(REFUSED, "plot: --field %s: there is no such field%s there are %s", printable_name(name).text,
+                      word_propose_similar(name, names, COUNT_OF(fields)).text, all);
 }
 
 status plot_field_find_by_name(const struct plot_field **field, const char *name, int dim)

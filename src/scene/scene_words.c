@@ -32,10 +32,13 @@ const char *number_text_with_unit_of(char *joined, size_t capacity, const char *
     return joined;
 }
 
-const char *word_find_most_similar(const char *word, const char *const *name, int n)
+struct word_proposal word_propose_similar(const char *word, const char *const *name, int n)
 {
+    struct word_proposal proposal = {";"};
     int nearest = 0;
     for (int k = 1; k < n; k++)
         if (edit_distance(name[k], word) < edit_distance(name[nearest], word)) nearest = k;
-    return name[nearest];
+    if (words_are_similar(name[nearest], word))
+        snprintf(proposal.text, sizeof proposal.text, "; do you mean %.80s?", name[nearest]);
+    return proposal;
 }

@@ -409,7 +409,7 @@ fi
 "$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.start_time --of energy.kinetic -o varied >out 2>err
 for title in "crack.start_time .[µnm]s." "energy.kinetic .[mµn]J."; do holds "a figure of a sweep: $title: $(cat err)" grep -a -q "set title '$title'" all; done
 is "no other" "$(grep -a -c "set title '[a-z]" all)" 2
-"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.begin -o varied >out 2>err
+"$cleave" sweep strip.yaml -s particles.spacing=1mm,2mm --of crack.strat_time -o varied >out 2>err
 is "sweep --of an unknown figure: exit status" $? 2
 holds "it names the nearest" grep -q "no such figure in sweep.csv; do you mean crack\." err
 
