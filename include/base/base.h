@@ -63,6 +63,9 @@ typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
  * thread has its own message. */
 status status_set(status s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Appends a line, composed as by printf, to the message set by status_set, for a further fault of the same kind. */
+void status_add_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 /* Returns the message of the last failure in this thread. */
 const char *status_message(void);
 

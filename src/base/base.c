@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MESSAGE_LENGTH = 1024 };
+enum { MESSAGE_LENGTH = 4096 };
 
 /* Message of the last error, set with a status. Each thread has its own, so that messages of two threads are never
  * mixed. */
@@ -23,6 +23,18 @@ status status_set(status s, const char *format, ...)
     snprintf(message, sizeof message, "%s", text);
     placed = false;
     return s;
+}
+
+void status_add_line(const char *format, ...)
+{
+    char text[MESSAGE_LENGTH];
+    const size_t used = strlen(message);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    text_replace_control_characters(text);
+    snprintf(message + used, sizeof message - used, "\n%s", text);
 }
 
 status status_prepend_location(const char *location, status s)

@@ -26,7 +26,7 @@ status scene_read_keys_of_tree(struct reader *r, const struct yaml_node *root)
     struct scene *s = r->scene;
     TRY(expect_node_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     r->root = root;
-    TRY(check_keys_known(r, root, ""));
+    TRY(check_all_keys_known(r, root));
     TRY(read_space(r, root));
     TRY(read_regions(r, root));
     s->conversion.criteria = CONVERT_ON_BREAK | CONVERT_ON_STRESS;

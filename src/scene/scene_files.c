@@ -34,11 +34,6 @@ status file_read_bytes(const char *path, char **bytes, size_t *length)
     return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
 }
 
-const char *origin_file_name(const struct reader *r, int origin_index)
-{
-    return origin_index <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin_index] : r->name;
-}
-
 int path_folder_length(const char *path)
 {
     const char *slash = strrchr(path, '/');

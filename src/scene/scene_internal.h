@@ -18,7 +18,7 @@ struct naming {
     const struct naming *outer;
 };
 
-/* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_yaml.c) ------------------- */
+/* ---- nodes: YAML without types, every value is text until a key gives it a type (scene_nodes.c, scene_yaml.c) ---- */
 
 enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 
@@ -304,6 +304,15 @@ void key_describe_type(const struct key *k, char *text, size_t capacity);
 /* Returns true if key k is directly below the key `group_path` ("" for the top of a scene). */
 bool key_is_directly_below(const struct key *k, const char *group_path);
 
+/* Returns the path of the group in which the table has the keys of an item of list k: material for `materials`,
+ * bodies.parts for `parts`, else the path of the list. */
+const char *key_group_of_items(const struct key *k);
+
+/* Writes an example of a value of key k for messages to text[capacity], such as [{from: [0.5 mm, 0]}]. dim: number of
+ * components of points. wanted: name of the key that the example of a mapping, or of a list of mappings, shows; NULL,
+ * or a name that is no such key: a required one. */
+void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
+
 /* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene), or
  * NULL. */
 const struct key *key_find(const char *group_path, const char *last_part);
@@ -331,7 +340,7 @@ const char *foreign_value_advice(const char *key_path, const char *foreign_value
  * are none); NULL for unknown words. */
 const char *foreign_word_equivalent_keys(const char *foreign_word);
 
-/* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
+/* ---- messages (scene_faults.c), forms (scene_expect.c, scene_unknown.c) and values (scene_value.c) --------------- */
 
 /* Sets a message about node `at`, composed as by printf, and returns REFUSED. The message begins with
  * `file:line:column: key: `, or with `-s key=value: key: ` if an override gave the node. */
@@ -376,6 +385,14 @@ const char *words_for_message(struct reader *r, const char *words);
  * twice; else OK. */
 status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path);
 
+/* Returns REFUSED if keys of the scene with the tree `root` are not in the table of keys, with a message of one line
+ * for each of the first ten of them; else OK. Does not check names that the user chooses, such as those of variables.
+ */
+status check_all_keys_known(const struct reader *r, const struct yaml_node *root);
+
+/* Returns REFUSED, with an example, if node n is no mapping; else OK. group_path: path of its keys in the table. */
+status expect_mapping(struct reader *r, const struct yaml_node *n, const char *group_path);
+
 /* Returns REFUSED if node n is not of the kind `kind`, with a message of the form "... is not WHAT" with WHAT =
  * `expected`; else OK. */
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected);
@@ -401,6 +418,9 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
 /* Returns the space in which points are read at present, in words for messages: that of the scene, or the plane of an
  * extrusion. */
 const char *space_name_for_message(const struct reader *r);
+
+/* Returns REFUSED, with an example of a value of key k, if node n is no list; else OK. */
+status expect_list(struct reader *r, const struct key *k, const struct yaml_node *n);
 
 /* Returns REFUSED, with a message, if node n is no list, or if the number of its items is outside the range of key
  * k. */

@@ -17,6 +17,12 @@ bool key_is_directly_below(const struct key *k, const char *group_path)
     return strncmp(k->path, group_path, length) == 0 && k->path[length] == '.' && !strchr(k->path + length + 1, '.');
 }
 
+const char *key_group_of_items(const struct key *k)
+{
+    if (strcmp(k->path, "materials") == 0) return "material";
+    return strcmp(k->path, "parts") == 0 ? "bodies.parts" : k->path;
+}
+
 const struct key *key_find(const char *group_path, const char *last_part)
 {
     for (int k = 0; k < keys_count; k++)

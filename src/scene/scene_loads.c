@@ -19,7 +19,7 @@ static status read_profile(struct reader *r, const struct yaml_node *n, struct p
         return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
                      node_text(r, n));
     TRY(check_keys_known(r, n, "boundary.profile"));
-    if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
+    if (n->n != 1) return fault(r, n, "has %d keys; one is expected, as {sine: {wavelength: 1 m}}", n->n);
     f->kind = PROFILE_SINE;
     TRY(read_keys_of_group(r, n->first, n->first, "boundary.profile.sine", f));
     real length2 = dot(f->direction, f->direction, r->dim);
@@ -322,7 +322,7 @@ static status read_kind(struct reader *r, const struct yaml_node *n, const struc
 static status read_boundary(struct reader *r, const struct yaml_node *n, struct boundary *b)
 {
     const struct yaml_node *kind;
-    TRY(expect_node_kind(r, n, NODE_MAP, "a mapping of keys to values"));
+    TRY(expect_mapping(r, n, "boundary"));
     TRY(check_keys_known(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_keys_of_group(r, n, n, "boundary", b));

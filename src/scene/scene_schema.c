@@ -131,14 +131,6 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-/* Returns the path of the group in which the table has the keys of an item of list k: material for `materials`,
- * bodies.parts for `parts`, else the path of the list. */
-static const char *items_group(const struct key *k)
-{
-    if (strcmp(k->path, "materials") == 0) return "material";
-    return strcmp(k->path, "parts") == 0 ? "bodies.parts" : k->path;
-}
-
 static void write_list_items(FILE *out, const struct key *k)
 {
     char least[32], most[32];
@@ -150,7 +142,7 @@ static void write_list_items(FILE *out, const struct key *k)
     if (strcmp(k->path, "probes") == 0)
         write_probe(out);
     else
-        write_object(out, items_group(k));
+        write_object(out, key_group_of_items(k));
     fputc('}', out);
 }
 

@@ -1,192 +1,14 @@
-/* Reads values from nodes by the table of keys, and writes the messages about faults. */
+/* Reads values from nodes by the table of keys. */
 #include "scene_parts.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
-
-enum { SHOWN_LONGEST = 40 };
-
-/* ---- messages ---------------------------------------------------------------------------------------------------- */
-
-const char *text_for_message(struct reader *r, const char *text)
-{
-    size_t length = strlen(text), cut = length;
-    if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
-    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80)
-        cut--; /* keep whole UTF-8 characters */
-    char *copy = arena_new(r, cut + 4);
-    memcpy(copy, text, cut);
-    text_replace_control_characters(copy);
-    if (cut < length) memcpy(copy + cut, "...", 3);
-    return copy;
-}
-
-const char *node_text(struct reader *r, const struct yaml_node *n)
-{
-    if (n->kind == NODE_LIST) return "a list";
-    if (n->kind == NODE_MAP) return "a mapping";
-    return *n->text ? text_for_message(r, n->text) : "no value";
-}
-
-/* Writes the name of node n for messages to name[capacity]: its key, or that of its list as in `velocity[1]`. */
-static void node_name(const struct yaml_node *n, char *name, size_t capacity)
-{
-    if (n->key) {
-        snprintf(name, capacity, "%.48s", n->key);
-    } else if (n->parent) {
-        int place = 0;
-        for (const struct yaml_node *c = n->parent->first; c != n; c = c->next) place++;
-        node_name(n->parent, name, capacity);
-        size_t used = strlen(name);
-        snprintf(name + used, capacity - used, "[%d]", place);
-    } else {
-        *name = '\0';
-    }
-}
-
-void location_write_text(const struct reader *r, int origin_index, int line, int column, char *text, size_t capacity)
-{
-    if (origin_index < 0) {
-        snprintf(text, capacity, "%.300s:%d:%d", origin_file_name(r, origin_index), line, column);
-        return;
-    }
-    snprintf(text, capacity, "-s %.100s=%.100s", r->override[origin_index].key, r->override[origin_index].value);
-}
-
-status fault_at_location(const struct reader *r, int origin_index, int line, int column, const char *format, ...)
-{
-    char what[512], place[400];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    location_write_text(r, origin_index, line, column, place, sizeof place);
-    return status_set(REFUSED, "%s: %s", place, what);
-}
-
-void fault_write_location_of_node(const struct reader *r, const struct yaml_node *node, char *text, size_t capacity)
-{
-    char name[100];
-    node_name(node, name, sizeof name);
-    location_write_text(r, node->origin, node->line, node->column, text, capacity);
-    snprintf(text + strlen(text), capacity - strlen(text), ": %s%s", name, *name ? ": " : "");
-}
-
-status fault(const struct reader *r, const struct yaml_node *at, const char *format, ...)
-{
-    char what[512], place[PLACE_LENGTH];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(what, sizeof what, format, arguments);
-    va_end(arguments);
-    fault_write_location_of_node(r, at, place, sizeof place);
-    return status_set(REFUSED, "%s%s", place, what);
-}
-
-status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other)
-{
-    const struct yaml_node *late = one->origin > other->origin ? one : other;
-    return fault(r, late, "given beside %s; keep one of the two", late == one ? other->key : one->key);
-}
-
-/* Returns, for a message, what values key k expects. The text is static or in the reader's arena. */
-static const char *form_text(struct reader *r, const struct key *k)
-{
-    switch (k->type) {
-    case KEY_REAL:
-        return unit_rows[k->unit].name;
-    case KEY_POINT:
-        return "a list of numbers";
-    case KEY_REGION:
-        return "a solid or a list of solids";
-    case KEY_NAME:
-        return "a name";
-    case KEY_MATERIAL:
-        return "the name of a material";
-    default:
-        return k->words ? words_for_message(r, k->words) : "a mapping of keys";
-    }
-}
-
-status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k)
-{
-    const char *leaf = key_last_part(k), *example = k->type == KEY_REAL ? unit_rows[k->unit].example : "";
-    const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0; /* length of the path before the last dot */
-    return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; %s is expected%s%s", leaf,
-                             group > 0 ? " in " : "", group, k->path, form_text(r, k), *example ? ", as " : "",
-                             example);
-}
-
-const char *words_for_message(struct reader *r, const char *words)
-{
-    int left = 1;
-    for (const char *c = words; *c; c++) left += *c == '|';
-    char *text = arena_new(r, strlen(words) + 4 * (size_t)left + 1), *to = text;
-    for (const char *c = words; *c; c++) {
-        if (*c != '|') {
-            *to++ = *c;
-            continue;
-        }
-        left--;
-        to = stpcpy(to, left == 1 ? " or " : ", ");
-    }
-    return text;
-}
-
-/* ---- keys -------------------------------------------------------------------------------------------------------- */
-
-static status fault_unknown(const struct reader *r, const struct yaml_node *n, const char *group)
-{
-    char instead[400];
-    if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
-    const struct key *nearest = key_find_most_similar(group, n->key);
-    const char *leaf = nearest ? key_last_part(nearest) : "";
-    if (nearest && words_are_similar(leaf, n->key)) return fault(r, n, "unknown key; the nearest is %s", leaf);
-    int others;
-    const struct key *other = key_find_in_any_group(n->key, &others);
-    if (other && !strchr(other->path, '.'))
-        return fault(r, n, "does not belong here; %s is a key of its own, at the left margin", n->key);
-    if (others == 1) return fault(r, n, "does not belong here; it is the key %s", other->path);
-    if (others > 1)
-        return fault(r, n, "does not belong here; `cleave help %s` lists the %d keys of that name", n->key, others);
-    return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
-}
-
-/* Returns REFUSED if a key of the mapping `mapping` is unknown in the group with this path, or is given twice. */
-status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path)
-{
-    for (const struct yaml_node *n = mapping->first; n; n = n->next) {
-        const struct key *k = key_find(group_path, n->key);
-        if (!k) return fault_unknown(r, n, group_path);
-        for (const struct yaml_node *twin = mapping->first; twin != n; twin = twin->next)
-            if (strcmp(twin->key, n->key) == 0)
-                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
-    }
-    return OK;
-}
-
-status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected)
-{
-    const bool top = n->key && n->parent && !n->parent->key;
-    const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
-    if (n->kind == kind) return OK;
-    return fault(r, n, "%s is not %s%s%s", node_text(r, n), expected, advice ? "; " : "", advice ? advice : "");
-}
-
-status expect_list_of_valid_length(struct reader *r, const struct key *k, const struct yaml_node *n)
-{
-    int least = (int)k->range.least, most = (int)k->range.most;
-    TRY(expect_node_kind(r, n, NODE_LIST, "a list"));
-    if (n->n >= least && n->n <= most) return OK;
-    return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
-}
 
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
@@ -299,15 +121,14 @@ static status read_choice(struct reader *r, const struct key *k, const struct ya
     return OK;
 }
 
-/* Returns the word of a|b|c nearest to `text` by edit distance, in the reader's arena; NULL: none is similar. */
+/* Returns the word of a|b|c most similar to `text`, in the reader's arena; NULL: none is similar. */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
-    int least = (int)strlen(text) / 3 + 2;
     for (const char *c = words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL) {
         const char *word = arena_copy_text(r, c, strcspn(c, "|"));
-        const int distance = edit_distance(word, text);
-        if (distance < least) nearest = word, least = distance;
+        if (words_are_similar(word, text) && (!nearest || edit_distance(word, text) < edit_distance(nearest, text)))
+            nearest = word;
     }
     return nearest;
 }
@@ -371,8 +192,12 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     int d = 0;
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
     const char *space = space_name_for_message(r);
-    if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in %s", node_text(r, n), r->dim, space);
+    if (n->kind != NODE_LIST) {
+        char example[200];
+        key_write_example(k, r->dim, NULL, example, sizeof example);
+        return fault(r, n, "%s is not a list; %d components are expected in %s, as %s", node_text(r, n), r->dim, space,
+                     example);
+    }
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
     for (const struct yaml_node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
@@ -398,7 +223,7 @@ enum { SERIES_MOST = 100000 };
 /* Reads a list of ascending numbers from node n in the unit and range of key k. Returns REFUSED for another form. */
 static status read_series(struct reader *r, const struct key *k, const struct yaml_node *n, struct number_list *series)
 {
-    TRY(expect_node_kind(r, n, NODE_LIST, "a list"));
+    TRY(expect_list(r, k, n));
     if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct yaml_node *c = n->first; c; c = c->next) {
@@ -504,7 +329,7 @@ static status read_fallback(struct reader *r, const struct yaml_node *where, con
 status read_keys_of_group(struct reader *r, const struct yaml_node *location_node, const struct yaml_node *mapping,
                           const char *group_path, void *group_values)
 {
-    if (mapping) TRY(expect_node_kind(r, mapping, NODE_MAP, "a mapping of keys to values"));
+    if (mapping) TRY(expect_mapping(r, mapping, group_path));
     if (mapping) TRY(check_keys_known(r, mapping, group_path));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];

@@ -125,7 +125,7 @@ done <<'END'
 5|method: adaptive^time: 10 us|6:1|the simulated time is the key `duration`
 5|method: adaptive^crack: [{at: 1}]|6:1|pre-cracks are the key `cracks`
 10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|this key takes a number of spacings, here horizon: 3
-2|space: plane stress^crack: {from: [0, 0], to: [1 mm, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
+2|space: plane stress^crack: {from: [0, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
 13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
 16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
 16|    force: [0, 1 N]|16:5|a force on a face is a traction [Pa]
@@ -267,8 +267,26 @@ done <<'END'
 20|probes: [{reaction: {boundary: push}}]|20:22|no boundary push
 20|probes: [{line: {from: [0, 0], to: [1, 1], points: 1}}]|20:44|out of range
 20|probes: {tip}|20:1|list
+20|probes: tip|20:1|tip is not a list such as [{tip: {at: [0.5 mm, 0]}}]
+20|initial: {velocity: [1, 0]}|20:1|a mapping is not a list such as [{velocity: [22 m/s, 0]}]
+20|growth: {at: [1 mm, 0]}|20:1|a mapping is not a list such as [{at: [0.5 mm, 0]}]
+10|particles: 1 mm|10:1|1 mm is not a mapping such as {spacing: 0.5 mm}
+20|gravity: 9.81|20:1|is not a list; 2 components are expected in space plane stress, as [-9.81 m/s^2, 0]
 20|---^name: second|20:1|second document
 END
+
+# Unknown keys are reported together, each in one line, at most ten.
+sed -e 's/young/yuong/; s/radius/raduis/; s/samples/smaples/' good.yaml >bad.yaml
+"$cleave" run bad.yaml >out 2>err
+is "three unknown keys: exit status" $? 2
+is "three unknown keys" "$(cat err)" "bad.yaml:6:12: yuong: unknown key; the nearest is young
+bad.yaml:9:45: raduis: unknown key; the nearest is radius
+bad.yaml:19:21: smaples: unknown key; the nearest is samples"
+for k in a b c d e f g h i j k l; do echo "q$k: 1"; done | cat good.yaml - >bad.yaml
+"$cleave" run bad.yaml >out 2>err
+is "twelve unknown keys: lines" "$(wc -l <err | tr -d ' ')" 11
+is "twelve unknown keys: the last line" "$(tail -n 1 err)" "bad.yaml: and 2 more unknown keys"
+nothing_left "unknown keys"
 
 # Errors found only with the particles: position of the cause, one sentence, and no folder created.
 while IFS='|' read -r line text start words; do
@@ -365,7 +383,7 @@ list "nan" "kept/grains.csv:2:" "" <<'END'
 x,y,volume
 nan,0.5e-3,1e-8
 END
-list "two in one place" "bad.yaml:7:25: particles: " "has two particles at one position" <<'END'
+list "two in one place" "bad.yaml:7:25: particles: " "has two particles at (" <<'END'
 x,y,volume
 0.5e-3,0.5e-3,1e-8
 0.5e-3,0.5e-3,1e-8

@@ -6,7 +6,7 @@ import importlib
 import math
 import re
 from types import ModuleType
-from typing import Any, Optional
+from typing import Any, List, Optional
 
 PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): (?P<message>.*)", re.S)
 MISSING = re.compile(r"(?P<key>\w+): missing(?: in [^;]*)?;")
@@ -83,6 +83,16 @@ def in_python(text: str) -> str:
     for option, argument in _OPTIONS:
         text = re.sub(option, argument, text)
     return text
+
+
+def last_words(lines: List[str]) -> str:
+    """Returns the last of the lines that the program has told, with those before it that name locations of faults, too: of
+    several unknown keys each has a line."""
+    first = max(len(lines) - 1, 0)
+    while first > 0 and not lines[first - 1].startswith("warning: ") and (OVERRIDE.fullmatch(lines[first - 1])
+                                                                          or PLACE.fullmatch(lines[first - 1])):
+        first -= 1
+    return "\n".join(lines[first:])
 
 
 def error_of(line: str, status: int) -> Error:

@@ -16,7 +16,7 @@ from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 import numpy as np
 
-from ._errors import Error, error_of
+from ._errors import Error, error_of, last_words
 
 
 def program() -> str:
@@ -168,7 +168,7 @@ def call_fully(words: Tuple[Any, ...], quiet: bool, progress: Optional[Callable[
                 _end(child, source, interrupt=True)
                 raise
         if child.returncode:
-            raise error_of(told[-1] if told else "cleave ended with status %d" % child.returncode, child.returncode)
+            raise error_of(last_words(told) or "cleave ended with status %d" % child.returncode, child.returncode)
         printed.seek(0)
         return printed.read(), told
 

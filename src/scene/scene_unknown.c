@@ -1,0 +1,97 @@
+/* Finds the unknown keys of a scene and reports them together. */
+#include "scene_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Writes to text[capacity] why node n, which is no key of `group`, is refused, and the key that is meant if one is. */
+static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
+{
+    char instead[400];
+    const struct key *nearest = key_find_most_similar(group, n->key);
+    const char *leaf = nearest ? key_last_part(nearest) : "";
+    int others;
+    const struct key *other = key_find_in_any_group(n->key, &others);
+    if (foreign_word_advice(n->key, group, instead, sizeof instead))
+        snprintf(text, capacity, "unknown key; %s", instead);
+    else if (nearest && words_are_similar(leaf, n->key))
+        snprintf(text, capacity, "unknown key; the nearest is %s", leaf);
+    else if (other && !strchr(other->path, '.'))
+        snprintf(text, capacity, "does not belong here; %s is a key of its own, at the left margin", n->key);
+    else if (others == 1)
+        snprintf(text, capacity, "does not belong here; it is the key %s", other->path);
+    else if (others > 1)
+        snprintf(text, capacity, "does not belong here; `cleave help %s` lists the %d keys of that name", n->key,
+                 others);
+    else
+        snprintf(text, capacity, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
+}
+
+status check_keys_known(struct reader *r, const struct yaml_node *mapping, const char *group_path)
+{
+    char text[500];
+    for (const struct yaml_node *n = mapping->first; n; n = n->next) {
+        if (!key_find(group_path, n->key)) {
+            describe_unknown_key(n, group_path, text, sizeof text);
+            return fault(r, n, "%s", text);
+        }
+        for (const struct yaml_node *twin = mapping->first; twin != n; twin = twin->next)
+            if (strcmp(twin->key, n->key) == 0)
+                return fault(r, n, "given twice, first in line %d; keep one", twin->line);
+    }
+    return OK;
+}
+
+/* ---- all of a scene ---------------------------------------------------------------------------------------------- */
+
+enum { SHOWN_MOST = 10 }; /* lines of unknown keys in one message */
+
+/* Sets the message about the unknown key at node n, or adds it as a line to that about earlier ones. group: path of its
+ * group; *found: number of unknown keys so far, which increases by one. */
+static void report_unknown_key(const struct reader *r, const struct yaml_node *n, const char *group, int *found)
+{
+    char place[PLACE_LENGTH], text[500];
+    if ((*found)++ >= SHOWN_MOST) return;
+    describe_unknown_key(n, group, text, sizeof text);
+    fault_write_location_of_node(r, n, place, sizeof place);
+    if (*found == 1)
+        status_set(REFUSED, "%s%s", place, text);
+    else
+        status_add_line("%s%s", place, text);
+}
+
+/* Returns the path of the group of keys in the mapping that is the value of key k, or in each mapping of the list.
+ * Returns NULL if its value is no such mapping, or one of names. */
+static const char *group_of_values(const struct key *k)
+{
+    const char *words = k->words ? k->words : "", *group = key_group_of_items(k);
+    if (k->type == KEY_REGION || (k->type == KEY_HAND && strncmp(words, "solid", 5) == 0)) return "solid";
+    for (int i = 0; i < keys_count; i++)
+        if (key_is_directly_below(&keys[i], group)) return group;
+    return NULL;
+}
+
+/* Reports the unknown keys of `node`, a mapping or a list of mappings with keys of `group`, and of all nodes below it.
+ * *found: number of unknown keys so far, which increases. Other nodes are left to the functions that read them. */
+static void report_unknown_keys(const struct reader *r, const struct yaml_node *node, const char *group, int *found)
+{
+    for (const struct yaml_node *n = node->first; n; n = n->next) {
+        if (node->kind == NODE_LIST) {
+            report_unknown_keys(r, n, group, found);
+            continue;
+        }
+        const struct key *k = key_find(group, n->key);
+        const char *inner = k ? group_of_values(k) : NULL;
+        if (!k) report_unknown_key(r, n, group, found);
+        const bool one = k && (k->type == KEY_MAP || k->type == KEY_PART); /* a list of these is refused later */
+        if (inner && !(one && n->kind == NODE_LIST)) report_unknown_keys(r, n, inner, found);
+    }
+}
+
+status check_all_keys_known(const struct reader *r, const struct yaml_node *root)
+{
+    int found = 0;
+    report_unknown_keys(r, root, "", &found);
+    if (found > SHOWN_MOST) status_add_line("%s: and %d more unknown keys", r->name, found - SHOWN_MOST);
+    return found > 0 ? REFUSED : OK;
+}
