@@ -39,10 +39,10 @@ status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion
 void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
                                               const struct bonds *b, const struct bond_source *source);
 
-/* Updates the strains p->end_strain of all material points with state-based bonds to peridynamic particles: what the
- * deformation of the cell of such a point contributes to the mean strain of its family. They follow from the strain of
- * the cell for points of the mesh of `frame`, from the stress of the point for points on the background grid. Does
- * nothing in bond-based models. partial: lists these points; material: array of the materials. */
+/* Updates p->end_strain [1] of all material points that have state-based bonds to peridynamic particles, which
+ * `partial` lists. It is the strain that the cell of the point adds to the mean strain of the point's family. It is
+ * computed from the strain of the cell for points of the mesh of `frame`, and from the stress of the point, by the
+ * elastic law of its material in material[], for points on the background grid. Does nothing in bond-based models. */
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 

@@ -1,4 +1,5 @@
-/* Finds what large displacements make wrong without any force that shows it. */
+/* Checks for errors of large displacements that no force reveals: bodies that pass through each other, and pressures
+ * along normals of the undeformed body. */
 #ifndef CLEAVE_LARGE_MOTION
 #define CLEAVE_LARGE_MOTION
 
@@ -6,7 +7,7 @@
 #include "loads/loads.h"
 #include "scene/scene.h"
 
-/* What the checks of large displacements have found. */
+/* Results of the checks of large displacements. */
 struct large_motion {
     int checked; /* number of the last part of the duration at whose beginning particles were compared */
     bool passed; /* the warning that parts of a body pass through each other has been printed */

@@ -1,4 +1,4 @@
-/* Where the bodies of a run are, as text for messages. */
+/* Writes the bounding box of the bodies of a run as text for messages. */
 #include "data/extent.h"
 
 #include <stdio.h>
