@@ -34,13 +34,13 @@ static void say_excess(const struct scene *s, real kappa)
     const real *const at = measured[of].kappa, *const excess = measured[of].excess;
     int k = 0;
     if (kappa > at[last]) {
-        printf("; at this one they spend %.0f %% more than G_c or still more (not measured beyond a kappa of %.2g)",
-               excess[last], at[last]);
+        printf("; with this horizon they spend at least %.0f %% more than G_c", excess[last]);
         return;
     }
     while (k < last - 1 && kappa > at[k + 1]) k++;
     const real share = real_max(0, log(kappa / at[k]) / log(at[k + 1] / at[k]));
-    printf("; at this one they spend about %.0f %% more than G_c", excess[k] + share * (excess[k + 1] - excess[k]));
+    printf("; with this horizon they spend about %.0f %% more than G_c",
+           excess[k] + share * (excess[k + 1] - excess[k]));
 }
 
 /* Prints the horizon of scene s, the horizon below which the softening law of material m reaches its strength, and the
@@ -49,7 +49,7 @@ static void say_excess(const struct scene *s, real kappa)
 static void say_horizons(const struct scene *s, const struct material *m, real kappa)
 {
     say_horizon(s, m);
-    printf("; this strength needs less than %.4g m, and cracks run free of the lattice below %.4g m",
+    printf("; stress reaches this strength below %.4g m, and the lattice does not impede cracks below %.4g m",
            scene_softening_horizon_for_stretch_ratio(s, m, 1),
            scene_softening_horizon_for_stretch_ratio(s, m, FREE_OF_TRAPPING));
     if (s->dim > 1) say_excess(s, kappa);
@@ -74,7 +74,8 @@ static void print_surface(const struct scene *s, const struct material *m)
     printf(", by a strength surface; strains are averaged over %.4g m (%d means over families)\n",
            horizon * sqrt(m->surface_means + 0.3), m->surface_means);
     say_horizon(s, m);
-    printf("; the surface needs less than %.4g m", scene_strength_surface_largest_horizon(s, m));
+    printf("; with a horizon of %.4g m or more stress does not reach the surface",
+           scene_strength_surface_largest_horizon(s, m));
     if (surface.tension > unit)
         printf("; in tension bonds soften at about %.4g Pa already, before the surface is reached", unit);
     if (surface.shear > own_shear)

@@ -371,7 +371,10 @@ static status read_words(struct pair *p, int argc, char **argv)
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
-        return status_set(REFUSED, "%s holds no run: neither summary.json, history.csv nor frames", p->folder[k]);
+        return status_set(REFUSED,
+                          "%s holds no run, neither summary.json, history.csv nor frames: give the folder that cleave "
+                          "run names at its end",
+                          p->folder[k]);
     }
     return OK;
 }

@@ -119,7 +119,7 @@ status lammps_types_assign_to_particles(struct lammps_types *types, struct expor
                        "whose tables grow with their square; straight cracks on a lattice need fewer",
                        printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = particle_colours_find_bonded_pairs(colour, colours, &touched)))
-        s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
+        s = status_set(FAILED, "export: the cracks cut bonds that types of LAMMPS particles cannot tell from others");
     if (s == OK) s = types_give(types, x, &touched, colour, colours, pair);
     memory_free(pair);
     memory_free(colour);

@@ -137,7 +137,8 @@ static status generate_line(struct deck *d, int set)
     if (bound[2] < 1 || bound[1] < bound[0]) return source_report_fault(d->s, "first, last and step are expected");
     d->generated += (bound[1] - bound[0]) / bound[2] + 1;
     if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
+        return source_report_fault(d->s,
+                                   "sets have more members than the file can hold nodes or elements: it is damaged");
     for (int64_t label = bound[0]; label <= bound[1]; label += bound[2]) element_mesh_add_to_set(d->m, set, label);
     return OK;
 }
@@ -150,7 +151,8 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->length)
-        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
+        return source_report_fault(d->s,
+                                   "sets have more members than the file can hold nodes or elements: it is damaged");
     for (int64_t k = d->m->set[other].resolved; other != set && k < d->m->set[other].n; k++)
         element_mesh_add_to_set(d->m, set, d->m->set[other].member[k]);
     return OK;
@@ -221,7 +223,7 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
 {
     const int64_t index = label_map_find(&scope->node_of, *node);
     if (index < 0)
-        return source_report_fault(d->s, "element %lld has node %d, which is not among the nodes",
+        return source_report_fault(d->s, "element %lld has node %d, which the file does not define in its part",
                                    (long long)d->m->element_label[k], (int)*node);
     *node = (int32_t)index;
     return OK;
@@ -320,7 +322,7 @@ static status input_read(struct deck *d, status (*read)(struct deck *d), bool ke
     struct source file, *const outer = d->s;
     char path[PATH_LENGTH], keyword[FIELD];
     snprintf(keyword, sizeof keyword, "%s", d->key.name);
-    if (!name || !*name) return source_report_fault(d->s, "*%s without INPUT, the name of a file", keyword);
+    if (!name || !*name) return source_report_fault(d->s, "*%s has no INPUT=FILE", keyword);
     const int before = slash && *name != '/' ? (int)(slash - folder) + 1 : 0;
     if (snprintf(path, sizeof path, "%.*s%s", before, folder, name) >= (int)sizeof path)
         return source_report_fault(d->s, "the name of an included file is too long");

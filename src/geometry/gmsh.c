@@ -101,7 +101,7 @@ static status node_next(struct gmsh *g, int32_t *index)
     TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
     const int64_t found = label_map_find(&g->node, label);
     if (found < 0)
-        return source_report_fault(g->s, "an element has node %lld, which is not among the nodes", (long long)label);
+        return source_report_fault(g->s, "an element has node %lld, which $Nodes does not define", (long long)label);
     *index = (int32_t)found;
     return OK;
 }
@@ -165,7 +165,7 @@ static status quoted_next(struct source *s, char *text, size_t capacity)
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < capacity) text[n++] = s->text[s->at];
     text[n] = '\0';
-    if (s->at >= s->length || s->text[s->at] != '"') return source_report_fault(s, "a name that does not end");
+    if (s->at >= s->length || s->text[s->at] != '"') return source_report_fault(s, "a name has no closing quote");
     s->at++;
     return OK;
 }
@@ -401,8 +401,9 @@ static status format_read(struct gmsh *g)
     g->s->binary = true;
     TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
-    return one == 1 ? OK
-                    : source_report_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
+    return one == 1
+               ? OK
+               : source_report_fault(g->s, "the file has the byte order of another machine; save it as text (ASCII)");
 }
 
 /* Skips the rest of the section `name`, such as $Nodes: advances to the line after its last one, such as $EndNodes, or

@@ -51,7 +51,9 @@ static status page_read(png_structp png, png_infop info, struct pages *p, const 
     make_grey(png, info);
     const int64_t row = (int64_t)png_get_rowbytes(png, info);
     const bool wide = png_get_bit_depth(png, info) == 16;
-    if (row != width * (wide ? 2 : 1)) return status_set(REFUSED, "%s: a kind of PNG that is not read", s->path);
+    if (row != width * (wide ? 2 : 1))
+        return status_set(REFUSED, "%s: this kind of PNG is not supported; save it with grey values of 8 or 16 bits",
+                          s->path);
     *bytes = memory_new_uninitialised("image.rows", row * height, 1);
     *rows = BARE("image.rows", height, png_bytep);
     for (int64_t j = 0; j < height; j++) (*rows)[j] = *bytes + j * row;

@@ -143,7 +143,7 @@ status loads_check_bonds_between_mirrors(const struct loads *l, real bond_length
     return status_prepend_location(
         b[k].place, status_set(REFUSED,
                                "boundary %s: the mirror is %.6g m from that of %s; with bonds of %.6g m "
-                               "they must be farther apart than %.6g m",
+                               "they must be farther apart than %.6g m: move one, or use a smaller horizon",
                                b[k].name, fabs(b[k].at - b[m].at), b[m].name, bond_length, bond_length - l->spacing));
 }
 

@@ -60,7 +60,10 @@ static status box_find(struct grid *box, const struct scene *s)
     grid_choose_reference_node_position(s, from, site, true, box->anchor);
     return grid_set_box_if_not_too_large(box, from, to, INT32_MAX)
                ? OK
-               : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
+               : status_set(
+                     REFUSED,
+                     "body %s: too large for its spacing, with more than 2e9 cells; use a larger particles.spacing",
+                     s->body[0].name);
 }
 
 /* Returns true if a pre-crack is so near the position X[dim] [m] that particles are needed there: nearer than the

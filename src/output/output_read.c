@@ -95,7 +95,7 @@ status frame_read(struct output_frame *f, const char *path)
     crash_message_set_file_in_use(NULL);
     if (whole && linked == OK) return OK;
     frame_free(f);
-    return linked == OK ? status_set(FAILED, "cannot read %s: it is no whole frame of this program", path) : linked;
+    return linked == OK ? status_set(FAILED, "cannot read %s: it is damaged, or no frame of Cleave", path) : linked;
 }
 
 void frame_free(struct output_frame *f)
@@ -202,7 +202,11 @@ status run_list_frames(const char *folder, int *frame_count, struct listed_frame
     struct listed_frame f;
     *frame_count = 0;
     *frames = NULL;
-    if (!path_exists(path.text)) return status_set(FAILED, "%s holds no frames (no frames.hdf.series)", folder);
+    if (!path_exists(path.text))
+        return status_set(
+            FAILED,
+            "%s holds no frames (no frames.hdf.series); give the folder of a run, as cleave run names it at its end",
+            folder);
     TRY(file_read_whole(path.text, &text, &length));
     int count = 0;
     for (const char *at = text; next_frame(&at, &f);) count++;

@@ -129,7 +129,8 @@ static status bind_region(struct probe *q, const struct observed_run *o)
         if (region_contains(&q->request.region, X, p->dim, ON_SURFACE * o->spacing)) q->list[q->n++] = (int32_t)i;
     }
     if (q->n > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
+    return status_set(REFUSED, "probe \"%s\": its region holds no particle: check its coordinates and their unit (mm?)",
+                      q->request.name);
 }
 
 /* Returns REFUSED, with a message, unless the boundary that a REACTION probe names prescribes a motion or, in load

@@ -216,8 +216,9 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     const int32_t ahead =
         probe_find_nearest_particle(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
     if (ahead < 0)
-        return status_set(REFUSED, "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m", r->name, at[0],
-                          at[1]);
+        return status_set(REFUSED,
+                          "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m; check `at` and `direction`",
+                          r->name, at[0], at[1]);
     w->tip.body = p->body[ahead];
     w->tip.medium = crack_medium_of_material(&o->material[p->material[ahead]], o->space);
     for (int64_t i = 0; i < p->n; i++) {
@@ -235,7 +236,8 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
 status sif_probe_find_tip_and_contours(struct probe *q, const struct observed_run *o)
 {
     const struct probe_request *r = &q->request;
-    if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
+    if (o->part->dim != 2)
+        return status_set(REFUSED, "probe \"%s\": it requires space: plane stress or plane strain", r->name);
     struct sif_tracked *w = q->sif = NEW("sif", 1, struct sif_tracked);
     make_contours(w, r, o->spacing);
     TRY(find_tip(w, r, o));

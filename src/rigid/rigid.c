@@ -90,7 +90,8 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
             "rigid body %s moves, but its shape is infinite; a shape of boxes, balls, discs or cylinders is expected",
             r->name);
     if (bounded) region_compute_moments(shape, dim, from, to, &moments);
-    if (bounded && !(moments.volume > 0)) return status_set(REFUSED, "rigid body %s has no volume", r->name);
+    if (bounded && !(moments.volume > 0))
+        return status_set(REFUSED, "rigid body %s has no volume; check its shape", r->name);
     if (r->motion == RIGID_FREE && moments.change > MOMENTS_UNCERTAIN)
         return status_set(REFUSED,
                           "rigid body %s moves freely, but its shape is so thin that its centre and inertia are known "

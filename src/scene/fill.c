@@ -140,7 +140,8 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
         real last = ceil((to[a] - x->centre) / s->spacing + x->half_count - 0.5);
         places *= real_max(0, last - first + 1);
         if (!(places < 64.0 * PARTICLES_MAX && -first < FILL_FARTHEST && last < FILL_FARTHEST))
-            return particle_draft_refuse_body(d, body, "too large for the spacing");
+            return particle_draft_refuse_body(
+                d, body, "too large for the spacing: use a larger one, or check the units of both (mm?)");
         x->first = (int64_t)first, x->last = (int64_t)last;
         axis_round(x);
     }
@@ -214,7 +215,7 @@ static status draft_empty(const struct particle_draft *d, int body, bool listed)
     real from[DIM_MAX], to[DIM_MAX];
     char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
-    if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it");
+    if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it: check its column body");
     region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
@@ -351,14 +352,13 @@ static status check_distances(const struct particles *p, const struct particle_d
     cells_free(&cells);
     if (first == p->n) return OK;
     const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
-    const char *place = (one > two ? one : two)->place;
     if (one == two)
-        return status_prepend_location(
-            place, status_set(REFUSED, "body %s has two particles at one position: (%.6g, %.6g, %.6g) m", one->name,
-                              X[0], X[1], X[2]));
-    return status_prepend_location(
-        place, status_set(REFUSED, "bodies %s and %s have particles at one position: (%.6g, %.6g, %.6g) m", one->name,
-                          two->name, X[0], X[1], X[2]));
+        status_set(REFUSED, "body %s has two particles at (%.6g, %.6g, %.6g) m: remove one from its list", one->name,
+                   X[0], X[1], X[2]);
+    else
+        status_set(REFUSED, "bodies %s and %s both have a particle at (%.6g, %.6g, %.6g) m: move or cut one of them",
+                   one->name, two->name, X[0], X[1], X[2]);
+    return status_prepend_location((one > two ? one : two)->place, REFUSED);
 }
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */

@@ -119,9 +119,7 @@ static status header_read(struct csv *c, struct particle_list *l)
     for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
         if (!has[k] && l->form.columns)
-            return status_set(REFUSED,
-                              "%s: columns: [%s] lack %s; as many as the line of the file has are expected, "
-                              "such as [%s]",
+            return status_set(REFUSED, "%s: columns: [%s] lack %s; name every column of the file, as in [%s]",
                               c->in.path, l->form.columns, list_quantity[k].name, names);
         else if (!has[k])
             return csv_report_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",

@@ -214,7 +214,9 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
         return fault(r, between,
                      "load steps of bonds that soften have no contact; none, or solver: explicit, is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
-        return fault(r, friction, "there is no contact (contact.between: none), so there is no friction");
+        return fault(r, friction,
+                     "there is no contact (contact.between: none), so there is no friction; leave it out, or use "
+                     "contact.between: all");
     return OK;
 }
 
@@ -407,7 +409,7 @@ static status check_times(struct reader *r, const struct yaml_node *root)
 static status check_accuracy(struct reader *r, const struct yaml_node *root)
 {
     const struct yaml_node *n = yaml_node_find(root, "accuracy");
-    return n ? fault(r, n, "has no meaning without method: auto") : OK;
+    return n ? fault(r, n, "has no meaning without method: auto; leave it out") : OK;
 }
 
 /* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models in

@@ -23,7 +23,10 @@ static status interface_bodies(struct reader *r, const struct yaml_node *n, stru
             if (name->kind == NODE_SCALAR && strcmp(s->body[b].name, name->text) == 0) face->body[k] = b;
         for (int b = 0; b < s->rigids; b++)
             if (name->kind == NODE_SCALAR && strcmp(s->body[s->bodies + b].name, name->text) == 0)
-                return fault(r, name, "%s is rigid: bonds join bodies with particles only", name->text);
+                return fault(
+                    r, name,
+                    "%s is rigid, and bonds join bodies with particles only; name two of these, or rely on contact",
+                    name->text);
         if (face->body[k] < 0) return fault(r, name, "no body of this name has particles");
     }
     if (face->body[0] == face->body[1]) return fault(r, names, "a body and itself; two bodies are expected");

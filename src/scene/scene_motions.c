@@ -19,7 +19,7 @@ static status read_turning_axis(struct reader *r, const struct yaml_node *n, str
 {
     const struct yaml_node *axis = yaml_node_find(n, "axis");
     if (r->dim == 1) return fault(r, n, "nothing turns on a line; move, mirror or pattern.grid is expected");
-    if (r->dim == 2 && axis) return fault(r, axis, "the plane has one axis to turn about; it has none to give");
+    if (r->dim == 2 && axis) return fault(r, axis, "solids of the plane turn about z; leave the axis out");
     if (!m->has_axis) m->axis[2] = 1;
     m->has_axis = r->dim == 3;
     if (dot(m->axis, m->axis, DIM_MAX) > 0) return OK;
@@ -63,7 +63,7 @@ static status read_pattern(struct reader *r, const struct yaml_node *n, struct s
 {
     TRY(expect_node_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
     TRY(check_keys_known(r, n, "solid.pattern"));
-    if (n->n != 1) return fault(r, n, "has %d keys; a pattern is one of grid and ring", n->n);
+    if (n->n != 1) return fault(r, n, "has %d keys; one is expected, grid or ring", n->n);
     const struct yaml_node *form = n->first;
     const bool ring = strcmp(form->key, "ring") == 0;
     m->kind = ring ? MOTION_RING : MOTION_GRID;

@@ -23,7 +23,7 @@ static status kind_of_probe(struct reader *r, const struct yaml_node *n, enum pr
     } else {
         TRY(expect_node_kind(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
         TRY(check_keys_known(r, n, "probes"));
-        if (n->n != 1) return fault(r, n, "has %d keys; a probe is one kind with its keys below it", n->n);
+        if (n->n != 1) return fault(r, n, "has %d keys; a probe has one, its kind, as point: {at: [..]}", n->n);
         if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
     }
     const char *name = n->kind == NODE_SCALAR ? n->text : n->first->key;

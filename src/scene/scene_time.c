@@ -212,7 +212,7 @@ status read_time_function(struct reader *r, const struct yaml_node *function_nod
         return read_time_file(r, function_node, boundary);
     }
     if (function_node->n != 1)
-        return fault(r, function_node, "has %d keys; one of %s is expected", function_node->n, forms);
+        return fault(r, function_node, "has %d keys; one is expected: %s", function_node->n, forms);
     const struct yaml_node *form = function_node->first;
     int kind = word_index_in_list("step|pulse|ramp", form->key);
     if (kind < 0) return read_table(r, form, f);

@@ -294,7 +294,7 @@ near "the first" "$(figure "$work/grip" crack.driven_start_time)" "$(figure "$wo
 absent "no other break" "$(figure "$work/grip" crack.start_time)$(figure "$work/grip" probes.break.first_time)"
 holds "what tears is said" grep -q 'warning: boundary right and others: bonds of the particles that it drives break, the first at' "$work/err"
 holds "in the summary" grep -q 'right and others: bonds of the particles' "$work/grip/summary.json"
-holds "terminal" grep -q 'first bond broken of particles that a boundary drives: at' "$work/said"
+holds "terminal" grep -q 'first broken bond of particles that a boundary moves: at' "$work/said"
 fast='boundary right: it moves its particles up to 200 m/s faster than they are at t = 0; bonds beside it break at 54'
 holds "too fast: run" grep -q "$fast" "$work/err"
 holds "too fast: check" sh -c "'$cleave' check '$work/grip.yaml' --no-trial 2>&1 | grep -q '$fast'"

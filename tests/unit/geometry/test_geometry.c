@@ -284,7 +284,7 @@ static void bad_gmsh(void **state)
                {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are announced, more"},
                {"2 1 0 0\n", "2 1 nan 0\n", ":13: nan is no coordinate"},
                {"2 1 0 0\n", "1 1 0 0\n", "node 1 is given twice"},
-               {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, which is not among the nodes"},
+               {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, which $Nodes does not define"},
                {"4 6 2 2 2", "4 77 2 2 2", "type 77"},
                {"$Nodes", "$Knots", "ends without $Nodes"},
                {"\"grip\"", "grip", "a name in quotes"},
@@ -432,7 +432,7 @@ static void bad_abaqus(void **state)
                {"CPS4R", "CPS4Q", "element type CPS4Q is not known"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
                {"*node, nset=all", "*node, system=C", ":4: coordinates in the system C"},
-               {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};
+               {"11, 11, 1\n", "1, 999999999, 1\n", "sets have more members than the file can hold nodes or elements"}};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
         write_changed("bad.inp", flat, bad[k].from, bad[k].to);
         refused("bad.inp", 2, bad[k].message);

@@ -346,7 +346,7 @@ static void bad_bodies_are_refused(void **state)
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
     s.solid[1][0] = s.solid[0][0]; /* the same position twice */
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "particles at one position");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "both have a particle at (");
     s.scene.bodies = 1;
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;

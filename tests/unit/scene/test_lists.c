@@ -117,8 +117,8 @@ static const struct {
                                "block or the volume; say which: {file: .., columns: [x, y, z, block, volume]} or"},
     {"0 0 0 1 2\n0.5 0 0 0.25 2\n", "bad.csv:2:9: 0.25: without names the fourth column is block_id"},
     {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
-    {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at one position: (0, 0, 0) m"},
-    {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles at one position"},
+    {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at (0, 0, 0) m"},
+    {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "two particles at ("},
     {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
     {"x,y,volume\n0,0,1e308\n", "no finite mass"},
 };
@@ -189,7 +189,7 @@ static void hdf5_lists_are_read(void **state)
         particles_free(&p);
     }
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "particles at one position: (0, 0, 0) m");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "a particle at (0, 0, 0) m");
     remove(name);
 }
 

@@ -222,7 +222,7 @@ static const struct {
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: wave",
      "30:38: profile: wave is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {}",
-     "30:38: profile: has 0 keys; sine is expected"},
+     "30:38: profile: has 0 keys; one is expected, as {sine: {wavelength: 1 m}}"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {}}",
      "30:48: wavelength: missing in boundary.profile.sine; a length is expected, as 0.5 mm"},
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {wavelength: 0}}",
