@@ -30,10 +30,11 @@ status fault_report_missing_key(struct reader *r, const struct yaml_node *map, c
     char example[EXAMPLE_LENGTH];
     key_write_example(k, r->dim, NULL, example, sizeof example);
     const char *leaf = key_last_part(k);
-    const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0; /* length of the path before the last dot */
+    const int group = leaf > k->path ? (int)(leaf - k->path) - 1 : 0;       /* length of the path before the last dot */
+    const bool helps = k->type != KEY_CHOICE && strcmp(example, "..") != 0; /* the words of a choice are listed */
     return fault_at_location(r, map->origin, map->line, map->column, "%s: missing%s%.*s; %s is expected%s%s", leaf,
-                             group > 0 ? " in " : "", group, k->path, form_text(r, k),
-                             strcmp(example, "..") ? ", as " : "", strcmp(example, "..") ? example : "");
+                             group > 0 ? " in " : "", group, k->path, form_text(r, k), helps ? ", as " : "",
+                             helps ? example : "");
 }
 
 status expect_node_kind(struct reader *r, const struct yaml_node *n, enum node_kind kind, const char *expected)

@@ -38,7 +38,7 @@ done
 kill -KILL $first
 wait $first 2>/dev/null
 holds "the lock of a dead process" test -e "$work/live/.running"
-refused "a dead run of another scene" "$work/live" "another scene .*--overwrite" $small
+refused "a dead run of another scene" "$work/live" "another scene, with .*--overwrite" $small
 calm "$work/live" $flat -s particles.spacing=1mm --resume        # locks of ended processes have no effect
 holds "the lock goes with the run" test ! -e "$work/live/.running"
 
@@ -143,7 +143,7 @@ cp "$work/lists/grains.csv" "$work/lists/deeper"
 cp "$work/lists/moved.yaml" "$work/lists/deeper/grains.yaml"
 calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another folder
 sed -i '7s/1e-9/1.1e-9/' "$work/lists/grains.csv"
-refused "a list that changed" "$work/again" "line [0-9]* was .particles: .*grains.csv.*contents .*and is" "$work/lists/ran/scene.yaml" --resume
+refused "a list that changed" "$work/again" "particles: .*grains.csv.*contents .* instead of .particles: .*grains.csv.*contents " "$work/lists/ran/scene.yaml" --resume
 calm "$work/again" "$work/lists/ran/scene.yaml" --overwrite
 
 # ---- lost or damaged frames ---------------------------------------------------------------------------------------
@@ -324,7 +324,7 @@ is "a folder by a link: $(cat "$work/err")" $? 0
 holds "the run is where the link leads" test -s "$work/disk/summary.json" -a -L "$work/short"
 "$cleave" run -q "$work/strip.yaml" -o "$work/short/" --overwrite -s duration=0.9us 2>"$work/err"
 is "replaced by a link: $(cat "$work/err")" $? 0
-declined "a second run by the folder's name" "strip.yaml:[0-9:]*duration: .* holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
+declined "a second run by the folder's name" "strip.yaml:4:1: duration: .* holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
 rm -rf "$work/disk"
 cp -r "$work/papers" "$work/disk"
 declined "files of others behind a link" "holds files" run -q "$work/strip.yaml" -o "$work/short" --overwrite

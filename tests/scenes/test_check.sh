@@ -435,7 +435,7 @@ is "with viscosity: bonds that break" "$(cat "$work/err")" ""
 says "with viscosity of one of them" '^accuracy  *bodies collide' "$work/strike.yaml" -s "materials.alumina.viscosity={}"
 silent "apart" '^accuracy  *bodies collide' "$work/strike.yaml" -s "bodies.flyer.velocity=[-10 m/s, 0]"
 silent "along each other" '^accuracy  *bodies collide' "$work/strike.yaml" -s "bodies.flyer.velocity=[0, 10 m/s]"
-says "where there is none" '^accuracy  *bodies collide at .*: viscosity does not act in plane stress' "$work/strike.yaml" -s "space=plane stress"
+says "where there is none" '^accuracy  *bodies collide at .*: compare with a run in space plane strain' "$work/strike.yaml" -s "space=plane stress"
 
 # ---- loads of a free body, bonds that yield --------------------------------------------------------------------------
 

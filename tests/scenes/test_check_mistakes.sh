@@ -109,7 +109,7 @@ refuses "a probe outside" "the point (10, 5) m is outside the bodies; $between i
 refuses "a line outside" "the whole line is outside the bodies; $between its ends" "$glass" -s 'probes=[{line: {name: p, from: [10, 5], to: [20, 5], points: 3}}]'
 refuses "a load outside" "boundary up: no particle is in its region; $between the region and its unit (mm?)" "$glass" -s "boundary.up.region={$(box '100, 0' '200, 50')}"
 refuses "a pressure outside" "boundary p: no particle is in its region; $between the region" "$glass" -s "boundary=[{name: p, pressure: 1 MPa, region: {$(box '100, 0' '200, 50')}}]"
-says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (mm?)$" "$glass" \
+says "a support outside" "^warning: boundary f holds no particle; $between its region and the unit (mm?) (" "$glass" \
     -s "boundary=[{name: up, traction: [0, 12 MPa], face: y+}, {name: f, fixed: all, region: {$(box '100, 0' '200, 50')}}]"
 says "a velocity outside" "^warning: initial\[0\]: no particle is in its region; $between the region" "$glass" -s "initial=[{velocity: [1, 0], region: {$(box '100, 0' '200, 50')}}]"
 silent "a velocity inside" 'initial' "$glass" -s "initial=[{velocity: [0.1, 0], region: {$(box '0, 0' '1 mm, 1 mm')}}]"

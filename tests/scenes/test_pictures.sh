@@ -179,7 +179,7 @@ holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" er
 
 refused "von_mises" results/strip --field van_mises
 refused "it has several components, draw one of strain_xx, strain_yy" results/strip --field strain
-refused "There are damage, kind, material" results/strip --field nonsense
+refused "there are damage, kind, material" results/strip --field nonsense
 "$cleave" plot results/strip --field principal_stress $small >out 2>err
 holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; the others are principal_stress_2" err
 refused "runs in space" results/strip --slice z=1mm

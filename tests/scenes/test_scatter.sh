@@ -64,7 +64,7 @@ between "first break without scatter" "$(compute "$(f none probes.break.first_ti
 "$cleave" sweep "$work/ring.yaml" -o "$work/seeds" -q -s material.scatter.seed=1:4:1 >"$work/seeds.out" 2>&1 || fail "sweep: $(cat "$work/seeds.out")"
 is "seeds: places of the first break" \
     "$(for k in "$work"/seeds/*/summary.json; do echo "$(figure "${k%/*}" probes.break.x) $(figure "${k%/*}" probes.break.y)"; done | sort -u | wc -l)" 4
-holds "seeds: a mean" grep -q '^probes.break.x: mean .* (95 % interval), standard deviation .* m, 4 runs$' "$work/seeds.out"
+holds "seeds: a mean" grep -q '^crack.start_time: mean .* µs (95 % interval), standard deviation .* µs, 4 runs$' "$work/seeds.out"
 
 bad() { refused "$1" "$work/no" "$2" "$work/ring.yaml" -s "$3"; }
 bad "a modulus" "modulus: missing" 'material.scatter={length: 1 mm}'

@@ -124,7 +124,7 @@ static void faults_name_the_file(void **state)
     } wrong[] = {
         {"include: inner.yaml\n", "space: line\nduration: 5 kg\n",
          "sub/inner.yaml:2:1: duration: 5 kg is a mass; a time is expected, as 20 us"},
-        {"include: inner.yaml\n", "space: line\nmaterial:\n  yuong: 1\n",
+        {"include: inner.yaml\n", "space: line\nmaterial:\n  young: 1\n",
          "sub/outer.yaml:1:1: duration: missing; a time is expected, as 20 us"},
         {"include: inner.yaml\nduration: 1\nparticles: {spacing: 1}\n", "space: line\nmaterial:\n  yuong: 1\n",
          "sub/inner.yaml:3:3: yuong: unknown key; the nearest is young"},

@@ -189,7 +189,7 @@ static void hdf5_lists_are_read(void **state)
         particles_free(&p);
     }
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
-    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "a particle at (0, 0, 0) m");
+    assert_refused(fill_bodies_with_particles(&p, &s.scene, NULL, 0), "two particles at (0, 0, 0) m");
     remove(name);
 }
 
