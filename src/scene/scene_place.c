@@ -73,10 +73,20 @@ static void place_of_key(const struct scene *s, const char *text, char *place)
     }
 }
 
-/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the boundary or body with whose name the message
- * `text` begins. Writes nothing if there is none. */
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of item number `item` of the list `list` of the
+ * scene, such as probes. Writes nothing if it is unknown. */
+static void place_of_item(const struct scene *s, const char *list, int item, char *place)
+{
+    char key[100];
+    snprintf(key, sizeof key, "%s[%d]", list, item);
+    place_of_key(s, key, place);
+}
+
+/* Writes to place[PLACE_LENGTH] the location, followed by a colon, of the boundary, body, material, probe or growth
+ * rule with whose name, or the crack with whose number, the message `text` begins. Writes nothing if there is none. */
 static void place_of_name(const struct scene *s, const char *text, char *place)
 {
+    int crack;
     for (int b = 0; b < s->boundaries && !*place; b++)
         if (begins_with(text, "boundary ", s->boundary[b].name))
             snprintf(place, PLACE_LENGTH, "%s", s->boundary[b].place);
@@ -84,6 +94,16 @@ static void place_of_name(const struct scene *s, const char *text, char *place)
         if (begins_with(text, "body ", s->body[b].name) || begins_with(text, "bodies ", s->body[b].name) ||
             begins_with(text, "rigid body ", s->body[b].name))
             snprintf(place, PLACE_LENGTH, "%s", s->body[b].place);
+    for (int m = 0; m < s->materials && !*place; m++)
+        if (begins_with(text, "material ", s->material[m].name)) {
+            place_of_item(s, "materials", m, place);
+            if (!*place) place_of_key(s, "material", place);
+        }
+    for (int k = 0; k < s->probes && !*place; k++)
+        if (begins_with(text, "probe ", s->probe[k].name)) place_of_item(s, "probes", k, place);
+    for (int k = 0; k < s->growths && !*place; k++)
+        if (begins_with(text, "growth ", s->growth[k].name)) place_of_item(s, "growth", k, place);
+    if (!*place && sscanf(text, "crack %d", &crack) == 1 && crack > 0) place_of_item(s, "cracks", crack - 1, place);
 }
 
 void scene_find_location_of_message(const void *scene, const char *text, char *place)
