@@ -25,10 +25,12 @@ static void status_keeps_its_message(void **state)
     (void)state;
     assert_refused(outer(), "x.yaml:3:1: 7 is too large");
     assert_failed(status_set(FAILED, "again: %s", status_message()), "again: x.yaml:3:1: 7 is too large");
+    status_add_line("x.yaml:%d:1: \n", 4);
+    assert_string_equal(status_message(), "again: x.yaml:3:1: 7 is too large\nx.yaml:4:1: ?");
     char *text = memory_new("text", 5001, 1);
     memset(text, 'a', 5000);
     assert_int_equal(status_set(FAILED, "%s", text), FAILED);
-    assert_int_equal(strlen(status_message()), 1023); /* truncated, not overrun */
+    assert_int_equal(strlen(status_message()), 4095); /* truncated, not overrun */
     memory_free(text);
 }
 
