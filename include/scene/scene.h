@@ -329,8 +329,8 @@ void scene_free(struct scene *s);
  * the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
 status scene_prepend_location(const struct scene *s, status result);
 
-/* Writes the location in the scene file of the key, group of keys or named item with which the warning `text` begins, as
- * `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if there is none. scene: a struct scene. It is a
+/* Writes the location in the scene file of the key, group of keys or named item with which the warning `text` begins,
+ * as `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if there is none. scene: a struct scene. It is a
  * function for struct warnings. */
 void scene_find_location_of_message(const void *scene, const char *text, char *place);
 
