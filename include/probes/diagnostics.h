@@ -25,6 +25,8 @@ struct energy_balance {
 struct diagnostics {
     struct energy_balance now;
     real energy_start, energy_scale; /* energy minus work at the start; largest energy or work so far [J] */
+    real mass;                       /* of all particles, which the caller sets; 0: unknown [kg] */
+    real internal_scale;             /* largest energy so far without that of the common motion of all particles [J] */
     real momentum_start[DIM_MAX], momentum_scale; /* momentum at the start; largest sum |m v| so far [kg m/s] */
     real spin_start[DIM_MAX], spin_scale; /* angular momentum at the start; largest sum |L_body| so far [kg m^2/s] */
     bool turns;                           /* spin_start is set, which requires free bodies */

@@ -313,6 +313,7 @@ static status make_probes(struct run *e)
     for (int k = 0; k < s->growths; k++) growing_crack_make(&e->fracture->growth[k], &s->growth[k]);
     if (scene_is_single_equilibrium(s)) TRY(scene_prepend_location(s, engine_static_solver_make(e)));
     diagnostics_make(e->diagnostics);
+    e->diagnostics->mass = e->mass;
     scene_list_wave_pulses(e->scene, e->probing);
     struct observed_run o = observed_run_view_of(e);
     return scene_prepend_location(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));

@@ -42,14 +42,17 @@ real diagnostics_relative_energy_change(const struct diagnostics *w)
 }
 
 /* Computes the error of the energy balance w->now.balance_error = (energy - initial energy - external work)/(largest
- * energy or work so far) [1]; 0 if the denominator is 0. */
+ * energy or work so far) [1]; 0 if the denominator is 0. Also updates the largest internal energy so far. */
 static void balance_of(struct diagnostics *w)
 {
+    const real *momentum = w->now.momentum;
     struct energy_balance *l = &w->now;
     real energy = energy_sum(&l->energy);
     if (!w->started) w->energy_start = energy - l->external_work;
     const real size = energy_sum_of_magnitudes(&l->energy);
+    const real flight = w->mass > 0 ? 0.5 * dot(momentum, momentum, DIM_MAX) / w->mass : 0;
     w->energy_scale = real_max(w->energy_scale, real_max(size, fabs(l->external_work)));
+    w->internal_scale = real_max(w->internal_scale, size - flight);
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
@@ -163,6 +166,7 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a)
     ARCHIVE_VALUE(a, "diagnostics/now", w->now);
     ARCHIVE_VALUE(a, "diagnostics/energy_start", w->energy_start);
     ARCHIVE_VALUE(a, "diagnostics/energy_scale", w->energy_scale);
+    ARCHIVE_VALUE(a, "diagnostics/internal_scale", w->internal_scale);
     ARCHIVE_VALUE(a, "diagnostics/momentum_start", w->momentum_start);
     ARCHIVE_VALUE(a, "diagnostics/momentum_scale", w->momentum_scale);
     ARCHIVE_VALUE(a, "diagnostics/spin_start", w->spin_start);

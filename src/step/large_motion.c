@@ -35,8 +35,15 @@ static real largest_relative_displacement(const struct particles *p)
     return sqrt(most2);
 }
 
+/* Returns true if particle i is a material point on the background grid. */
+static bool on_grid(const struct particles *p, int64_t i)
+{
+    return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
+}
+
 /* Returns the number of particles that have moved into another one of the same body, at a distance below `reach` [m],
- * with a reference distance above `horizon` [m]. *first: receives the first such particle. */
+ * with a reference distance above `horizon` [m]. Two points on the grid do not count: they move with one velocity
+ * field, and come near each other where metal is compressed. *first: receives the first such particle. */
 static int64_t count_passing_particles(const struct particles *p, const struct scene *s, real reach, real horizon,
                                        int64_t *first)
 {
@@ -53,7 +60,8 @@ static int64_t count_passing_particles(const struct particles *p, const struct s
             const int32_t j = near.at[k];
             real distance2 = 0;
             for (int d = 0; d < p->dim; d++) distance2 += square(p->X[d][j] - p->X[d][i]);
-            passes = s->body[p->body[j]].joined == s->body[p->body[i]].joined && distance2 > square(horizon);
+            passes = s->body[p->body[j]].joined == s->body[p->body[i]].joined && distance2 > square(horizon) &&
+                     !(on_grid(p, i) && on_grid(p, j));
         }
         if (passes && count++ == 0) *first = i;
     }
