@@ -366,8 +366,8 @@ KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p))
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 /* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
  * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step and
- * receives those at its end. m: elastic constants by material; finite: true for finite strain, false for small
- * strain. */
+ * receives those at its end; with dt = 0, before the first step, it receives those of the present displacements, and no
+ * point flows. m: elastic constants by material; finite: true for finite strain, false for small strain. */
 KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
                                 bool finite));
 /* Computes the displacement gradient du_a/dX_b of every material point i of the mesh into to[a dim + b][i] [1]. */

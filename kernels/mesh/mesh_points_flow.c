@@ -4,13 +4,25 @@
 #include "mesh_partial.h"
 #include "mesh_run.h"
 
-/* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]. */
+/* Arguments of mesh_points_flow: mesh, particles, elastic constants of all materials, and time step dt [s]; 0: stresses
+ * are stored, and no point flows. */
 struct flow_step {
     const struct mesh *mesh;
     const struct particles *p;
     const struct elastic *elastic;
     real dt;
 };
+
+/* Stores the stresses of the points number `point_number` of eight cells in p->mesh_stress. with_law: bits of the lanes
+ * of points that have a law; stress: symmetric components [Pa]. */
+static ALWAYS_INLINE void points_store_stress(const struct flow_step *f, const int32_t *cell, int point_number,
+                                              unsigned with_law, const lanes *stress, const int dim)
+{
+    for (int k = 0; k < symmetric_component_count(dim); k++)
+        for (int l = 0; l < LANES; l++)
+            if (with_law >> l & 1)
+                f->p->mesh_stress[k][mesh_point_of_cell(f->mesh, cell[l], point_number, dim)] = stress[k][l];
+}
 
 /* Updates the plastic state of the points of eight cells at the end of an explicit step. cell: eight cell indices, -1
  * for a lane without cell; u[c][i]: displacements of their corners [m]; finite: true for finite strain. */
@@ -32,7 +44,9 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
             const struct elastic *m = &f->elastic[f->p->material[i]];
             with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
         }
-        if (with_law) cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
+        if (with_law && f->dt == 0) points_store_stress(f, cell, q, with_law, stress, dim);
+        if (with_law && f->dt > 0)
+            cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
     }
 }
 

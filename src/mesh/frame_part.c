@@ -283,6 +283,7 @@ void reference_frame_move_nodes(struct reference_frame *r, struct particles *p, 
     const int due = levels_highest_level_due_in_step(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
+    if (p->mesh_stress[0] && clock->step == 0) mesh_points_flow(&r->mesh, p, r->elastic, 0, r->finite);
     nodes_walls(r, loads, t_middle, clock->dt, due);
     r->speed = r->levels.n > 0 ? levels_move_nodes_return_largest_velocity(&r->levels, clock->dt, dt_velocity, due,
                                                                            loads->impulse, &loads->constraint_work)
