@@ -54,26 +54,52 @@ static int64_t group_place(real u, bool odd)
     return (int64_t)(u < 0 ? -far : far - !odd);
 }
 
+/* Extent and middle of joined bodies. Their groups of points are counted from the middle. */
+struct division {
+    real low[DIM_MAX], high[DIM_MAX]; /* range of the reference positions [m] */
+    real middle[DIM_MAX];             /* [m] */
+    bool odd[DIM_MAX];                /* a row of particles is on the middle, across each axis */
+};
+
+/* Returns for each body the division of the bodies that are joined to it; only entries of bodies one[b] are filled. The
+ * caller releases the array with memory_free. spacing: of the particles [m]; mirror[dim]: positions of planes of
+ * symmetry [m], NAN: none; one: for each body the first of the bodies that are joined to it; bodies: their number. */
+static struct division *divisions_make(const struct particles *p, real spacing, const real *mirror, const int *one,
+                                       int bodies)
+{
+    struct division *all = NEW("turning.division", bodies, struct division);
+    for (int b = 0; b < bodies; b++)
+        for (int d = 0; d < p->dim; d++) all[b].low[d] = INFINITY, all[b].high[d] = -INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        struct division *own = &all[one[p->body[i]]];
+        for (int d = 0; d < p->dim; d++)
+            own->low[d] = real_min(own->low[d], p->X[d][i]), own->high[d] = real_max(own->high[d], p->X[d][i]);
+    }
+    for (int b = 0; b < bodies; b++)
+        for (int d = 0; d < p->dim && all[b].low[d] <= all[b].high[d]; d++) {
+            struct division *own = &all[b];
+            const bool cut = mirror[d] > own->low[d] - spacing && mirror[d] < own->high[d] + spacing;
+            own->middle[d] = cut ? mirror[d] : 0.5 * (own->low[d] + own->high[d]);
+            const real rows = (own->low[d] - own->middle[d]) / spacing;
+            own->odd[d] = fabs(rows - nearbyint(rows)) < 0.25;
+        }
+    return all;
+}
+
 /* Returns an array of all particles, sorted by the group with which they rotate and by position, so that their order
- * does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m]; middle[3]:
- * middle of the body, from which groups are counted [m]; one: for each body the first of the bodies that are joined to
- * it. */
-static struct member *members_sorted(const struct particles *p, real spacing, const real *middle, const int *one)
+ * does not depend on their numbers. The caller releases it with memory_free. spacing: lattice spacing [m]; division:
+ * for each body one[b], from divisions_make; one: for each body the first of the bodies that are joined to it. */
+static struct member *members_sorted(const struct particles *p, real spacing, const struct division *division,
+                                     const int *one)
 {
     struct member *all = NEW("turning.sorted", p->n, struct member);
-    bool odd[DIM_MAX] = {false}; /* a row of particles is on the middle */
-    for (int d = 0; d < p->dim; d++) {
-        real low, high;
-        particles_coordinate_range(p, p->n, d, &low, &high);
-        const real rows = (low - middle[d]) / spacing;
-        odd[d] = fabs(rows - nearbyint(rows)) < 0.25;
-    }
     for (int64_t i = 0; i < p->n; i++) {
+        const struct division *own = &division[one[p->body[i]]];
         all[i].body = one[p->body[i]], all[i].particle = (int32_t)i;
-        for (int d = 0; d < p->dim; d++) all[i].X[d] = p->X[d][i];
         for (int d = 0; d < p->dim; d++) {
-            all[i].place[d] = group_place((p->X[d][i] - middle[d]) / spacing, odd[d]);
-            all[i].off += (int32_t)llabs(2 * all[i].place[d] + !odd[d]);
+            all[i].X[d] = p->X[d][i];
+            all[i].place[d] = group_place((p->X[d][i] - own->middle[d]) / spacing, own->odd[d]);
+            all[i].off += (int32_t)llabs(2 * all[i].place[d] + !own->odd[d]);
         }
     }
     array_sort(all, p->n, sizeof *all, by_member);
@@ -121,10 +147,13 @@ static void runs_make(struct rotation_groups *t, const struct member *all, int64
     }
 }
 
-void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing, const real *origin,
-                          const int *first_joined_body, const bool *body_is_supported)
+void rotation_groups_make(struct rotation_groups *t, const struct particles *p, real spacing,
+                          const real *symmetry_plane, const int *first_joined_body, const bool *body_is_supported,
+                          int bodies)
 {
-    struct member *all = members_sorted(p, spacing, origin, first_joined_body);
+    struct division *division = divisions_make(p, spacing, symmetry_plane, first_joined_body, bodies);
+    struct member *all = members_sorted(p, spacing, division, first_joined_body);
+    memory_free(division);
     rotation_groups_free(t);
     for (int64_t k = 0; k < p->n; k++) t->groups += k == 0 || groups_differ(&all[k], &all[k - 1]);
     t->group = NEW("turning.group", t->groups, struct turning_group);

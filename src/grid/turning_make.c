@@ -1,4 +1,6 @@
 /* Set-up of the groups of points with a common rotation (data/turning.h). */
+#include <math.h>
+
 #include "base/memory.h"
 #include "grid/grid_part.h"
 #include "data/turning.h"
@@ -22,19 +24,6 @@ static void mark_held(const struct loads *loads, const struct particles *p, cons
     }
 }
 
-/* Computes middle[dim] [m], the origin for the division of points into groups that rotate together, such that bodies
- * that mirror each other have mirrored groups: on planes of symmetry, else in the middle of all bodies. */
-static void turning_middle(const struct particles *part, const struct scene *scene, real *middle)
-{
-    for (int d = 0; d < part->dim; d++) {
-        real low, high;
-        particles_coordinate_range(part, part->n, d, &low, &high);
-        middle[d] = 0.5 * (low + high);
-    }
-    for (int b = 0; b < scene->boundaries; b++)
-        if (scene->boundary[b].kind == BOUNDARY_MIRROR) middle[scene->boundary[b].axis] = scene->boundary[b].at;
-}
-
 void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                                const struct scene *s, enum coupling coupling)
 {
@@ -43,12 +32,13 @@ void grid_rotation_groups_make(struct grid_method *mpm, const struct particles *
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
     int *one = NEW("engine.one", s->bodies, int);
-    real middle[DIM_MAX];
+    real plane[DIM_MAX] = {NAN, NAN, NAN};
     for (int b = 0; b < s->bodies; b++) one[b] = first_of(mpm, s, b);
     mark_held(loads, p, one, held);
-    turning_middle(p, s, middle);
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR) plane[s->boundary[b].axis] = s->boundary[b].at;
     for (int b = 0; b < s->bodies; b++) all &= held[one[b]];
-    if (!all) rotation_groups_make(&mpm->turning, p, s->spacing, middle, one, held);
+    if (!all) rotation_groups_make(&mpm->turning, p, s->spacing, plane, one, held, s->bodies);
     for (int c = 0; c < 3; c++) mpm->transfer.turn[c] = mpm->turning.turn[c];
     /* with the second map the hand-shake coupling gains 1e-7 of its energy a step */
     mpm->transfer.second_map = mpm->turning.groups > 0 && coupling != COUPLING_HANDSHAKE;
