@@ -40,7 +40,9 @@ static unsigned due_of(const struct bonds *b, int64_t g) { return __atomic_load_
 
 /* Returns true if the bond `bond`, in the row of particle i in row block g (bonds of eight particles), may begin to
  * soften, and describes it in *c. Conditions: its stretch is between its onset of softening and the end, beyond which
- * it breaks; it has not begun to soften; and the row block of its other particle is marked in b->soft.due, too. */
+ * it breaks, and was beyond the onset in the last sweep, which marked both row blocks: those that were not would begin
+ * only where another bond has marked the row blocks, so that the result would depend on their directions; it has not
+ * begun to soften; and the row block of its other particle is marked in b->soft.due, too. */
 static bool is_candidate(struct candidate *c, const struct bonds *b, const struct particles *p,
                          const struct bond_limit *limit, int64_t g, const struct bond *bond, int32_t i)
 {
@@ -50,6 +52,9 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->i = i, c->j = bond->nbr;
     c->stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_softening_range(p, limit, i, bond->nbr);
+    if (!b->soft.settled &&
+        !(bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset))
+        return false;
     return c->stretch > c->range.onset && c->range.onset < c->range.end &&
            (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
 }

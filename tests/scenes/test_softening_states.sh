@@ -38,7 +38,7 @@ cat >"$work/drive.yaml" <<'END'
 name: drive
 space: plane stress
 thickness: 1.5 mm
-duration: 14 us
+duration: 15 us
 method: pd
 model: ospd
 variables: {eps: 2.6e-4}
