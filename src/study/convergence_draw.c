@@ -10,6 +10,7 @@
 #include "output/output_files.h"
 #include "output/picture_file.h"
 #include "convergence_units.h"
+#include "study_axis.h"
 #include "study_internal.h"
 
 /* Largest number of figures that are drawn, and of panels side by side; largest number of crack tips that are
@@ -100,14 +101,12 @@ static void send_tics_of_panel(FILE *to, const struct convergence_study *s, cons
     }
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(value[k])) low = fmin(low, value[k]), end = fmax(end, value[k]);
-    const double range = 1.2 * (end - low) / scalar_result_unit(f).factor;
+    const double factor = scalar_result_unit(f).factor;
+    const struct study_axis axis = {low / factor, isfinite(end - low) ? end / factor : low / factor, false};
     const int across = (int)fmin(fmax(wide / (narrow ? 46 : 60), 1), TICS_MOST),
-              up = (int)fmax(high / (narrow ? 22 : 28), 2);
+              up = (int)fmax(high / (narrow ? 26 : 34), 2);
     fprintf(to, "set xtics %g\n", axis_tick_distance(1.1 * coarsest, across));
-    if (range > 0 && isfinite(range))
-        fprintf(to, "set ytics %g\n", axis_tick_distance(range, up));
-    else
-        fputs("set ytics autofreq\n", to);
+    study_axis_send(to, "y", &axis, up);
 }
 
 /* Layout of the panels of figures [pixel]: size of the picture; columns of panels, and the width and height of one with
@@ -200,7 +199,7 @@ static status draw_figures(const struct convergence_study *s, const struct scala
     const struct figures_layout l = figures_layout_make(shown, &g);
     for (int k = 0; k < shown; k++) send_figure(g.to, s, &figure[k], k);
     fprintf(g.to,
-            "set multiplot\nset format y '%%.4g'\nset xrange [%.6g:*]\nset samples 200\nset pointintervalbox 0\n"
+            "set multiplot\nset xrange [%.6g:*]\nset samples 200\nset pointintervalbox 0\n"
             "set offsets 0, graph 0.06, graph 0.1, graph 0.1\nset xlabel 'spacing [%s]'\n",
             -0.05 * coarsest, metre.name);
     for (int k = 0; k < shown; k++) {

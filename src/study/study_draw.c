@@ -10,9 +10,8 @@
 #include "study/convergence.h"
 #include "study_picture.h"
 
-/* Largest number of lines, and of intervals of a horizontal axis; least distance of the tics of a vertical axis and gap
- * between a map and its colour bar [pixel]. */
-enum { LINES_MOST = CURVE_COLOURS, STEPS_MOST = 4, TICS_UP = 26, COLOUR_GAP = 8 };
+/* Largest number of lines; gap between a map and its colour bar [pixel]. */
+enum { LINES_MOST = CURVE_COLOURS, COLOUR_GAP = 8 };
 
 /* A colour bar of positive values begins at 0 if the smallest one is below this share of the largest [1]. */
 static const double ZERO_NEAR = 0.25;
@@ -50,7 +49,7 @@ static status picture_open(struct gnuplot *g, const struct study_picture *p, con
     const struct path folder = path_join(p->study->folder, "pictures");
     TRY(folder_make(folder.text));
     TRY(gnuplot_open(g, path_join(folder.text, name).text, picture_size_get().format, p->width, p->height));
-    fputs("set multiplot\nset format y '%.4g'\nset format x '%.4g'\nset format cb '%.4g'\nset autoscale fix\n"
+    fputs("set multiplot\nset autoscale fix\n"
           "set offsets graph 0.04, graph 0.04, graph 0.08, graph 0.08\n",
           g->to);
     for (int k = 0; k < p->notes; k++)
@@ -94,13 +93,11 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across].shown;
     const struct study_point *point = p->point[panel];
-    const char *unit;
     for (int l = 0; l < p->lines; l++) {
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct study_point *at = &point[l * across->values + v];
-            const double x = p->numbers ? value_read_number_and_unit(across->value[v], &unit) : v;
-            if (at->runs > 0) fprintf(to, "%.10g %.10g %.10g\n", x, at->mean, at->scatter);
+            if (at->runs > 0) fprintf(to, "%.15g %.15g %.10g\n", study_value_across(p, v), at->mean, at->scatter);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
@@ -146,7 +143,7 @@ static void draw_key(FILE *to, const struct study_picture *p)
     const int x = below ? study_character_width() : p->width - p->legend + study_character_width();
     const int y = below ? p->notes * STUDY_ROW + p->strip : p->height - STUDY_TITLE + STUDY_ROW;
     study_keys_text(text, sizeof text, p, ROLE_LINES, false);
-    fputs("unset border\nunset tics\nunset title\nunset grid\nset offsets\nset lmargin at screen 0\n"
+    fputs("unset border\nunset tics\nunset title\nunset grid\nunset logscale\nset offsets\nset lmargin at screen 0\n"
           "set rmargin at screen 1\nset bmargin at screen 0\nset tmargin at screen 1\n",
           to);
     screen_label(to, p, text, x, y - 0.5 * STUDY_ROW, "left");
@@ -161,40 +158,16 @@ static void draw_key(FILE *to, const struct study_picture *p)
     putc('\n', to);
 }
 
-/* Sends the distance of the tics of the axis with the figure of panel number `panel`, so that their numbers do not
- * touch. axis: `y`, or `cb` for the colour bar of a map. */
-static void send_figure_tics(FILE *to, const struct study_picture *p, int panel, const char *axis)
+/* Sends the axis with the figure of panel number `panel`. name: `y`, or `cb` for the colour bar of a map. */
+static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
-    double low, high;
-    study_points_range(p, panel, &low, &high);
-    const int most = (int)fmax(p->high / TICS_UP, 2);
-    const bool from_zero = low > 0 && low < ZERO_NEAR * high;
-    if (*axis == 'c') fputs(from_zero ? "set cbrange [0:*]\n" : "set cbrange [*:*]\n", to);
-    if (*axis == 'c' && from_zero) low = 0;
-    if (!(high > low))
-        fprintf(to, "set %stics autofreq\n", axis);
-    else if (*axis == 'y')
-        fprintf(to, "set ytics %.10g\n", axis_tick_distance(1.2 * (high - low), most));
-    else
-        fprintf(to, "set cbtics %.10g\n",
-                axis_tick_distance(high - low, most < STUDY_COLOUR_STEPS ? most : STUDY_COLOUR_STEPS));
-}
-
-/* Sends the distance of the tics of a horizontal axis with the values of the key across. */
-static void send_number_tics(FILE *to, const struct study_picture *p)
-{
-    const struct varied_key *key = &p->key[p->across].shown;
-    const int most = (int)fmin(fmax(p->wide / (7 * study_character_width()), 1), STEPS_MOST);
-    double low = INFINITY, high = -INFINITY;
-    const char *unit;
-    for (int v = 0; v < key->values; v++) {
-        low = fmin(low, value_read_number_and_unit(key->value[v], &unit));
-        high = fmax(high, value_read_number_and_unit(key->value[v], &unit));
+    struct study_axis axis = study_axis_of_figure(p, panel);
+    int most = study_intervals_up(p);
+    if (*name == 'c') {
+        if (axis.low > 0 && axis.low < ZERO_NEAR * axis.high && !axis.logarithmic) axis.low = 0;
+        most = most < STUDY_COLOUR_STEPS ? most : STUDY_COLOUR_STEPS;
     }
-    if (high > low)
-        fprintf(to, "set xtics norotate %.10g\n", axis_tick_distance(high - low, most));
-    else
-        fputs("set xtics norotate autofreq\n", to);
+    study_axis_send(to, name, &axis, most);
 }
 
 static status draw_lines(struct study_picture *p)
@@ -207,13 +180,12 @@ static status draw_lines(struct study_picture *p)
     study_picture_name(name, p->key[p->across].given.key);
     TRY(picture_open(&g, p, name));
     for (int panel = 0; panel < p->panels; panel++) send_points(g.to, p, panel);
-    if (p->numbers)
-        send_number_tics(g.to, p);
-    else
-        send_tics(g.to, "x", &p->key[p->across].shown, p->slanted);
+    if (!p->numbers) send_tics(g.to, "x", &p->key[p->across].shown, p->slanted);
     for (int panel = 0; panel < p->panels; panel++) {
+        const struct study_axis across = study_axis_across(p, panel);
         panel_begin(g.to, p, panel, NULL);
-        send_figure_tics(g.to, p, panel, "y");
+        if (p->numbers) study_axis_send(g.to, "x", &across, study_intervals_across(p, &across));
+        send_figure_axis(g.to, p, panel, "y");
         plot_panel(g.to, p, panel);
         fputs("unset label\n", g.to);
     }
@@ -250,7 +222,7 @@ static status draw_study_map(struct study_picture *p, int up)
                 fprintf(g.to, "%d %d %.10g\n", v, l, p->point[panel][l * across->values + v].mean);
         fputs("EOD\n", g.to);
         panel_begin(g.to, p, panel, name);
-        send_figure_tics(g.to, p, panel, "cb");
+        send_figure_axis(g.to, p, panel, "cb");
         fprintf(g.to, "plot $m%d using 1:2:3 with image notitle\nunset label\n", panel);
     }
     fputs("unset multiplot\n", g.to);

@@ -88,19 +88,15 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
-/* Returns the largest number of characters of the numbers beside the colour bars of the maps. */
-static int colour_numbers_length(const struct study_picture *p)
+/* Returns the largest number of characters of the numbers at the axes of all panels: at the axis of the key across if
+ * `across` is true, else at that of the figure, with at most `most` intervals. */
+static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;
     for (int panel = 0; panel < p->panels; panel++) {
-        double low, high;
-        study_points_range(p, panel, &low, &high);
-        const double step = high > low ? axis_tick_distance(high - low, STUDY_COLOUR_STEPS) : 0;
-        for (int k = 0; k <= STUDY_COLOUR_STEPS && high >= low; k++) {
-            char text[32];
-            const double at = step > 0 ? (ceil(low / step) + k) * step : low;
-            if (at <= high) longest = (int)fmax(longest, snprintf(text, sizeof text, "%.4g", at));
-        }
+        const struct study_axis axis = across ? study_axis_across(p, panel) : study_axis_of_figure(p, panel);
+        const int length = study_axis_number_length(&axis, across ? study_intervals_across(p, &axis) : most);
+        longest = length > longest ? length : longest;
     }
     return longest;
 }
@@ -133,9 +129,10 @@ static void margins_find(struct study_picture *p, const struct varied_key *up)
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
     const bool narrow = picture_is_too_narrow_for_key();
     const int letter = study_character_width(), along = study_longest_label_length(&p->key[p->across].shown) * letter;
-    p->left = up ? (study_longest_label_length(up) + 6) * letter : narrow ? 9 * letter : NUMBERS;
-    p->right = up           ? 2 * STUDY_COLOUR_BAR + (colour_numbers_length(p) + 3) * letter
-               : p->numbers ? 3 * letter
+    const int numbers = (numbers_length(p, false, study_intervals_up(p)) + 3) * letter;
+    p->left = up ? (study_longest_label_length(up) + 6) * letter : (int)fmax(numbers, narrow ? 9 * letter : NUMBERS);
+    p->right = up           ? 2 * STUDY_COLOUR_BAR + (numbers_length(p, false, STUDY_COLOUR_STEPS) + 3) * letter
+               : p->numbers ? (int)fmax(3, 2 + 0.5 * numbers_length(p, true, 0)) * letter
                : p->slanted ? 2 * letter
                             : 2 * letter + along / 2;
     p->below = BELOW + (p->slanted ? (int)(slope * along) - STUDY_ROW / 2 : 0);

@@ -3,6 +3,7 @@
 #define CLEAVE_STUDY_PICTURE
 
 #include "plot/plot.h"
+#include "study_axis.h"
 #include "study_internal.h"
 
 enum { PANELS_MOST = 6, NOTE_ROOM = 200 };
@@ -101,6 +102,22 @@ void study_points_free(struct study_picture *p);
 /* Finds the smallest and the largest value of the points of panel number `panel`, error bars included, in the unit of
  * the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
+
+/* Returns the axis of the values of the key across that have points in panel number `panel`. Evenly spaced values have
+ * no logarithmic axis. */
+struct study_axis study_axis_across(const struct study_picture *p, int panel);
+
+/* Returns the axis of the figure of panel number `panel`, in the unit of the panel. */
+struct study_axis study_axis_of_figure(const struct study_picture *p, int panel);
+
+/* Returns the position of value number `value_index` of the key across on its axis: the number, or the index itself if
+ * the values are no numbers. */
+double study_value_across(const struct study_picture *p, int value_index);
+
+/* Return the largest number of intervals of the axis of a figure, and of the axis `axis` of the key across, whose
+ * numbers then do not touch, in panels of the present size. */
+int study_intervals_up(const struct study_picture *p);
+int study_intervals_across(const struct study_picture *p, const struct study_axis *axis);
 
 /* Returns true if each point of each panel has a value. */
 bool study_points_complete(const struct study_picture *p);

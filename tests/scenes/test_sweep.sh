@@ -130,6 +130,16 @@ mean=$(compute "1e6 * ($(figure seeds/density=2000,seed=1 energy.kinetic) + $(fi
 near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { print $2; exit }' drawn)" "$mean" 1e-6
 apart=$(compute "1e6 * ($(figure seeds/density=2000,seed=1 energy.kinetic) - $(figure seeds/density=2000,seed=2 energy.kinetic)) / sqrt(2)")
 near "its bar is the standard deviation of two" "$(awk '/^\$p0_0/ { at = 1; next } at { print $3; exit }' drawn)" "${apart#-}" 1e-3
+# Axes: values over decades have a logarithmic axis, from the values that are drawn alone; close values have distinct numbers.
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s material.density=2e3,4e4,1e6 --of energy.kinetic -o decades -q >out
+is "decades" "$(grep -c '^set logscale [xy]$' drawn) $(grep -c '^set xtics norotate 10000,10$' drawn)" "1 1"
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s time.safety=0.7,0.8,2 -s material.toughness=1e9 --of energy.kinetic -o axis -q >out 2>err
+is "an axis for the runs that are done" "$(grep -c logscale drawn) $(grep '^set xtics' drawn)" "2 set xtics norotate 0.05"
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s material.density=2000,2000.001,2000.002 --of energy.kinetic -o close -q >out
+is "digits of close values" "$(sed -n "s/^set format x //p" drawn)" "'%.7g'"
 
 # A seed alone: mean, standard deviation and 95 % interval of the mean, Student's t of two degrees of freedom over the root of three runs.
 rm drawn

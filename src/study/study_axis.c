@@ -1,0 +1,129 @@
+/* Axes of the pictures of a study: their range, whether they are logarithmic, tics and the digits of their numbers. */
+#include <math.h>
+#include <stdio.h>
+
+#include "study_picture.h"
+
+/* An axis is logarithmic if its values are positive and the largest is more than DECADES times the smallest. Digits of
+ * the numbers at an axis at least and at most. */
+enum { DECADES = 100, DIGITS_LEAST = 4, DIGITS_MOST = 12 };
+
+/* Largest number of intervals of a horizontal axis; least distance of the tics of a vertical axis [pixel]. */
+enum { STEPS_MOST = 4, TICS_UP = 31 };
+
+/* Values nearer to even distances than this share of their distance are evenly spaced [1]. */
+static const double EVEN = 1e-6;
+
+/* Margin of a logarithmic axis at either end, as a share of its length [1]. */
+static const double MARGIN = 0.06;
+
+double study_value_across(const struct study_picture *p, int value_index)
+{
+    const char *unit;
+    return p->numbers ? value_read_number_and_unit(p->key[p->across].shown.value[value_index], &unit) : value_index;
+}
+
+/* Returns true if value number v of the key across has a point in panel number `panel`. */
+static bool value_is_drawn(const struct study_picture *p, int panel, int v)
+{
+    const int values = p->key[p->across].shown.values;
+    for (int l = 0; l < p->lines; l++)
+        if (p->point[panel][l * values + v].runs > 0) return true;
+    return false;
+}
+
+struct study_axis study_axis_across(const struct study_picture *p, int panel)
+{
+    struct study_axis axis = {INFINITY, -INFINITY, false};
+    double before = NAN, distance = NAN;
+    bool even = true;
+    for (int v = 0; v < p->key[p->across].shown.values; v++) {
+        if (!value_is_drawn(p, panel, v)) continue;
+        const double here = study_value_across(p, v), step = here - before;
+        if (!isnan(step) && !isnan(distance)) even = even && fabs(step - distance) <= EVEN * fabs(distance);
+        distance = step, before = here;
+        axis.low = fmin(axis.low, here), axis.high = fmax(axis.high, here);
+    }
+    axis.logarithmic = p->numbers && !even && axis.low > 0 && axis.high > DECADES * axis.low;
+    return axis;
+}
+
+struct study_axis study_axis_of_figure(const struct study_picture *p, int panel)
+{
+    struct study_axis axis = {INFINITY, -INFINITY, false};
+    study_points_range(p, panel, &axis.low, &axis.high);
+    axis.logarithmic = axis.low > 0 && axis.high > DECADES * axis.low;
+    return axis;
+}
+
+/* Returns the distance of the tics of an axis, for a logarithmic one the factor between them; 0 if all values are
+ * equal or there are none. most: largest number of intervals. */
+static double tic_step(const struct study_axis *axis, int most)
+{
+    if (!(axis->high > axis->low)) return 0;
+    if (axis->logarithmic) return pow(10, fmax(ceil(log10(axis->high / axis->low) / most), 1));
+    return axis_tick_distance(axis->high - axis->low, most);
+}
+
+static double first_power_of_ten(const struct study_axis *axis) { return pow(10, ceil(log10(axis->low) - EVEN)); }
+
+/* Returns the number of significant digits with which the numbers at the tics of an axis are distinct. most: largest
+ * number of intervals. */
+static int digits_of(const struct study_axis *axis, int most)
+{
+    const double step = tic_step(axis, most), largest = fmax(fabs(axis->low), fabs(axis->high));
+    if (!(step > 0) || axis->logarithmic) return DIGITS_LEAST;
+    return (int)fmin(fmax(1 + floor(log10(largest) + EVEN) - floor(log10(step) + EVEN), DIGITS_LEAST), DIGITS_MOST);
+}
+
+int study_axis_number_length(const struct study_axis *axis, int most)
+{
+    const int digits = digits_of(axis, most);
+    const double step = tic_step(axis, most);
+    int longest = 0;
+    for (int k = 0; k <= most && axis->high >= axis->low; k++) {
+        const double at = axis->logarithmic ? first_power_of_ten(axis) * pow(step, k)
+                          : step > 0        ? (ceil(axis->low / step) + k) * step
+                                            : axis->low;
+        if (at <= axis->high) longest = (int)fmax(longest, snprintf(NULL, 0, "%.*g", digits, at));
+    }
+    return longest;
+}
+
+int study_intervals_up(const struct study_picture *p) { return (int)fmax(p->high / TICS_UP, 2); }
+
+int study_intervals_across(const struct study_picture *p, const struct study_axis *axis)
+{
+    int most = STEPS_MOST;
+    while (most > 1 && most * (study_axis_number_length(axis, most) + 2) * study_character_width() > p->wide) most--;
+    return most;
+}
+
+/* Sends the range of an axis to gnuplot: that of its data, to which gnuplot adds a margin; for a logarithmic axis,
+ * which gnuplot gives none, the range with its margin. */
+static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
+{
+    const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);
+    if (axis->logarithmic)
+        fprintf(gnuplot, "set %srange [%.10g:%.10g]\n", name, axis->low * pow(10, -margin),
+                axis->high * pow(10, margin));
+    else if (*name == 'c' && axis->low == 0)
+        fprintf(gnuplot, "set %srange [0:*]\n", name);
+    else
+        fprintf(gnuplot, "set %srange [*:*]\n", name);
+}
+
+void study_axis_send(FILE *gnuplot, const char *name, const struct study_axis *axis, int most)
+{
+    const double step = tic_step(axis, most);
+    fprintf(gnuplot, "unset logscale %s\n", name);
+    range_send(gnuplot, name, axis);
+    if (axis->logarithmic) fprintf(gnuplot, "set logscale %s\n", name);
+    fprintf(gnuplot, "set format %s '%%.%dg'\nset %stics norotate ", name, digits_of(axis, most), name);
+    if (axis->logarithmic)
+        fprintf(gnuplot, "%.10g,%.10g\n", first_power_of_ten(axis), step);
+    else if (step > 0)
+        fprintf(gnuplot, "%.10g\n", step);
+    else
+        fputs("autofreq\n", gnuplot);
+}
