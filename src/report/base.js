@@ -51,15 +51,17 @@ function unitFor(largest, unit) {
     return {factor, name: prefix + unit};
 }
 
+const powerOfTen = (power) =>
+    "10" + [...String(power)].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join("");
+
 // Writes a number with `digits` significant digits, without zeros at the end.
 function number(value, digits = 4) {
     if (value === null || value === undefined || Number.isNaN(value)) return "–";
     if (Number.isInteger(value) && Math.abs(value) < 1e15) return value.toLocaleString("en").replace(/,/g, "\u202f");
     const size = Math.abs(value);
     if (size >= 1e6 || size < 1e-3)
-        return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace(/e\+?(.*)/, (all, power) => "·10" + [
-            ...power
-        ].map((c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]).join(""));
+        return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace(/e\+?(.*)/,
+            (all, power) => "·" + powerOfTen(power));
     const text = value.toPrecision(digits);
     return text.includes(".") && !text.includes("e") ? text.replace(/\.?0+$/, "") : String(Number(text));
 }
@@ -80,12 +82,26 @@ function ticks(low, high, most) {
     return list;
 }
 
+// Writes a number at an axis whose tics are at the numbers in `list`, with so many digits that they are distinct.
 const tickText = (value, list) => {
     const step = list.length > 1 ? Math.abs(list[1] - list[0]) : Math.abs(value) || 1;
     if (Math.abs(value) < 1e-9 * step) return "0";
-    if (Math.abs(value) >= 1e5 || step < 1e-4) return String(Number(value.toPrecision(4)));
+    const power = (v) => Math.floor(Math.log10(v) + 1e-9), largest = Math.max(...list.map(Math.abs), Math.abs(value));
+    const digits = Math.min(Math.max(power(largest) - power(step) + 2, 4), 12);
+    if (Math.abs(value) >= 1e5 || step < 1e-4) return String(Number(value.toPrecision(digits)));
     return String(Number(value.toFixed(Math.max(0, Math.ceil(-Math.log10(step)) + 1))));
 };
+
+// Returns at most about `most` powers of ten from low to high, and the text of one at an axis.
+function decades(low, high, most) {
+    const first = Math.ceil(Math.log10(low) - 1e-9), last = Math.floor(Math.log10(high) + 1e-9);
+    const step = Math.max(Math.ceil((last - first) / most), 1), list = [];
+    for (let k = first; k <= last; k += step) list.push(10 ** k);
+    return list;
+}
+
+const decadeText = (value) => (value >= 0.9e-3 && value < 2e5 ? String(Number(value.toPrecision(4))) :
+                                                              powerOfTen(Math.round(Math.log10(value))));
 
 // ---- colours --------------------------------------------------------------------------------------------------------
 

@@ -1,34 +1,44 @@
 // Curves: axes, and the columns of history.csv, one panel for each unit.
 
-// Returns a plot area with the maps x(value) and y(value) to pixels, and back.
-function axesOf(area, [x0, x1], [y0, y1]) {
-    const x = (v) => area.left + (v - x0) / (x1 - x0) * (area.right - area.left);
-    const y = (v) => area.bottom - (v - y0) / (y1 - y0) * (area.bottom - area.top);
-    return {...area, x, y, x0, x1, y0, y1, back: (px) => x0 + (px - area.left) / (area.right - area.left) * (x1 - x0)};
+// Returns a plot area with the maps x(value) and y(value) to pixels, and back. log: {x, y}, true for a logarithmic axis.
+function axesOf(area, [x0, x1], [y0, y1], log = {}) {
+    const along = (v, low, high, logarithmic) =>
+        (logarithmic ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
+    const x = (v) => area.left + along(v, x0, x1, log.x) * (area.right - area.left);
+    const y = (v) => area.bottom - along(v, y0, y1, log.y) * (area.bottom - area.top);
+    const back = (px) => x0 + (px - area.left) / (area.right - area.left) * (x1 - x0);
+    return {...area, x, y, x0, x1, y0, y1, log, back};
 }
 
-function padded(low, high) {
+function padded(low, high, logarithmic) {
+    if (logarithmic) return padded(Math.log10(low), Math.log10(high)).map((power) => 10 ** power);
     if (!(high > low)) return [low - (Math.abs(low) || 1) * 0.5, high + (Math.abs(high) || 1) * 0.5];
     return [low - 0.05 * (high - low), high + 0.05 * (high - low)];
 }
 
+// Returns {list, text}: the tics of an axis from low to high, at most about `most`, and the text of a number at it.
+function ticsOf(low, high, most, logarithmic) {
+    const list = (logarithmic ? decades : ticks)(low, high, most);
+    return {list, text: logarithmic ? decadeText : (v) => tickText(v, list)};
+}
+
 function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
-    const xs = ticks(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90),
-          ys = ticks(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42);
+    const xs = ticsOf(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90, a.log.x),
+          ys = ticsOf(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42, a.log.y);
     context.lineWidth = 1;
     context.strokeStyle = "#e8eaee";
     context.fillStyle = "#5d6675";
     context.textAlign = "right";
-    for (const v of ys) {
+    for (const v of ys.list) {
         const y = a.y(v * yUnit.factor);
         context.beginPath(), context.moveTo(a.left, y), context.lineTo(a.right, y), context.stroke();
-        context.fillText(tickText(v, ys), a.left - 7, y + 4);
+        context.fillText(ys.text(v), a.left - 7, y + 4);
     }
     context.textAlign = "center";
-    for (const v of xs) {
+    for (const v of xs.list) {
         const x = a.x(v * xUnit.factor);
         context.beginPath(), context.moveTo(x, a.top), context.lineTo(x, a.bottom), context.stroke();
-        if (xLabel) context.fillText(tickText(v, xs), x, a.bottom + 16);
+        if (xLabel) context.fillText(xs.text(v), x, a.bottom + 16);
     }
     context.strokeStyle = "#8a93a2";
     context.beginPath(), context.moveTo(a.left, a.top), context.lineTo(a.left, a.bottom),

@@ -129,11 +129,18 @@ const showTable = () => (page.kind === "sweep" ? showSweepTable() : showConverge
 
 // ---- curves ---------------------------------------------------------------------------------------------------------
 
-// Points of the sweep: {x, y, series, row}; values that are no numbers are numbered in their order.
+// Returns true if the texts of values are numbers with one unit or without unit.
+function areNumbers(texts) {
+    const parts = texts.map((text) => text.match(/^\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?\s*(.*?)\s*$/i));
+    return parts.every((part) => part && part[1] === parts[0][1]);
+}
+
+// Points of the sweep: {x, y, series, name}, y NaN where a run does not have the figure; values that are no numbers are
+// numbered in their order.
 function sweepPoints() {
     const key = study.keys[study.x], figure = study.figures[study.y], others = study.keys.filter((k) => k !== key);
     const words = [...new Set(study.rows.map((row) => at(row, key)))],
-          plain = words.every((w) => Number.isFinite(cellValue(w)));
+          plain = areNumbers(words);
     study.words = plain ? null : words;
     return study.rows
         .map((row) => ({
@@ -142,8 +149,16 @@ function sweepPoints() {
             series: others.map((o) => o + " " + at(row, o)).join(", "),
             name: at(row, "run")
         }))
-        .filter((p) => Number.isFinite(p.y))
         .sort((a, b) => a.x - b.x);
+}
+
+// Returns true if positive values extend over more than two decades.
+const overDecades = (values) => Math.min(...values) > 0 && Math.max(...values) > 100 * Math.min(...values);
+
+// Returns true if the distances of the values, in ascending order, are equal.
+function evenlySpaced(values) {
+    const own = [...new Set(values)], step = own[1] - own[0];
+    return own.every((v, k) => k < 2 || Math.abs(v - own[k - 1] - step) <= 1e-6 * step);
 }
 
 // Points of a convergence study: the means at each spacing with their intervals.
@@ -156,26 +171,33 @@ function convergencePoints() {
     return points.sort((a, b) => a.x - b.x);
 }
 
+// Returns the axes of the curves in a canvas of width x height, for the points with a value.
+function axesOfStudy(points, width, height) {
+    const sweep = page.kind === "sweep", spread = (list) => [Math.min(...list), Math.max(...list)];
+    const xs = points.map((p) => p.x), ys = points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)]);
+    const log = {x: sweep && !study.words && overDecades(xs) && !evenlySpaced(xs), y: overDecades(ys)};
+    return axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50},
+        sweep ? padded(...spread(xs), log.x) : [0, 1.05 * spread(xs)[1]], padded(...spread(ys), log.y), log);
+}
+
 function drawStudy() {
-    const sweep = page.kind === "sweep", points = (study.points = sweep ? sweepPoints() : convergencePoints());
+    const sweep = page.kind === "sweep", all = sweep ? sweepPoints() : convergencePoints();
+    const points = (study.points = all.filter((p) => Number.isFinite(p.y)));
     const {context, width, height} = canvasOf(byId("scatter"), 340);
     context.fillStyle = "#fff";
     context.fillRect(0, 0, width, height);
+    byId("series").replaceChildren();
     if (points.length === 0) return context.fillStyle = "#5d6675", context.fillText("No run has this figure.", 20, 40);
     const unit = sweep ? study.units[study.figures[study.y]] || "" : at(study.rows[study.y], "unit"),
-          spread = (list) => [Math.min(...list), Math.max(...list)];
-    const [low, high] = spread(points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)])), [left,
-        right] = sweep ? padded(...spread(points.map((p) => p.x))) : [0, 1.05 * spread(points.map((p) => p.x))[1]];
-    const yUnit = unitFor(Math.max(Math.abs(low), Math.abs(high)), unit), key = sweep ? study.keys[study.x] : "spacing";
-    const given = sweep && !study.words ? unitOfKey(key) : "";
-    const xUnit = sweep ? {factor: 1, name: given} : unitFor(right, "m"),
-          area = axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50}, [left, right], padded(low, high));
+          area = axesOfStudy(points, width, height), key = sweep ? study.keys[study.x] : "spacing";
+    const yUnit = unitFor(Math.max(...points.map((p) => Math.abs(p.y) + (p.error || 0))), unit),
+          xUnit = sweep ? {factor: 1, name: study.words ? "" : unitOfKey(key)} : unitFor(area.x1, "m");
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];
     drawAxes(context, area, xUnit, yUnit,
         study.words ? key + ": " + study.words.map((w, k) => k + " is " + w).join(", ") :
                       key + (xUnit.name ? " [" + xUnit.name + "]" : ""),
         figure + (yUnit.name ? " [" + yUnit.name + "]" : ""));
-    drawSeries(context, area, points);
+    drawSeries(context, area, all);
     if (!sweep) {
         const words = "means and their 95 % intervals, by scatter and spacing";
         context.fillStyle = "#5d6675";
@@ -184,22 +206,31 @@ function drawStudy() {
     study.area = area, study.xUnit = xUnit, study.yUnit = unit;
 }
 
+// Draws a line through the points of each series, with a gap where a value is missing, and points alone over words.
 function drawSeries(context, area, points) {
     [...new Set(points.map((p) => p.series))].forEach((series, k) => {
         const own = points.filter((p) => p.series === series);
         context.strokeStyle = context.fillStyle = curveColours[k % curveColours.length];
         context.lineWidth = 1.5;
         context.beginPath();
-        own.forEach((p, j) => context[j ? "lineTo" : "moveTo"](area.x(p.x), area.y(p.y)));
+        let pen = false;
+        for (const p of own) {
+            const next = Number.isFinite(p.y) && !study.words;
+            if (next) context[pen ? "lineTo" : "moveTo"](area.x(p.x), area.y(p.y));
+            pen = next;
+        }
         context.stroke();
         for (const p of own) {
+            if (!Number.isFinite(p.y)) continue;
             context.beginPath(), context.arc(area.x(p.x), area.y(p.y), 4, 0, 7), context.fill();
             if (p.error)
                 context.beginPath(), context.moveTo(area.x(p.x), area.y(p.y - p.error)),
                     context.lineTo(area.x(p.x), area.y(p.y + p.error)), context.stroke();
         }
-        if (series && k < 12)
-            context.fillText(series, area.right - 10 - context.measureText(series).width, area.top + 4 + 16 * k);
+        if (!series) return;
+        const mark = element("i");
+        mark.style.background = context.fillStyle;
+        byId("series").append(element("span", {}, mark, series));
     });
 }
 

@@ -88,7 +88,8 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
 
-/* Sends the points of each line of panel number `panel` as a data block: position along the axis, mean and scatter. */
+/* Sends the points of each line of panel number `panel` as a data block: position along the axis, mean and scatter. A
+ * point without a value is NaN, which leaves a gap in the line. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across].shown;
@@ -97,7 +98,8 @@ static void send_points(FILE *to, const struct study_picture *p, int panel)
         fprintf(to, "$p%d_%d << EOD\n", panel, l);
         for (int v = 0; v < across->values; v++) {
             const struct study_point *at = &point[l * across->values + v];
-            if (at->runs > 0) fprintf(to, "%.15g %.15g %.10g\n", study_value_across(p, v), at->mean, at->scatter);
+            fprintf(to, at->runs > 0 ? "%.15g %.15g %.10g\n" : "%.15g NaN NaN\n", study_value_across(p, v), at->mean,
+                    at->scatter);
         }
         fputs("NaN NaN NaN\nEOD\n", to); /* gnuplot refuses a block without points */
     }
@@ -115,19 +117,19 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
                 k == 0 ? 1 : 2);
 }
 
+/* Plots the points of panel number `panel`, joined by lines if the values across are numbers. */
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
     for (int l = 0; l < p->lines; l++) {
         if (l > 0) fputs(", ", to);
-        if (!p->seeds)
+        if (p->numbers && !p->seeds)
             fprintf(to, "$p%d_%d using 1:2 smooth unique with lines lw 1.6 lc rgb '%s' notitle, ", panel, l,
                     curve_colour[l]);
-        fprintf(to, "$p%d_%d using ", panel, l);
         fprintf(to,
-                p->chance ? "1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' notitle"
-                          : "1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle",
-                curve_colour[l]);
+                p->chance ? "$p%d_%d using 1:2:3 with yerrorbars pt 7 ps 0.7 lw 1.4 lc rgb '%s' notitle"
+                          : "$p%d_%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' notitle",
+                panel, l, curve_colour[l]);
     }
     if (p->seeds) plot_mean_of_seeds(to, p, panel);
     putc('\n', to);
@@ -152,7 +154,8 @@ static void draw_key(FILE *to, const struct study_picture *p)
             (p->lines + p->key_columns - 1) / p->key_columns);
     for (int l = 0; l < p->lines; l++) {
         study_line_title(text, sizeof text, p, l);
-        fprintf(to, "%sNaN with linespoints lw 1.6 pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "", curve_colour[l]);
+        fprintf(to, "%sNaN with %s pt 7 ps 0.9 lc rgb '%s' title ", l ? ", " : "",
+                p->numbers ? "linespoints lw 1.6" : "points", curve_colour[l]);
         gnuplot_write_quoted_string(to, text);
     }
     putc('\n', to);

@@ -137,6 +137,10 @@ is "decades" "$(grep -c '^set logscale [xy]$' drawn) $(grep -c '^set xtics norot
 rm drawn
 PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s time.safety=0.7,0.8,2 -s material.toughness=1e9 --of energy.kinetic -o axis -q >out 2>err
 is "an axis for the runs that are done" "$(grep -c logscale drawn) $(grep '^set xtics' drawn)" "2 set xtics norotate 0.05"
+is "a gap where a run failed" "$(grep -c '^2 NaN NaN$' drawn)" 1
+rm drawn
+PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s method=pd,mpm --of energy.kinetic -o words -q >out
+is "points alone over words" "$(grep -c 'with lines' drawn) $(grep -c 'with points' drawn)" "0 1"
 rm drawn
 PATH=$work/bin:$PATH "$cleave" sweep bar.yaml -s material.density=2000,2000.001,2000.002 --of energy.kinetic -o close -q >out
 is "digits of close values" "$(sed -n "s/^set format x //p" drawn)" "'%.7g'"
