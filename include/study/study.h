@@ -100,6 +100,10 @@ bool study_folder_is_of_scene(const char *folder, const char *text);
  * if NULL, their line is left out. Returns FAILED if the file cannot be written. */
 status study_write_scene_and_options(const char *folder, const char *text, const char *options);
 
+/* Reads why the run called `run` of the study in `folder` has failed, the last line of its log, into line[capacity].
+ * Stores "it gave no reason" if there is none. */
+void study_read_reason_of_failure(char *line, size_t capacity, const char *folder, const char *run);
+
 /* Composes the options of the command of a study as words for a shell, from argv[argc], the words after the name of the
  * command. Leaves out the scene, and options that change no result: -o, -q, --overwrite, --list, --collect. scene: the
  * word of argv that names the scene. Returns an allocated text, which the caller releases with memory_free. */

@@ -15,8 +15,8 @@
 #include "scene/words.h"
 #include "study/study.h"
 
-/* Largest numbers of pictures and of warnings on the page; capacity of a warning [byte]. */
-enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600 };
+/* Largest numbers of pictures, of warnings and of reasons of failures on the page; capacity of a warning [byte]. */
+enum { PICTURES_MOST = 12, WARNINGS_MOST = 20, MESSAGE_ROOM = 600, REASONS_MOST = 100 };
 
 static int name_compare(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
@@ -93,6 +93,34 @@ static void write_warnings(struct page *p, const char *folder)
     folder_names_free(name, n);
 }
 
+/* Returns true if the run in `folder` has a summary that says it is done. */
+static bool run_is_done(const char *folder)
+{
+    char state[32] = "";
+    if (summary_read_string(folder, "status", state, sizeof state) != OK) return false;
+    return strcmp(state, "done") == 0;
+}
+
+/* Adds why runs of the study in `folder` have failed to the page, by their names, at most REASONS_MOST. */
+static void write_reasons(struct page *p, const char *folder)
+{
+    char **log, text[MESSAGE_ROOM];
+    int written = 0;
+    const int n = folder_names_read(&log, path_join(folder, "logs").text);
+    json_open(&p->json, "reasons", '{');
+    for (int k = 0; k < n && written < REASONS_MOST; k++) {
+        char *ending = strrchr(log[k], '.');
+        if (!ending || strcmp(ending, ".txt") != 0) continue;
+        *ending = '\0';
+        if (run_is_done(path_join(folder, log[k]).text)) continue;
+        study_read_reason_of_failure(text, sizeof text, folder, log[k]);
+        json_write_text(&p->json, log[k], text);
+        written++;
+    }
+    json_close(&p->json, '}');
+    folder_names_free(log, n);
+}
+
 /* Adds the units of the columns of sweep.csv to the page: of the varied keys those of numbers without a unit, of
  * figures those in the header of the history of the first run that has one. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
@@ -130,5 +158,6 @@ void report_write_page_of_study(struct page *p, const char *study_folder)
     memory_free(options);
     if (sweep) write_study_units(p, study_folder);
     write_warnings(p, study_folder);
+    write_reasons(p, study_folder);
     write_pictures(p, study_folder);
 }

@@ -243,6 +243,13 @@ function readPoint(e) {
                                                          "";
 }
 
+// Lists the runs of a sweep that have failed, each with its reason.
+function showFailures() {
+    const failed = study.rows.filter((row) => at(row, "state") === "failed").map((row) => at(row, "run"));
+    byId("failures").append(...failed.filter((run) => page.reasons[run]).map(
+        (run) => element("li", {}, run + " has failed: " + page.reasons[run])));
+}
+
 function showStudy() {
     const sweep = page.kind === "sweep";
     section("study").querySelector("h2").textContent = sweep ? study.rows.length + " runs" : "Figures with error bars";
@@ -259,6 +266,7 @@ function showStudy() {
     byId("wanted").addEventListener("input", showTable);
     byId("technical").addEventListener("change", showTable);
     byId("scatter").addEventListener("pointermove", readPoint);
+    showFailures();
     showTable();
     if (study.rows.length) drawStudy();
 }

@@ -120,12 +120,17 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 
 /* ---- processes --------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the log of run c, logs/NAME.txt in the folder of the study. */
-static struct path log_path(const struct study *s, const struct study_case *c)
+/* Returns the path of the log of the run called `run`, logs/RUN.txt in the folder of the study. */
+static struct path log_path_in(const char *folder, const char *run)
 {
     char name[CASE_NAME_ROOM + 8];
-    snprintf(name, sizeof name, "%s.txt", c->name);
-    return path_join(path_join(s->folder, "logs").text, name);
+    snprintf(name, sizeof name, "%.*s.txt", CASE_NAME_ROOM, run);
+    return path_join(path_join(folder, "logs").text, name);
+}
+
+static struct path log_path(const struct study *s, const struct study_case *c)
+{
+    return log_path_in(s->folder, c->name);
 }
 
 /* First line of the log of a run, by which Cleave recognises it. */
@@ -200,13 +205,12 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     return OK;
 }
 
-/* Reads the last line of the log `path` of a run into line[capacity]. Stores "it gave no reason" if there is none. */
-static void last_line(const char *path, char *line, size_t capacity)
+void study_read_reason_of_failure(char *line, size_t capacity, const char *folder, const char *run)
 {
     char *text;
     size_t length;
     snprintf(line, capacity, "it gave no reason");
-    if (file_read_whole(path, &text, &length) != OK) return;
+    if (file_read_whole(log_path_in(folder, run).text, &text, &length) != OK) return;
     while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
     const char *last = strrchr(text, '\n');
     if (last) snprintf(line, capacity, "%s", last + 1);
@@ -231,7 +235,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
         if (WIFSIGNALED(ended))
             snprintf(line, sizeof line, "killed by signal %d", WTERMSIG(ended));
         else
-            last_line(log.text, line, sizeof line);
+            study_read_reason_of_failure(line, sizeof line, r->study->folder, c->name);
         fprintf(stderr, "[%d/%d] %s: exit status %d: %s\n", r->ended, r->study->n, c->name, c->ended, line);
     } else if (!r->how.quiet)
         fprintf(stderr, "[%d/%d] %s: %s in %.3g s\n", r->ended, r->study->n, c->name,

@@ -166,6 +166,8 @@ grep -q '^2 runs: 1 done, 1 failed: see fails/logs' out && pass || fail "one fai
 grep -q '^\[.*\] safety=2: exit status 1: ' err && pass || fail "and says why: $(cat err)"
 awk -F, '$1 == "safety=2" { print $2 }' fails/sweep.csv >state
 is "in the table" "$(cat state)" failed
+"$cleave" report fails -q 2>err
+holds "and the page says why: $(cat err)" grep -q '^ *"safety=2": "unstable at step' fails/report.html
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails --collect >out 2>err
 is "status of a failure, collected" $? 1
 refused "nothing varies" bar.yaml -o none
