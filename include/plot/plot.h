@@ -150,13 +150,17 @@ struct unit {
  * the decimal point. unit_name: unit without prefix; unit_for_largest_value(2e-5, "s") is microseconds. */
 struct unit unit_for_largest_value(double largest_value, const char *unit_name);
 
-/* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 10 m, else
+/* Returns a unit of length suitable for values up to `largest_length` [m]: millimetres between 0.5 mm and 1 m, else
  * metres with an SI prefix. */
 struct unit unit_for_length(double largest_length);
 
+/* Returns a unit of area suitable for values up to `largest_area` [m^2]: square millimetres between 0.01 mm^2 and
+ * 100,000 mm^2, else the square of nanometres, micrometres, metres or kilometres. */
+struct unit unit_for_area(double largest_area);
+
 /* Returns a unit for values up to `largest_value` (in SI units). If `unit_name` is a unit that takes prefixes (s, m,
- * m/s, N, J, Pa, W), it has the prefix with which `largest_value` has one to three digits before the decimal point;
- * else it is the unit itself. unit_name: unit without prefix. */
+ * m^2, m/s, N, J, Pa, W), it has the prefix with which `largest_value` has one to three digits before the decimal
+ * point; else it is the unit itself. unit_name: unit without prefix. */
 struct unit unit_for_largest_value_if_prefixable(const char *unit_name, double largest_value);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */

@@ -286,13 +286,6 @@ static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
     return n;
 }
 
-/* Returns the unit for areas up to `largest` [m^2]: square millimetres between 0.01 mm^2 and 100,000 mm^2, else square
- * metres. */
-static struct unit unit_for_area(double largest)
-{
-    return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
-}
-
 /* Sends the data block $data to gnuplot: crack area and energy release rate of each load step in which the crack has
  * grown. area, rate: columns of the history h; square: unit of area; factor: unit of the rate [J/m^2]. */
 static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)

@@ -45,6 +45,12 @@ function unitFor(largest, unit) {
     if (unit === "degree") return {factor: 1, name: "°"};
     if (unit === "m" && size >= 0.9995) return {factor: 1, name: "m"};
     if (unit === "m" && size > 5e-4) return {factor: 1e-3, name: "mm"};
+    if (/^m(\^2|²)$/.test(unit) && size > 0) {
+        const squares =
+            [[1e5, 1e6, "km²"], [0.1, 1, "m²"], [1e-8, 1e-6, "mm²"], [1e-14, 1e-12, "µm²"], [0, 1e-18, "nm²"]];
+        const [, factor, name] = squares.find(([least]) => size >= least);
+        return {factor, name};
+    }
     if (!/^(s|m|Pa|J|N|m\/s|W|J\/m\^?[23²³]|N\/m)$/.test(unit) || !(size > 1e-15))
         return {factor: 1, name: unit || ""};
     const [factor, prefix] = prefixes.find(([f]) => size >= f * 0.9995) || prefixes[prefixes.length - 1];

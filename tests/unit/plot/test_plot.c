@@ -194,6 +194,8 @@ static void axes_have_prefixes(void **state)
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(6).factor == 1);
     assert_string_equal(unit_for_largest_value_if_prefixable("s", 3e-5).name, "µs");
     assert_string_equal(unit_for_largest_value_if_prefixable("m", 0.02).name, "mm");
+    assert_string_equal(unit_for_largest_value_if_prefixable("m^2", 3.5e-11).name, "µm²");
+    assert_true(unit_for_area(1e-3).factor == 1e-6 && unit_for_area(3e6).factor == 1e6);
     assert_true(unit_for_largest_value_if_prefixable("kg m/s", 3e-5).factor == 1);
 }
 
