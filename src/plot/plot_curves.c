@@ -187,12 +187,15 @@ static double coarse_tic_distance(double top)
 /* Position of the label of the balance error, whose numbers may be wide, and in narrow pictures [pixel]. */
 static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 
+/* The axis of the balance error extends to at least this percentage either way: what is less is round-off. */
+static const double BALANCE_LEAST = 0.0012;
+
 /* Plots the relative error of the energy balance over time in a panel below the energies. l: layout of the picture;
  * largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
     const struct two_panels two = curves_layout_edges_of_two_panels(l);
-    double top = largest > 0 ? 120 * largest : 1; /* percent; 20 % above the largest value */
+    const double top = fmax(120 * largest, BALANCE_LEAST); /* percent; 20 % above the largest value */
     curves_write_time_axis(to, s);
     curves_write_panel_margins(to, l, two.lower_from, two.lower_end);
     fprintf(to,

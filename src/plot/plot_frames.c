@@ -160,6 +160,21 @@ status report_picture_not_drawn(const char *path, const char *reason)
                : OK;
 }
 
+/* Writes a factor to text[capacity]: from 10,000 on a whole number with a blank after every three digits, as `30 000`,
+ * else four significant digits. */
+static void write_factor(char *text, size_t capacity, double factor)
+{
+    char digits[32];
+    size_t used = 0;
+    const int length = snprintf(digits, sizeof digits, factor < 9999.5 ? "%.4g" : "%.0f", factor);
+    *text = '\0';
+    for (int k = 0; k < length && used + 3 < capacity; k++) {
+        if (k > 0 && factor >= 9999.5 && (length - k) % 3 == 0) text[used++] = ' ';
+        text[used++] = digits[k];
+        text[used] = '\0';
+    }
+}
+
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c, const struct view *view)
 {
@@ -176,6 +191,8 @@ void picture_compose_title(char *title, const struct plot_request *r, const char
     else
         snprintf(title, TITLE_LENGTH, "%s%s%s: %s%s", name, known ? ", " : "", known ? method : "", quantity, layer);
     const size_t length = strlen(title);
-    if (c != NULL && c->magnify != 1)
-        snprintf(title + length, TITLE_LENGTH - length, "%sdisplacements x %.4g", length > 0 ? ", " : "", c->magnify);
+    if (c == NULL || c->magnify == 1) return;
+    char factor[32];
+    write_factor(factor, sizeof factor, c->magnify);
+    snprintf(title + length, TITLE_LENGTH - length, "%sdisplacements x %s", length > 0 ? ", " : "", factor);
 }

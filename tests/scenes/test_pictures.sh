@@ -120,8 +120,8 @@ drawn "what is beyond them" "set label '[0-9.]* % above' at screen"
 drawn "the title, and that displacements are not as they are" "'It''s a strip, displacements x 50'"
 "$cleave" plot results/strip --field speed --times last --size 90mmx70mm -o size.pdf >out 2>err
 drawn "a PDF of 90 x 70 mm" "pdfcairo size 3.541[0-9]*in,2.75in"
-"$cleave" plot results/strip --field speed --times last --magnify 10 --title '' $small -o untitled.png >out 2>err
-drawn "no title: the magnification alone" "set label 1 'displacements x 10' at"
+"$cleave" plot results/strip --field speed --times last --magnify 3e4 --title '' $small -o untitled.png >out 2>err
+drawn "no title: the magnification alone" "set label 1 'displacements x 30 000' at"
 # A unit that one end has holds for both; damage has the colours and the ends that are asked for, categories have no scale.
 : >drawn
 "$cleave" plot results/strip --field damage --times last --range -0.1:0.6 --colours grey --crop 4:12mm,2mm:8 $small -o grey.pdf >out 2>err
@@ -320,6 +320,7 @@ END
     sed 's/,1e-4,0.004/,2e-6,0.004/; s/,-3e-4,/,-6e-6,/' tips/history.csv >minute/history.csv
     "$cleave" plot minute --size 85mmx60mm -o minute/ >out 2>err
     uncut minute/energy.png
+    holds "an axis for an error that is round-off" grep -a -q "set yrange \[-0.0012:0.0012\]" all
     holds "the label of the error has a place beside wide numbers" grep -a -q "set label 'error \[%\]' at screen 0.02" all
     "$cleave" converge strip.yaml --of energy.kinetic --levels 3 --runs 1 -o finer >out 2>err
     set -- $("$margins" finer/pictures/convergence.png)
@@ -519,7 +520,7 @@ cat >bin/ffmpeg <<'END'
 for last; do :; done
 case $last in file:*) film=${last#file:} ;; *) echo "$last: no protocol" >&2; exit 1 ;; esac
 case $film in *wait*) echo >"$film"; touch waits; exec sleep 20 ;; *fail*) cat >/dev/null; echo "broken: of the test" >&2; exit 1 ;; esac
-echo "$*" >words
+echo "$*" >film_words
 cat >pictures
 printf '\000\000\000\010free' >"$film"
 END
@@ -529,10 +530,10 @@ mkdir 'a:%d'
 is "a film in a folder with a colon: $(cat err)" $? 0
 is "the film" "$(echo a:*/*)" "a:%d/film.mp4"
 is "it had all pictures" "$(grep -a -c IEND pictures)" 5
-holds "8 frames a second: $(cat words)" grep -q -e "-framerate 8 " words
+holds "8 frames a second: $(cat film_words)" grep -q -e "-framerate 8 " film_words
 "$cleave" plot results/strip --field speed --fps 25 --frames 3 $small -o quick.mp4 >out 2>err
 is "--fps: $(cat err)" $? 0
-holds "as many frames a second as asked for: $(cat words)" grep -q -e "-framerate 25 " words
+holds "as many frames a second as asked for: $(cat film_words)" grep -q -e "-framerate 25 " film_words
 is "and as many frames" "$(grep -a -c IEND pictures)" 3
 refused "fps 0" results/strip --field speed --fps 0 -o none.mp4
 "$cleave" plot results/strip --field speed --frames 2 $small -o fail.mp4 >out 2>err
