@@ -158,8 +158,8 @@ static void tip_marks(struct marks *m)
     for (int k = 0; k < t->n; k++) marks_add_point(m, t->tip[k].origin, NULL);
 }
 
-/* Draws the position, line or region of probe number k. text: its entry in the key, "" for none. A probe without a
- * position is listed in the key only. */
+/* Draws the position, line or region of probe number k. text: its entry in the key, "" for none. Of a probe
+ * without a position only the symbol in the key is drawn. */
 static void probe_mark(struct marks *m, int k, const char *text)
 {
     const struct scene *s = m->engine->scene;
@@ -191,7 +191,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
             snprintf(words, sizeof words, "%.80s: at %.60s", text, p->boundary);
         else if (*text)
             snprintf(words, sizeof words, "%.80s: everywhere", text);
-        marks_end_data_block(m, "with points pt -1", words);
+        marks_end_data_block(m, point, words);
     }
 }
 

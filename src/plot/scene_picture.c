@@ -376,9 +376,11 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     plotted_particles_free(&c);
     TRY(drew);
     if (r->quiet) return OK;
+    char rigids[48] = "";
+    if (s->rigids > 0) snprintf(rigids, sizeof rigids, "%d rigid bod%s, ", s->rigids, s->rigids == 1 ? "y" : "ies");
     const int said =
-        printf("%s: %lld particles, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
-               printable_name(path.text).text, (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s",
+        printf("%s: %lld particles, %s%d boundary condition%s, %d pre-crack%s, %d probe%s\n",
+               printable_name(path.text).text, (long long)drawn, rigids, s->boundaries, s->boundaries == 1 ? "" : "s",
                s->cracks, s->cracks == 1 ? "" : "s", s->probes, s->probes == 1 ? "" : "s");
     return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }

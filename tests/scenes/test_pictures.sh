@@ -58,12 +58,14 @@ drawn "the load and how many bear it" "title 'pull: traction 20 MPa, y+ (20)'"
 drawn "the support" "title 'grip: held x y (20)'"
 drawn "the pre-crack" "title '1 pre-crack'"
 drawn "the probe" "title 'probe gauge'"
+is "what it counts" "$(cut -d : -f 2 out)" " 200 particles, 1 rigid body, 2 boundary conditions, 1 pre-crack, 1 probe"
 "$cleave" plot --scene strip.yaml -o loads.png -s 'boundary=[
     {name: wave, traction: [0, "-20 MPa*pulse(t/us)"], face: y+}, {name: press, pressure: 3 MPa},
-    {name: hub, rotation: {centre: [0, 0], rate: 1000 1/s}, time: {ramp: {until: 1 us}}}]' >out 2>err
+    {name: hub, rotation: {centre: [0, 0], rate: 1000 1/s}, time: {ramp: {until: 1 us}}}]' -s cracks=[] -s probes=[tip] >out 2>err
 is "plot --scene of other loads: $(cat err)" $? 0
 drawn "a formula of time at its largest" "title 'wave: traction up to 20 MPa, y+ (20)'"
 drawn "a pressure" "title 'press: pressure 3 MPa ("
+drawn "a probe without a place has the symbol of probes" "with points pt 1 [^,]* title 'probe tip: everywhere'"
 drawn "a rotation" "title 'hub: turning up to [0-9.]* m/s (200)'"
 "$cleave" plot --scene strip.yaml -s particles.spacing=2mm -o new/folder/coarse.svg --size 150mmx80mm >out 2>err
 is "plot --scene -s: exit status" $? 0
