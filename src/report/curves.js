@@ -1,6 +1,7 @@
 // Curves: axes, and the columns of history.csv, one panel for each unit.
 
-// Returns a plot area with the maps x(value) and y(value) to pixels, and back. log: {x, y}, true for a logarithmic axis.
+// Returns a plot area with the maps x(value) and y(value) to pixels, and back. log: {x, y}, true for a logarithmic
+// axis.
 function axesOf(area, [x0, x1], [y0, y1], log = {}) {
     const along = (v, low, high, logarithmic) =>
         (logarithmic ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));

@@ -166,7 +166,7 @@ const timeText = (frame) => {
     return "t = " + number(frame.t / t.factor) + " " + t.name;
 };
 
-// Pre-cracks where they were before the run, as dots on the body.
+// Pre-cracks where they were before the run, as lines on the body.
 function drawPreCracks(context, to, ratio) {
     context.fillStyle = "#18202a";
     const pixel = ([x,
@@ -176,10 +176,11 @@ function drawPreCracks(context, to, ratio) {
     for (const line of page.cracks || [])
         for (let k = 1; k < line.length; k++) {
             const [a, b] = [pixel(line[k - 1]), pixel(line[k])],
-                      steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / (6 * ratio)), 2000);
+                      steps = Math.min(Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1])), 8000);
             for (let s = 0; s <= steps; s++) {
                 const [px, py] = [0, 1].map((d) => a[d] + (b[d] - a[d]) * s / Math.max(steps, 1));
-                if (px >= 0 && px < to.width && onBody(px, py)) context.fillRect(px / ratio - 1, py / ratio - 1, 2, 2);
+                if (px >= 0 && px < to.width && onBody(px, py))
+                    context.fillRect(px / ratio - 0.7, py / ratio - 0.7, 1.4, 1.4);
             }
         }
 }

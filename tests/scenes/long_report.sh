@@ -35,6 +35,7 @@ says plate "s['frames'] == 9 and s['shown_at_first'] == 8 and s['played_to'] == 
 says plate "'frame 0' in s['when_first'] and s['tags'] == 0"
 says plate "s['crack_last'][0] - s['crack_last'][1] > 60 and s['whole_last'] == [226, 228, 231]"
 says plate "s['ahead_first'] == [226, 228, 231] and s['ahead_last'][0] - s['ahead_last'][1] > 60"
+says plate "s['pre_crack'] < 150"       # a line without gaps, on grey 226
 says plate "s['field'] == 'von_mises' and max(s['crack_von_mises']) < 40 and s['whole_von_mises'] != [226, 228, 231]"
 says plate "0.98 < s['painted_again'] / s['painted'] < 1.02 and s['column_added']"     # another field covers the same pixels, but for words on them
 says solid "s['field'] == 'von_mises' and s['turned'] and 0.05 * s['painted_turned'] < s['painted_cut'] < 0.9 * s['painted_turned']"

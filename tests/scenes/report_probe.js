@@ -50,7 +50,11 @@ async function probeFilm(seen) {
         seen.whole_last = colourAt(0.035, 0.004);
     send("frame", "input", 0);
     seen.when_first = byId("when").textContent;
-    if (film.dim === 2) seen.ahead_first = colourAt(0.025, 0.0102);
+    if (film.dim === 2) {
+        const pixel = 1 / view.scale, near = (x) => [-pixel, 0, pixel].map((dy) => colourAt(x, 0.01 + dy)[0]);
+        seen.ahead_first = colourAt(0.025, 0.0102);
+        seen.pre_crack = Math.max(...Array.from({length: 50}, (_, k) => Math.min(...near(0.004 + k * 1e-4))));
+    }
     byId("play").click();
     await wait(1500);
     seen.played_to = view.frame;
@@ -91,6 +95,9 @@ async function probe() {
     }
     if (page.table) {
         seen.rows = document.querySelectorAll("#table tbody tr").length;
+        seen.series = byId("series").childElementCount;
+        seen.axes = study.area && study.area.log;
+        seen.tics = [0, 1, 2].map((k, at, all) => tickText(7e10 + 1e3 * k, all.map((m) => 7e10 + 1e3 * m)));
         send("wanted", "input", "energy");
         seen.columns = document.querySelectorAll("#table th").length;
     }

@@ -204,6 +204,13 @@ fi
 "$cleave" report sweep -q
 is "a sweep: exit status" $? 0
 whole sweep/report.html
+# Values over decades have a logarithmic axis; the key is below the curves, one entry for each thickness.
+"$cleave" sweep plate.yaml -s material.density=2,40,2e3 -s thickness=1mm,2mm -s particles.spacing=2mm -o decades -q >out 2>err
+if [ -n "$browser" ]; then
+    "$cleave" report decades -q
+    seen decades
+    says decades "s['problems'] == [] and s['series'] == 2 and s['axes']['x'] and s['tics'] == ['70000000000', '70000001000', '70000002000']"
+fi
 holds "a sweep's table" grep -q '"table": "run,state,particles.spacing,thickness,' sweep/report.html
 if command -v gnuplot >/dev/null; then holds "a sweep's pictures" grep -q '"name": "map.png"' sweep/report.html; fi
 "$cleave" converge plate.yaml -s particles.spacing=2mm --runs 1 --levels 3 -o results/plate_converge -q >out 2>err
