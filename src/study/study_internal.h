@@ -55,6 +55,9 @@ enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
  * (picture_size_set), to name[PICTURE_NAME_ROOM]. */
 void study_picture_name(char *name, const char *key);
 
+/* Returns the width of a character in the pictures of a study [pixel]. */
+int study_character_width(void);
+
 /* Returns a distance between tics, 1, 2 or 5 times a power of ten, that divides an axis of length `range` > 0 into at
  * most `max_intervals` intervals. */
 double axis_tick_distance(double range, int max_intervals);

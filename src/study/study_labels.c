@@ -74,6 +74,8 @@ int study_longest_label_length(const struct varied_key *key)
     return longest;
 }
 
+int study_character_width(void) { return picture_is_too_narrow_for_key() ? 7 : 9; }
+
 double axis_tick_distance(double range, int max_intervals)
 {
     static const double lead[] = {1, 2, 5, 10};

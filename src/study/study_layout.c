@@ -14,8 +14,6 @@ enum { WIDE = 320, HIGH = 220, NARROW_PANEL = 150, LEAST = 60, NUMBERS = 100, BE
 
 static const double PROPORTION = 0.7; /* height of a panel over its width in pictures of a given width */
 
-int study_character_width(void) { return picture_is_too_narrow_for_key() ? 7 : 9; }
-
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line)

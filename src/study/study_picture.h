@@ -122,9 +122,6 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
 /* Returns true if each point of each panel has a value. */
 bool study_points_complete(const struct study_picture *p);
 
-/* Returns the width of a character in the pictures of a study [pixel]. */
-int study_character_width(void);
-
 /* Writes the title of line number `line`, its values of the keys that distinguish lines, to text[capacity], as `60, 1`.
  */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
