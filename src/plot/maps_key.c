@@ -16,6 +16,7 @@ enum { BEYOND_WIDE = 84 }; /* width of `0.14 % above` */
 enum { NUMBERS = 26, NUMBERS_NARROW = 20, LABEL_HALF = 12, UNDER_LABEL = 50, BAR_LOW = 12 };
 
 static double letter_wide(void) { return picture_is_too_narrow_for_key() ? 7.4 : 9; }
+static int numbers_from(void) { return picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS; }
 static int bar_from(void) { return picture_is_too_narrow_for_key() ? BAR_FROM_NARROW : BAR_FROM; }
 
 /* ---- colour bar -------------------------------------------------------------------------------------------------- */
@@ -31,14 +32,14 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
 {
     struct bar_scale s = {.low = view->bottom, .high = view->top, .format = "%.1f"};
     s.tics = tic_distance(s.high - s.low, 300, 50);
-    if (s.tics < 0.099) s.format = "%g";
+    if (s.tics < 0.099) s.format = "%.9g";
     snprintf(s.label, sizeof s.label, "%s", map == MAP_KIND ? "peridynamic damage" : "damage");
     if (map != MAP_FIELD) return s;
     const struct unit u = unit_for_largest_value(fmax(fabs(view->low), fabs(view->high)), view->field->unit);
     const bool plain = !*view->field->unit;
     s.low = view->low / (plain ? 1 : u.factor), s.high = view->high / (plain ? 1 : u.factor);
     s.tics = tic_distance(s.high - s.low, 300, 50);
-    s.format = "%g";
+    s.format = "%.9g";
     plot_field_write_label(s.label, sizeof s.label, view->field);
     const size_t length = strlen(s.label);
     if (!plain) snprintf(s.label + length, sizeof s.label - length, " [%s]", u.name);
@@ -75,7 +76,7 @@ int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_he
         numbers = fmax(numbers, tic_numbers_width(s.low, s.high, bar_tics(&s, length), s.format));
     const int length = bar_length(&s, panels_height, BAR_HIGHEST);
     const double lines = bar_second_line(&s, length) ? 1 : 0;
-    return (int)(BAR_FROM_NARROW + BAR_WIDE + NUMBERS_NARROW + numbers + LABEL_HALF + lines * letter_wide());
+    return (int)(bar_from() + BAR_WIDE + numbers_from() + numbers + LABEL_HALF + lines * letter_wide());
 }
 
 /* Writes beside one end of the colour bar which percentage of the particles have values beyond this end. Writes nothing
@@ -85,9 +86,9 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
                         double y, const char *adjust)
 {
     if (view->beyond[end] == 0) return;
-    fprintf(to, "set label '%.2g %% %s' at screen %.6g,%.6g %s font ',10' textcolor rgb '#555555'\n",
-            100.0 * (double)view->beyond[end] / (double)particles, end ? "above" : "below", x / l->width,
-            1 - y / l->height, adjust);
+    const double percent = 100.0 * (double)view->beyond[end] / (double)particles;
+    fprintf(to, "set label '%.*g %% %s' at screen %.6g,%.6g %s font ',10' textcolor rgb '#555555'\n",
+            percent < 99 ? 2 : 3, percent, end ? "above" : "below", x / l->width, 1 - y / l->height, adjust);
 }
 
 /* Writes the label of a vertical bar, and its unit in a second line if the label is longer than the bar. x, y: centre
@@ -117,9 +118,7 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     box_write_margins(to, l, x, l->above, BAR_WIDE, length);
     fprintf(to, "set xrange [0:1]\nset yrange [%.9g:%.9g]\nset y2range [%.9g:%.9g]\nset y2tics out %.9g format '%s'\n",
             s->low, s->high, s->low, s->high, tics, s->format);
-    draw_bar_label(to, l, s,
-                   x + BAR_WIDE + (picture_is_too_narrow_for_key() ? NUMBERS_NARROW : NUMBERS) +
-                       tic_numbers_width(s->low, s->high, tics, s->format),
+    draw_bar_label(to, l, s, x + BAR_WIDE + numbers_from() + tic_numbers_width(s->low, s->high, tics, s->format),
                    l->above + 0.5 * length, length);
     const bool edge = x - 6 + BEYOND_WIDE > l->width;
     for (int end = 0; end < 2 && m->map == MAP_FIELD; end++)

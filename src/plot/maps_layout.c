@@ -38,7 +38,7 @@ static struct layout margins_of(const struct maps_shown *m, bool under, const st
     struct layout l = {.left = m->outside ? LEFT_OUTSIDE : LEFT,
                        .above = titled ? ABOVE : UNTITLED,
                        .axes = BELOW,
-                       .right = bar ? RIGHT : EDGE,
+                       .right = bar ? (int)fmax(RIGHT, colour_bar_width_beside_panels(m, panels)) : EDGE,
                        .gap = GAP_X};
     if (narrow)
         l = (struct layout){.left = m->outside ? LEFT_OUTSIDE_NARROW : LEFT_NARROW,

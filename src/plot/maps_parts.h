@@ -59,8 +59,8 @@ double tic_numbers_width(double low, double high, double tics, const char *forma
  * that there are two at least, since a single one gives no scale; one if two have no space. */
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
-/* Returns the width that a colour bar with its numbers and its label takes on the right of panels in a narrow picture
- * [pixel]. panels_height: height of all rows of panels [pixel]. */
+/* Returns the width that a colour bar with its numbers and its label takes on the right of panels [pixel].
+ * panels_height: height of all rows of panels [pixel]. */
 int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
 
 /* Collects the key of a picture: kinds of particles, fragments or named values of the map, and rigid bodies if

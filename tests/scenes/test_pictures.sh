@@ -118,6 +118,7 @@ holds "no entry of a rigid body that is not in the picture" sh -c "! grep -a -q 
 drawn "the rectangle" "set xrange \[4:12\]"
 drawn "and its height" "set yrange \[2:8\]"
 drawn "the ends of the colours" "set yrange \[-1:3\]"
+drawn "numbers at the colours that differ also in a narrow range" "set y2tics out [0-9.]* format '%.9g'"
 drawn "what is beyond them" "set label '[0-9.]* % above' at screen"
 drawn "the title, and that displacements are not as they are" "'It''s a strip, displacements x 50'"
 "$cleave" plot results/strip --field speed --times last --size 90mmx70mm -o size.pdf >out 2>err
