@@ -24,7 +24,7 @@ function ticsOf(low, high, most, logarithmic) {
 }
 
 function drawAxes(context, a, xUnit, yUnit, xLabel, yLabel) {
-    const xs = ticsOf(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90, a.log.x),
+    const xs = a.tics || ticsOf(a.x0 / xUnit.factor, a.x1 / xUnit.factor, (a.right - a.left) / 90, a.log.x),
           ys = ticsOf(a.y0 / yUnit.factor, a.y1 / yUnit.factor, (a.bottom - a.top) / 42, a.log.y);
     context.lineWidth = 1;
     context.strokeStyle = "#e8eaee";

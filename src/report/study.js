@@ -171,13 +171,21 @@ function convergencePoints() {
     return points.sort((a, b) => a.x - b.x);
 }
 
+// Returns the tics of an axis of words: the words themselves, or their numbers if they are many or long.
+function ticsOfWords(words) {
+    const short = words.length <= 8 && words.every((word) => word.length <= 16);
+    return {short, list: words.map((word, k) => k), text: (k) => (short ? words[k] : String(k))};
+}
+
 // Returns the axes of the curves in a canvas of width x height, for the points with a value.
 function axesOfStudy(points, width, height) {
     const sweep = page.kind === "sweep", spread = (list) => [Math.min(...list), Math.max(...list)];
     const xs = points.map((p) => p.x), ys = points.flatMap((p) => [p.y - (p.error || 0), p.y + (p.error || 0)]);
     const log = {x: sweep && !study.words && overDecades(xs) && !evenlySpaced(xs), y: overDecades(ys)};
-    return axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50},
-        sweep ? padded(...spread(xs), log.x) : [0, 1.05 * spread(xs)[1]], padded(...spread(ys), log.y), log);
+    const tics = study.words && ticsOfWords(study.words);
+    return axesOf({left: 84, right: width - 20, top: 40, bottom: height - 50, tics},
+        sweep ? padded(...spread(tics ? tics.list : xs), log.x) : [0, 1.05 * spread(xs)[1]],
+        padded(...spread(ys), log.y), log);
 }
 
 function drawStudy() {
@@ -194,7 +202,7 @@ function drawStudy() {
           xUnit = sweep ? {factor: 1, name: study.words ? "" : unitOfKey(key)} : unitFor(area.x1, "m");
     const figure = sweep ? study.figures[study.y] : study.rows[study.y][0];
     drawAxes(context, area, xUnit, yUnit,
-        study.words ? key + ": " + study.words.map((w, k) => k + " is " + w).join(", ") :
+        study.words && !area.tics.short ? key + ": " + study.words.map((w, k) => k + " is " + w).join(", ") :
                       key + (xUnit.name ? " [" + xUnit.name + "]" : ""),
         figure + (yUnit.name ? " [" + yUnit.name + "]" : ""));
     drawSeries(context, area, all);
