@@ -1,6 +1,6 @@
 #!/bin/sh
 # Pages of cleave report: complete, of the stated precision, harmless whatever a scene is called, and never over files of others.
-# Takes 35 s: runs, pages with pictures, and a convergence study.
+# Takes 40 s: runs, pages with pictures, and a convergence study.
 test_name=test_report
 . tests/support/summary.sh
 command -v python3 >/dev/null || { echo "python3 is missing: pages not tested"; exit 77; }
