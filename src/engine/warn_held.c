@@ -42,8 +42,8 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles. No
- * warning is added if these are fewer than half of the particles of each load, as for faces that meet at an edge. */
+/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles: the
+ * later load moves them, but the work of both is on the account, some ten percent of it for an edge of two faces. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {
@@ -58,14 +58,14 @@ static void warn_of_contrary(const struct scene *s, const struct particles *p, c
         apart |= here, common += here != 0;
         j += i <= other, k += other <= i;
     }
-    if (common == 0 || 2 * common < real_min(a->n, b->n)) return;
+    if (common == 0) return;
     for (int d = 0; d < s->dim; d++)
         if (apart >> d & 1)
             used += snprintf(axes + used, sizeof axes - (size_t)used, "%s%c", used ? "," : "", "xyz"[d]);
     warnings_add_if_new(
         to,
-        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: leave one of "
-        "them out, or give each a face or region of its own",
+        "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s, so that "
+        "energies are wrong: leave one of them out, or give each a face or region of its own",
         a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
 }
 
