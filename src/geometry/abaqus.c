@@ -241,6 +241,8 @@ static status scope_end(struct deck *d)
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
     if (label_map_find_duplicate(&scope->node_of, &twice))
         return source_report_fault(d->s, "node %lld is given twice", (long long)twice);
+    if (label_map_find_duplicate(&scope->element_of, &twice))
+        return source_report_fault(d->s, "element %lld is given twice", (long long)twice);
     for (int64_t k = scope->element; k < m->elements; k++) {
         struct element *e = &m->element[k];
         for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));

@@ -296,6 +296,57 @@ static status check_plane(const struct element_mesh *m, const char *path)
                       path, low[2], high[2]);
 }
 
+/* Corners of an element in ascending order, unused ones -1, and its index in the mesh. */
+struct corner_list {
+    int32_t node[ELEMENT_CORNERS_MAX], element;
+};
+
+/* Orders lists of corners by their nodes, then by element, for array_sort. */
+static int corner_list_order(const void *a, const void *b)
+{
+    const struct corner_list *p = a, *q = b;
+    for (int k = 0; k < ELEMENT_CORNERS_MAX; k++)
+        if (p->node[k] != q->node[k]) return p->node[k] < q->node[k] ? -1 : 1;
+    return (p->element > q->element) - (p->element < q->element);
+}
+
+/* Returns the corners of element k of the mesh in ascending order. */
+static struct corner_list corner_list_of(const struct element_mesh *m, int64_t k)
+{
+    struct corner_list list = {.element = (int32_t)k};
+    const int n = element_corners[m->element[k].kind];
+    for (int c = 0; c < ELEMENT_CORNERS_MAX; c++) {
+        int at = c;
+        const int32_t node = c < n ? m->element[k].node[c] : -1;
+        for (; at > 0 && list.node[at - 1] > node; at--) list.node[at] = list.node[at - 1];
+        list.node[at] = node;
+    }
+    return list;
+}
+
+/* Returns REFUSED if elements that fill the space, of dimension `dim`, have the same corners. path: file of the mesh,
+ * for the message. */
+static status check_elements_differ(const struct element_mesh *m, const char *path, int dim)
+{
+    int64_t n = 0, doubles = 0, pair[2] = {0};
+    struct corner_list *list = NEW("mesh.corners", m->elements, struct corner_list);
+    for (int64_t k = 0; k < m->elements; k++)
+        if (element_dim[m->element[k].kind] == dim) list[n++] = corner_list_of(m, k);
+    array_sort(list, n, sizeof *list, corner_list_order);
+    for (int64_t k = 1; k < n; k++) {
+        if (memcmp(list[k].node, list[k - 1].node, sizeof list[k].node) != 0) continue;
+        if (doubles++ == 0) pair[0] = list[k - 1].element, pair[1] = list[k].element;
+    }
+    memory_free(list);
+    if (doubles == 0) return OK;
+    const long long first = m->element_label[pair[0]], other = m->element_label[pair[1]];
+    if (first == other) return status_set(REFUSED, "%s: element %lld is given twice", path, first);
+    return status_set(REFUSED,
+                      "%s: %lld element%s the corners of another one, as element %lld has those of element %lld; each "
+                      "element is expected once",
+                      path, (long long)doubles, doubles == 1 ? " has" : "s have", other, first);
+}
+
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real unit_length,
                               real max_chord_error)
 {
@@ -303,6 +354,7 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
     int32_t *node_of = NULL;
     TRY(body_dim_of(m, path, dim, &b.body_dim));
     if (dim == 2) TRY(check_plane(m, path));
+    TRY(check_elements_differ(m, path, dim));
     TRY(surface_builder_set_chord_tolerance(&b, path, max_chord_error));
     builder_list_edges(&b);
     for (int64_t k = 0; k < m->elements; k++)

@@ -44,6 +44,8 @@ struct gmsh {
     struct source *s;
     struct element_mesh *m;
     bool bytes, old;       /* numbers are binary; format 2.2 */
+    const char *items;     /* what the current section counts, such as "nodes" or "blocks"; NULL: nothing */
+    int64_t announced;     /* how many of them it announces */
     struct label_map node; /* index of each node label, once the nodes are read */
     int64_t names;         /* physical groups that have a name */
     struct group_name {
@@ -177,6 +179,7 @@ static status names_read(struct gmsh *g)
     int64_t n;
     TRY(source_read_integer(g->s, "number of names", &n));
     TRY(source_check_count_fits_file(g->s, "names", n, 4));
+    g->announced = n, g->items = "names";
     if (n > ELEMENT_SETS_MAX) return source_report_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
@@ -223,9 +226,11 @@ static status entity_read(struct gmsh *g, int64_t dim)
 static status entities_read(struct gmsh *g)
 {
     int64_t n[1 + DIM_MAX];
+    g->announced = 0, g->items = "entities";
     for (int d = 0; d <= DIM_MAX; d++) TRY(source_read_int64(g->s, "number of entities", &n[d]));
     for (int d = 0; d <= DIM_MAX; d++) {
         TRY(source_check_count_fits_file(g->s, "entities", n[d], 8));
+        g->announced += n[d];
         for (int64_t k = 0; k < n[d]; k++) TRY(entity_read(g, d));
     }
     label_map_free(&g->of_entity);
@@ -244,6 +249,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     TRY(source_read_integer(g->s, what, n));
     source_skip_to_next_line(g->s);
     g->s->binary = g->bytes;
+    g->announced = *n, g->items = what;
     return source_check_count_fits_file(g->s, what, *n, bytes);
 }
 
@@ -262,6 +268,18 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
+/* Removes the last element of the mesh again if it equals the one before it: format 2.2 has an element of several
+ * physical groups once for each. group: its group, which differs from that of the one before. */
+static void old_element_merge(struct gmsh *g, int64_t group)
+{
+    const struct element *last = &g->m->element[g->m->elements - 1];
+    if (g->m->elements < 2 || group == g->last_tag || last->kind != last[-1].kind ||
+        !arrays_equal(last->node, last[-1].node, element_corners[last->kind], sizeof *last->node))
+        return;
+    if (last->middle >= 0) g->m->middles = last->middle;
+    g->m->elements--;
+}
+
 /* Reads an element of a file in format 2.2: its tags, of which the first is its physical group (0 for none), and then
  * its nodes. type: type of the element; label: its number in the file; tags: number of tags. Returns REFUSED if it is
  * malformed. */
@@ -271,6 +289,7 @@ static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t 
     TRY(source_check_count_fits_file(g->s, "tags", tags, 2));
     for (int64_t k = 0; k < tags; k++) TRY(source_read_int32(g->s, "tag", k == 0 ? &group : &tag));
     TRY(element_next(g, type, label));
+    old_element_merge(g, group);
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
@@ -299,14 +318,26 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the first line of a section in format 4.1: the number of blocks, into *blocks, and three numbers that are
- * skipped. what: name of the skipped numbers, for messages. Returns REFUSED if the line is malformed. */
-static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
+/* Reads the first line of a section in format 4.1: the number of blocks, into *blocks, that of nodes or elements in all
+ * of them, into *total, and the smallest and the largest label, which are skipped. what: name of the last three, for
+ * messages. Returns REFUSED if the line is malformed. */
+static status new_head(struct gmsh *g, const char *what, int64_t *blocks, int64_t *total)
 {
     int64_t skipped;
     TRY(source_read_int64(g->s, "number of blocks", blocks));
-    for (int k = 0; k < 3; k++) TRY(source_read_int64(g->s, what, &skipped));
+    TRY(source_read_int64(g->s, what, total));
+    for (int k = 0; k < 2; k++) TRY(source_read_int64(g->s, what, &skipped));
+    g->announced = *blocks, g->items = "blocks";
     return source_check_count_fits_file(g->s, "blocks", *blocks, 8);
+}
+
+/* Returns REFUSED unless the blocks of a section in format 4.1 contain `found` rows as the first line of the section
+ * announces. what: nodes or elements. */
+static status new_total(const struct gmsh *g, const char *what, int64_t announced, int64_t found)
+{
+    if (found == announced) return OK;
+    return source_report_fault(g->s, "%lld %s are announced, but the blocks contain %lld: the file is damaged",
+                               (long long)announced, what, (long long)found);
 }
 
 /* Reads a block of nodes in format 4.1: their labels, then their coordinates. Each node may have parameters on its
@@ -339,9 +370,11 @@ static status new_node_block(struct gmsh *g)
  * or a label occurs twice. */
 static status new_nodes(struct gmsh *g)
 {
-    int64_t blocks;
-    TRY(new_head(g, "number of nodes", &blocks));
+    const int64_t first = g->m->nodes;
+    int64_t blocks, total;
+    TRY(new_head(g, "number of nodes", &blocks, &total));
     for (int64_t k = 0; k < blocks; k++) TRY(new_node_block(g));
+    TRY(new_total(g, "nodes", total, g->m->nodes - first));
     return nodes_known(g);
 }
 
@@ -371,10 +404,11 @@ static status new_element_block(struct gmsh *g)
  * malformed. */
 static status new_elements(struct gmsh *g)
 {
-    int64_t blocks;
-    TRY(new_head(g, "number of elements", &blocks));
+    const int64_t first = g->m->elements;
+    int64_t blocks, total;
+    TRY(new_head(g, "number of elements", &blocks, &total));
     for (int64_t k = 0; k < blocks; k++) TRY(new_element_block(g));
-    return OK;
+    return new_total(g, "elements", total, g->m->elements - first);
 }
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
@@ -416,6 +450,21 @@ static void section_skip(struct source *s, const char *name)
     s->at = found ? found - s->text + length : s->length;
 }
 
+/* Advances over the last line of the section `name`, such as $EndNodes of $Nodes. Returns REFUSED if it does not come
+ * next, because the section has more than it announces. */
+static status section_end(struct gmsh *g, const char *name)
+{
+    char end[48], word[sizeof end];
+    snprintf(end, sizeof end, "$End%s", name + 1);
+    source_skip_blanks(g->s);
+    source_read_word(g->s, word, sizeof word);
+    if (strcmp(word, end) == 0) return OK;
+    return source_report_fault(g->s,
+                               "%s announces %lld %s, but more follow where %s is expected: the count is wrong, or the "
+                               "file is damaged",
+                               name, (long long)g->announced, g->items, end);
+}
+
 /* Reads the section `name`, such as $Nodes, or skips it if it is not needed. Returns REFUSED if it is malformed. */
 static status section_read(struct gmsh *g, const char *name)
 {
@@ -435,7 +484,7 @@ static status section_read(struct gmsh *g, const char *name)
         g->s->binary = !g->old && g->bytes && k > 0; /* names are text also in binary files */
         const status s = (g->old ? sections[k].old : sections[k].new)(g);
         g->s->binary = false;
-        if (s != OK) return s;
+        return s == OK ? section_end(g, name) : s;
     }
     section_skip(g->s, name);
     return OK;

@@ -500,7 +500,7 @@ static int leave_folder(void **state)
 {
     static const char *const names[] = {"a.stl", "b.stl", "c.stl",     "a.msh",     "b.msh",
                                         "c.msh", "d.msh", "bad.msh",   "a.inp",     "b.inp",
-                                        "c.inp", "d.inp", "whole.inc", "solid.inp", "bad.inp"};
+                                        "c.inp", "d.inp", "whole.inc", "solid.inp", "bad.inp", "nodes.dat"};
     (void)state;
     for (size_t k = 0; k < COUNT_OF(names); k++) unlink(names[k]);
     return chdir("/") != 0 || rmdir(folder) != 0;

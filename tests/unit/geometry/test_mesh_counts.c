@@ -1,0 +1,102 @@
+/* Meshes whose counts are wrong, or whose elements are given twice: they are refused, except elements of several groups
+ * in Gmsh's format 2.2, which repeats them. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "tests/support/near.h"
+
+#include "geometry/geometry.h"
+
+/* A square of two triangles, each in a group of its own. */
+static const char msh2[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"low\"\n2 2 \"high\"\n"
+                           "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                           "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 2 1 1 3 4\n$EndElements\n";
+static const char msh4[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n9 0 0 0 1 1 0 0 0\n$EndEntities\n"
+                           "$Nodes\n1 4 1 4\n2 9 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+                           "$Elements\n2 2 1 2\n2 9 2 1\n1 1 2 3\n2 9 2 1\n2 1 3 4\n$EndElements\n";
+static const char inp[] = "*Node\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*Element, type=CPS3\n1, 1, 2, 3\n2, 1, 3, 4\n";
+
+/* Writes `text` with `to` in place of `from` to a file, reads it in the plane into *g and returns the status. */
+static status read_changed(struct geometry *g, const char *name, const char *text, const char *from, const char *to)
+{
+    const char *at = strstr(text, from);
+    FILE *file = fopen(name, "w");
+    assert_non_null(at);
+    assert_non_null(file);
+    fprintf(file, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    fclose(file);
+    const status result = geometry_read(g, name, 2, 1, NAN);
+    unlink(name);
+    return result;
+}
+
+static void wrong_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text, *from, *to, *message;
+    } bad[] = {
+        {"a.msh", msh2, "Elements\n2", "Elements\n1",
+         "a.msh:19: $Elements announces 1 elements, but more follow where"},
+        {"a.msh", msh2, "$Nodes\n4", "$Nodes\n3",
+         "a.msh:14: $Nodes announces 3 nodes, but more follow where $EndNodes"},
+        {"a.msh", msh2, "Names\n2", "Names\n1", "a.msh:7: $PhysicalNames announces 1 names, but more follow"},
+        {"a.msh", msh2, "2 1 1 3 4", "1 1 3 1 2",
+         "1 element has the corners of another one, as element 2 has those of"},
+        {"a.msh", msh4, "0 0 1 0", "0 0 0 0", "$Entities announces 0 entities, but more follow"},
+        {"a.msh", msh4, "1 4 1 4", "1 3 1 4", "3 nodes are announced, but the blocks contain 4"},
+        {"a.msh", msh4, "2 2 1 2", "2 3 1 2", "3 elements are announced, but the blocks contain 2"},
+        {"a.msh", msh4, "2 2 1 2", "1 1 1 2", "$Elements announces 1 blocks, but more follow"},
+        {"a.inp", inp, "2, 1, 3, 4", "1, 1, 3, 4", "element 1 is given twice"},
+        {"a.inp", inp, "2, 1, 3, 4", "7, 2, 3, 1",
+         "1 element has the corners of another one, as element 7 has those of"},
+    };
+    for (size_t k = 0; k < COUNT_OF(bad); k++) {
+        struct geometry g;
+        assert_refused(read_changed(&g, bad[k].name, bad[k].text, bad[k].from, bad[k].to), bad[k].message);
+    }
+}
+
+static void right_ones(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text, *from, *to;
+    } good[] = {{"a.msh", msh2, "", ""},
+                {"a.msh", msh4, "", ""},
+                {"a.inp", inp, "", ""},
+                {"a.msh", msh2, "2\n1 2 2 1 1 1 2 3\n", "3\n1 2 2 1 1 1 2 3\n3 2 2 2 1 1 2 3\n"}};
+    for (size_t k = 0; k < COUNT_OF(good); k++) {
+        struct geometry g;
+        assert_ok(read_changed(&g, good[k].name, good[k].text, good[k].from, good[k].to));
+        assert_close(g.whole.volume, 1, 1e-12);
+        assert_int_equal(g.whole.open_edges, 0);
+        if (good[k].text == msh2) {
+            assert_close(geometry_find_named_part(&g, "low")->hull.volume, 0.5, 1e-12);
+            assert_close(geometry_find_named_part(&g, "high")->hull.volume, good[k].from[0] ? 1 : 0.5, 1e-12);
+        }
+        geometry_free(&g);
+    }
+}
+
+/* Folder for the files of the tests. */
+static char folder[] = "/tmp/cleave_counts_XXXXXX";
+static int enter_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) == NULL || chdir(folder) != 0;
+}
+
+static int leave_folder(void **state)
+{
+    (void)state;
+    return chdir("/") != 0 || rmdir(folder) != 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_ones), cmocka_unit_test(right_ones)};
+    return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
