@@ -78,10 +78,16 @@ bool hull_is_convex_within_distance(const struct hull *s, const real *X, real re
  * direction: unit vector. */
 real hull_support_function(const struct hull *s, const real *direction);
 
-/* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
- * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
- * surface with outward normals. */
-real hull_sample_fraction_with_unclear_inside(const struct hull *s);
+/* Findings at about 4000 sample points in the bounding box of a surface. unclear: share of the points at which inside
+ * and outside cannot be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below
+ * -0.3; enclosed_again: volume that shells enclose beyond the first time [m^3], in 2D area [m^2]. */
+struct hull_samples {
+    real unclear, enclosed_again;
+};
+
+/* Returns the findings of sample points of the surface. Both are 0 for a closed surface with outward normals whose
+ * shells neither overlap nor are inside each other, except that shells of cavities have normals towards the cavity. */
+struct hull_samples hull_sample_winding_numbers(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
  * are consecutive. Corners and faces must be set before. Part of hull_make_closed_surface. */

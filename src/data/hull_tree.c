@@ -148,20 +148,23 @@ real hull_winding_number(const struct hull *s, const real *X)
     return sum;
 }
 
-real hull_sample_fraction_with_unclear_inside(const struct hull *s)
+struct hull_samples hull_sample_winding_numbers(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
-    int64_t doubtful = 0, n = s->dim == 2 ? places * places : places * places * places;
+    int64_t unclear = 0, again = 0, n = s->dim == 2 ? places * places : places * places * places;
+    real box = 1;
+    for (int d = 0; d < s->dim; d++) box *= all->high[d] - all->low[d];
     for (int64_t k = 0; k < n; k++) {
         const int64_t at[DIM_MAX] = {k % places, k / places % places, k / places / places};
         real X[DIM_MAX];
         for (int d = 0; d < s->dim; d++)
             X[d] = all->low[d] + ((real)at[d] + 0.5) / places * (all->high[d] - all->low[d]);
         const real w = hull_winding_number(s, X);
-        doubtful += w < -0.3 || fabs(w - nearbyint(w)) > 0.3;
+        unclear += w < -0.3 || fabs(w - nearbyint(w)) > 0.3;
+        if (w > 1.5) again += (int64_t)nearbyint(w) - 1;
     }
-    return (real)doubtful / (real)n;
+    return (struct hull_samples){(real)unclear / (real)n, box * (real)again / (real)n};
 }
 
 /* ---- distance ------------------------------------------------------------------------------------------------- */

@@ -99,6 +99,9 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
 /* Adds warnings to *warnings about solids of the shape of a body that add nothing to it or remove nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
+/* Adds warnings to *warnings about surfaces of files whose shells enclose a part of the body twice. */
+void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
+
 /* Adds warnings to *warnings about bodies that move at the start and meet no other body within the duration. */
 void engine_warn_of_bodies_that_never_meet(const struct scene *s, const struct particles *p, struct warnings *warnings);
 

@@ -257,6 +257,7 @@ void engine_warn_of_suspicious_input(struct run *e)
     engine_warn_of_conflicting_supports(s, &e->loads, &e->part, to);
     if (e->grid->field) engine_warn_of_supports_within_cells(s, &e->loads, &e->part, &e->grid->field[0].grid, to);
     engine_warn_of_useless_solids(s, to);
+    engine_warn_of_shells_in_shells(s, to);
     engine_warn_of_uncorrected_faces(s, &e->part, &e->tables.surface, to);
     engine_warn_of_bodies_that_never_meet(s, &e->part, to);
     engine_warn_of_overlaps(s, &e->part, to);

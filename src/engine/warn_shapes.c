@@ -1,10 +1,13 @@
 /* Warns of solids in the shape of a body that have no effect: one that is subtracted where there is nothing, one that
- * is added where the body is already. */
+ * is added where the body is already. Warns of surfaces whose shells enclose a part of the body twice. */
 #include <math.h>
 
 #include "engine_internal.h"
+#include "scene/shape_file.h"
 
 enum { SOLIDS_MOST = 32, POINTS_OF_SOLID = 20000 }; /* solids of a body, points of each, that are tested */
+
+#define AGAIN_LEAST 0.001 /* least share of a volume that is enclosed twice of which is warned */
 
 /* Returns element k >= 1 of the van der Corput sequence with the given base (the digits of k mirrored at the radix
  * point), a value between 0 and 1. */
@@ -89,5 +92,20 @@ void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warni
                 warn_of_subtracted(body, k, s->dim, warnings);
             else if (!body->shape.solid[k].intersect)
                 warn_of_added(body, k, s->dim, warnings);
+    }
+}
+
+void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings)
+{
+    for (const struct shape_file *f = s->shapes; f; f = f->next) {
+        const struct hull *h = &f->geometry.whole;
+        const real again = f->kind != SHAPE_IMAGE && h->shells > 1 ? hull_sample_winding_numbers(h).enclosed_again : 0;
+        if (again > AGAIN_LEAST * h->volume)
+            warnings_add_if_new(
+                warnings,
+                "%s: about %.2g of the %.4g m^%d that its %lld shells enclose are enclosed twice and filled once, as "
+                "shells overlap or are inside each other with normals that all point outwards: the shell of a cavity "
+                "needs normals into the cavity, or a file of its own and subtract",
+                printable_name(f->path[0]).text, again, h->volume, h->dim, (long long)h->shells);
     }
 }

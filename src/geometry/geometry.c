@@ -58,7 +58,7 @@ static status check_closed(const struct hull *s, const char *path)
             return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
                               path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
     TRY(check_not_plane(s, path));
-    const real doubt = s->open_edges > 0 ? hull_sample_fraction_with_unclear_inside(s) : 0;
+    const real doubt = s->open_edges > 0 ? hull_sample_winding_numbers(s).unclear : 0;
     if (doubt > DOUBT_MOST)
         return status_set(REFUSED,
                           "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "

@@ -120,7 +120,7 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_sample_fraction_with_unclear_inside(&s) < 0.01);
+    assert_true(hull_sample_winding_numbers(&s).unclear < 0.01);
     assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
@@ -128,8 +128,35 @@ static void turned_and_open(void **state)
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_sample_fraction_with_unclear_inside(&s) > 0.1);
+    assert_true(hull_sample_winding_numbers(&s).unclear > 0.1);
     hull_free(&s);
+}
+
+/* A ball of radius 1/2 in a ball: what both enclose is found twice if both have outward normals, but not where the
+ * inner one is a cavity. */
+static void ball_in_ball(void **state)
+{
+    (void)state;
+    for (int cavity = 0; cavity < 2; cavity++) {
+        struct grid_hull g = grid_make(false, 24, 24);
+        const struct grid_hull inner = grid_make(false, 24, 24);
+        struct hull s;
+        GROW("test", g.corner, 2 * g.corners);
+        GROW("test", g.face, 2 * g.faces);
+        for (int64_t k = 0; k < inner.corners; k++)
+            for (int d = 0; d < DIM_MAX; d++) g.corner[g.corners + k][d] = inner.corner[k][d] / 2;
+        for (int64_t k = 0; k < inner.faces; k++)
+            for (int c = 0; c < DIM_MAX; c++)
+                g.face[g.faces + k][c] = (int32_t)g.corners + inner.face[k][cavity && c < 2 ? 1 - c : c];
+        g.corners += inner.corners, g.faces += inner.faces;
+        hull_of(&s, &g);
+        memory_free(inner.corner);
+        memory_free(inner.face);
+        assert_int_equal(s.shells, 2);
+        const real twice = hull_sample_winding_numbers(&s).enclosed_again, ball = 4 * 3.14159265 / 3 / 8;
+        assert_true(fabs(twice - (cavity ? 0 : ball)) < 0.05 * ball);
+        hull_free(&s);
+    }
 }
 
 /* Of faces given twice one is kept; a pair with opposite orientations is removed. */
@@ -199,8 +226,9 @@ static void open_ones(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ball_and_torus), cmocka_unit_test(turned_and_open), cmocka_unit_test(doubles),
-        cmocka_unit_test(plane_ring),     cmocka_unit_test(open_ones),       cmocka_unit_test(convex_near),
+        cmocka_unit_test(ball_and_torus), cmocka_unit_test(turned_and_open), cmocka_unit_test(ball_in_ball),
+        cmocka_unit_test(doubles),        cmocka_unit_test(plane_ring),      cmocka_unit_test(open_ones),
+        cmocka_unit_test(convex_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
