@@ -98,23 +98,44 @@ void hull_build_face_search_tree(struct hull *s)
 
 /* ---- winding number ------------------------------------------------------------------------------------------- */
 
-/* Returns the contribution of a face to the winding number of the surface at X [1]: in 3D the solid angle of the
- * triangle divided by 4 pi (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment divided by 2 pi.
- * face[dim]: indices of its corners. */
-static real face_winding(const struct hull *s, const int32_t *face, const real *X)
+/* A sum of angles of at most half a turn each, as a product of complex numbers, which needs one arc tangent in all:
+ * 2 pi turns + arg(x + i y). */
+struct angle_sum {
+    real x, y;
+    int turns;
+};
+
+/* Adds the angle of the complex number (x, y), which need not be normalised, to the sum. The angle of 0 is 0. Without
+ * branches, which signs that alternate would make slow. */
+static inline void angle_sum_add(struct angle_sum *sum, real x, real y)
+{
+    const real a = sum->x, b = sum->y, u = a * x - b * y, v = a * y + b * x, size = fabs(u) + fabs(v);
+    if (!(size > 0)) return;
+    const int forward = (b >= 0) & (y >= 0) & ((v < 0) | ((b == 0) & (y == 0) & (a < 0) & (x < 0))),
+              backward = (b < 0) & (y < 0) & ((v > 0) | ((v == 0) & (u < 0)));
+    const bool scaled = size > 1e-99 && size < 1e99;
+    sum->x = scaled ? u : u / size, sum->y = scaled ? v : v / size;
+    sum->turns += forward - backward;
+}
+
+/* Adds the contribution of a face to the winding number of the surface at X: in 3D half the solid angle of the triangle
+ * (van Oosterom & Strackee 1983, eq. 8); in 2D the angle of the segment. face[dim]: indices of its corners. */
+static void face_winding(const struct hull *s, const int32_t *face, const real *X, struct angle_sum *sum)
 {
     real arm[DIM_MAX][DIM_MAX], length[DIM_MAX];
-    for (int c = 0; c < s->dim; c++) {
+    for (int c = 0; c < s->dim; c++)
         for (int d = 0; d < s->dim; d++) arm[c][d] = s->corner[face[c]][d] - X[d];
-        length[c] = sqrt(dot(arm[c], arm[c], s->dim));
-    }
     const real *a = arm[0], *b = arm[1], *c = arm[2];
-    if (s->dim == 2) return atan2(a[0] * b[1] - a[1] * b[0], dot(a, b, 2)) / (2 * pi);
+    if (s->dim == 2) {
+        angle_sum_add(sum, dot(a, b, 2), a[0] * b[1] - a[1] * b[0]);
+        return;
+    }
+    for (int k = 0; k < 3; k++) length[k] = sqrt(dot(arm[k], arm[k], 3));
     const real triple =
         a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
     const real below = length[0] * length[1] * length[2] + dot(a, b, 3) * length[2] + dot(b, c, 3) * length[0] +
                        dot(c, a, 3) * length[1];
-    return atan2(triple, below) / (2 * pi);
+    angle_sum_add(sum, below, triple);
 }
 
 /* Adds the winding number at X of the dipole of node n to *sum and returns true, if X is farther from the centre of the
@@ -137,15 +158,16 @@ real hull_winding_number(const struct hull *s, const real *X)
 {
     int32_t wait[DEEPEST];
     int waiting = 1;
-    real sum = 0;
+    real far = 0;
+    struct angle_sum near = {.x = 1};
     wait[0] = 0;
     while (waiting > 0) {
         const struct hull_node *n = &s->node[wait[--waiting]];
-        if (node_winding(s, n, X, &sum)) continue;
-        for (int32_t k = n->first; n->left == 0 && k < n->first + n->count; k++) sum += face_winding(s, s->face[k], X);
+        if (node_winding(s, n, X, &far)) continue;
+        for (int32_t k = n->first; n->left == 0 && k < n->first + n->count; k++) face_winding(s, s->face[k], X, &near);
         if (n->left > 0) wait[waiting++] = n->left + 1, wait[waiting++] = n->left;
     }
-    return sum;
+    return far + near.turns + atan2(near.y, near.x) / (2 * pi);
 }
 
 struct hull_samples hull_sample_winding_numbers(const struct hull *s)
