@@ -332,8 +332,9 @@ static void tip_speeds(struct crack_tips *t, int k)
     }
     if (tip->arrest_time == now && tip->start_time < now)
         tip->speed_mean = regression(t, k, sample_at(t, tip->start_time), last);
-    /* a crack that has only joined others since its start: round-off, of either sign */
-    if (fabs(tip->speed_mean) * (now - tip->start_time) < TIP_EQUAL * t->spacing) tip->speed_mean = 0;
+    /* a crack that has only joined others since its start has no speed, but round-off of either sign */
+    if (tip->joined > 0 && !(fabs(tip->speed_mean) * (now - tip->start_time) >= TIP_EQUAL * t->spacing))
+        tip->speed_mean = NAN;
 }
 
 static void record_grow(struct crack_tips *t, int64_t samples)

@@ -247,7 +247,7 @@ static void tip_joins_a_crack_ahead(void **state)
     notched_free(&b, &t);
 }
 
-/* A crack that only joins others after its first spacing has no mean speed: 0, and neither -0 nor round-off. */
+/* A crack that only joins others after its first spacing has no mean speed. */
 static void tip_that_only_joins(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void tip_that_only_joins(void **state)
             tips_update_from_damage(&t, &b.p, &b.c, 0.1 * (k + 1));
         }
         assert_near(t.tip[0].growth, 6.5, ROUND_OFF);
-        if (t.tip[0].speed_mean != 0 || signbit(t.tip[0].speed_mean)) fail_msg("%g, %d", t.tip[0].speed_mean, wait);
+        if (!isnan(t.tip[0].speed_mean)) fail_msg("%g, %d", t.tip[0].speed_mean, wait);
         notched_free(&b, &t);
     }
 }
