@@ -23,6 +23,26 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
+/* Prints the growth of the crack that ends at *tip, its direction and its ends; in a bar the growth of the zone of
+ * broken bonds. dim: dimensions of the space. The length [m] has the SI prefix with which it has up to three digits
+ * before the point. */
+static void print_longest(const struct crack_tip *tip, int dim)
+{
+    static const struct {
+        double size;
+        const char *name;
+    } units[] = {{1e3, "km"}, {1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};
+    size_t k = 0;
+    while (k + 1 < COUNT_OF(units) && tip->growth < 0.9995 * units[k].size) k++;
+    printf("longest %s grew %.4g %s", dim > 1 ? "crack" : "zone of broken bonds", tip->growth / units[k].size,
+           units[k].name);
+    if (dim > 1) printf(" at %.3g degrees", tip_deflection_angle(tip, dim));
+    printf(", from (%s) to (%s) m", position_text(tip->origin, dim, 4).text, position_text(tip->place, dim, 4).text);
+    if (dim > 1 && !tip->from_crack) printf(", not from a pre-crack");
+    if (tip->joined > 0)
+        printf(", %.0f %% of it by joining others, which has no speed", 100 * tip->joined / tip->growth);
+}
+
 /* Prints how bonds broke in the run e: when and at how many positions they broke first, the growth, angle and ends of
  * the longest crack, and when a bond first broke at a particle that a boundary drives. Prints nothing if no bond broke.
  */
@@ -37,12 +57,8 @@ static void print_breaks(const struct run *e)
     else if (broke)
         printf("  first bond broken at %.4g s", w->break_time);
     if (broke && w->break_ends > 1) printf(" at %lld positions", (long long)w->break_ends);
-    if (tip) {
-        printf("%slongest crack grew %.4g mm at %.3g degrees, from (%s) to (%s) m%s", broke ? ", " : "  ",
-               1e3 * tip->growth, tip_deflection_angle(tip, e->part.dim),
-               position_text(tip->origin, e->part.dim, 4).text, position_text(tip->place, e->part.dim, 4).text,
-               tip->from_crack ? "" : ", not from a pre-crack");
-    }
+    if (tip) printf(broke ? ", " : "  ");
+    if (tip) print_longest(tip, e->part.dim);
     if (tied > 1) printf(", one of %lld tips whose growth is equal to within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
     if (isnan(w->driven_time)) return;

@@ -43,7 +43,7 @@ const prefixes = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"], [1e-
 function unitFor(largest, unit) {
     const size = Math.abs(largest);
     if (unit === "degree") return {factor: 1, name: "°"};
-    if (unit === "m" && size >= 0.9995) return {factor: 1, name: "m"};
+    if (unit === "m" && size >= 0.9995 && size < 999.5) return {factor: 1, name: "m"};
     if (unit === "m" && size > 5e-4) return {factor: 1e-3, name: "mm"};
     if (/^m(\^2|²)$/.test(unit) && size > 0) {
         const squares =

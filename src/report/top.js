@@ -45,7 +45,10 @@ function showHead() {
 // The figures that one looks for first.
 function showCards() {
     const all = new Map(flat(summary)), wanted = [
-        ["crack.start_time", "first bond breaks"], ["crack.length_end", "longest crack grows by"],
+        ["crack.start_time", "first bond breaks"], [
+            "crack.length_end", summary.crack && "angle_deg" in summary.crack ? "longest crack grows by" :
+                                                                                "longest zone of broken bonds grows by"
+        ],
         ["crack.tip_speed_max", "largest tip speed"], ["energy.fracture", "fracture energy"],
         ["fragments.count", "fragments"], ["energy.balance_error", "error of the energy balance"]
     ];
