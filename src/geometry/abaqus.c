@@ -183,15 +183,45 @@ static int scope_find(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
+/* Adds the nodes of an element of the current scope, by their labels, to the set number `set`. label: of the element;
+ * of: the elements of the scope, by label. */
+static void nodes_of_element_add(struct deck *d, int set, const struct label_map *of, int64_t label)
+{
+    const int64_t k = label_map_find(of, label);
+    const struct element *e = k < 0 ? NULL : &d->m->element[k];
+    for (int c = 0; e && c < element_corners[e->kind]; c++) element_mesh_add_to_set(d->m, set, e->node[c]);
+    for (int c = 0; e && e->middle >= 0 && c < element_middles[e->kind]; c++)
+        element_mesh_add_to_set(d->m, set, d->m->middle[e->middle + c]);
+}
+
+/* Adds the nodes of the elements that are in the set called `name` so far to the set number `set`, for *NSET with the
+ * parameter ELSET. Returns REFUSED if there are too many sets or members. */
+static status set_join_nodes_of(struct deck *d, int set, const char *name)
+{
+    const int64_t first = d->scope[d->now].element;
+    const int other = element_mesh_find_or_create_set(d->m, name, false);
+    struct label_map of;
+    if (other < 0) return source_report_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
+    d->generated += (ELEMENT_CORNERS_MAX + ELEMENT_MIDDLES_MAX) * d->m->set[other].n;
+    if (d->generated > GENERATED_MOST * d->length)
+        return source_report_fault(d->s, "sets of more nodes or elements than the file holds");
+    label_map_make(&of, d->m->element_label + first, first, d->m->elements - first);
+    for (int64_t k = d->m->set[other].resolved; k < d->m->set[other].n; k++)
+        nodes_of_element_add(d, set, &of, d->m->set[other].member[k]);
+    label_map_free(&of);
+    return OK;
+}
+
 /* Reads the set of *NSET or *ELSET: labels, names of other sets, or ranges. of_nodes: true for *NSET. Returns REFUSED
  * for malformed lines, a set without name or an unknown instance. */
 static status set_read(struct deck *d, bool of_nodes)
 {
     int set;
-    const char *instance = parameter(d, "INSTANCE");
+    const char *instance = parameter(d, "INSTANCE"), *elements = parameter(d, "ELSET");
     const bool generate = parameter(d, "GENERATE") != NULL;
     TRY(set_named(d, of_nodes ? "NSET" : "ELSET", of_nodes, &set));
     if (set < 0) return source_report_fault(d->s, "a set without a name");
+    if (of_nodes && elements) TRY(set_join_nodes_of(d, set, elements));
     for (char field[FIELD]; abaqus_find_data_line(d->s); source_skip_to_next_line(d->s)) {
         int32_t label;
         if (generate) {

@@ -1,5 +1,5 @@
 /* Meshes whose counts are wrong, or whose elements are given twice: they are refused, except elements of several groups
- * in Gmsh's format 2.2, which repeats them. */
+ * in Gmsh's format 2.2, which repeats them. Sets of the nodes of elements. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,6 +81,19 @@ static void right_ones(void **state)
     }
 }
 
+/* The nodes of a set of elements. */
+static void nodes_of_elements(void **state)
+{
+    (void)state;
+    struct geometry g;
+    assert_ok(read_changed(&g, "a.inp", inp, "2, 1, 3, 4\n",
+                           "2, 1, 3, 4\n*Elset, elset=low\n1\n*Nset, nset=right, elset=low\n"));
+    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "right")->hull, (real[]){1.5, 0}, NULL), 0.5, 1e-12);
+    assert_near(hull_signed_distance(&geometry_find_named_part(&g, "right")->hull, (real[]){-3, 1}, NULL), sqrt(10),
+                1e-12);
+    geometry_free(&g);
+}
+
 /* Folder for the files of the tests. */
 static char folder[] = "/tmp/cleave_counts_XXXXXX";
 static int enter_folder(void **state)
@@ -97,6 +110,7 @@ static int leave_folder(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_ones), cmocka_unit_test(right_ones)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_ones), cmocka_unit_test(right_ones),
+                                       cmocka_unit_test(nodes_of_elements)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
