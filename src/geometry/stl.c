@@ -33,6 +33,12 @@ static bool is_binary(const struct source *s)
     return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
 }
 
+/* Returns true if the file can be text: it begins with "solid" and has no zero byte, which all binary files have. */
+static bool may_be_text(const struct source *s)
+{
+    return s->length >= 5 && strncasecmp(s->text, "solid", 5) == 0 && !memchr(s->text, '\0', (size_t)s->length);
+}
+
 /* Reads all triangles of a binary file into the mesh. Returns REFUSED if a coordinate is not finite. */
 static status binary_read(struct element_mesh *m, struct source *s)
 {
@@ -139,16 +145,17 @@ status stl_read(struct element_mesh *m, struct source *s)
 {
     if (is_binary(s))
         TRY(binary_read(m, s));
-    else if (s->length >= 5 && strncasecmp(s->text, "solid", 5) == 0)
+    else if (may_be_text(s))
         TRY(words_read(m, s));
     else if (s->length >= HEADER + COUNT) {
+        const long long needed = HEADER + COUNT + FACET * (long long)word_at(s, HEADER);
         s->binary = true;
         return source_report_fault(
             s,
             "not a whole STL file: it has %lld bytes, but the %lld triangles that its header gives "
-            "need %lld; it is cut off or not in the STL format",
-            (long long)s->length, (long long)word_at(s, HEADER),
-            HEADER + COUNT + FACET * (long long)word_at(s, HEADER));
+            "need %lld; %s or it is not in the STL format",
+            (long long)s->length, (long long)word_at(s, HEADER), needed,
+            s->length < needed ? "it is cut off" : "this number is wrong");
     } else {
         return source_report_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
                                    HEADER + COUNT);
