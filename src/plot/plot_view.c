@@ -148,14 +148,15 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
     v->field = field, v->low = field->scale == BOTH_SIGNS ? -high : low, v->high = low + high;
 }
 
-/* Reads one end of the colour scale of a field from `text`, a number with a unit of the field, into *value. other: text
- * of the other end, whose unit holds for an end that has none. Returns REFUSED for other texts. */
-static status range_end_read(real *value, const char *text, const char *other, const struct plot_field *field)
+/* Reads an end of the colour scale of a field, a number with a unit of the field, from the request r into *value. end:
+ * 0 for the lower, 1 for the upper one; one without a unit has that of the other. Returns REFUSED for other texts. */
+static status range_end_read(real *value, const struct plot_request *r, int end, const struct plot_field *field)
 {
-    char what[256], end[128];
-    number_text_with_unit_of(end, sizeof end, text, other);
-    if (value_read_in_unit(value, end, field->unit, what, sizeof what)) return OK;
-    return status_set(REFUSED, "plot: --range %s: %s", printable_name(end).text, what);
+    char what[256], text[128];
+    number_text_with_unit_of(text, sizeof text, r->range[end], r->range[1 - end]);
+    if (value_read_in_unit(value, text, field->unit, what, sizeof what)) return OK;
+    return status_set(REFUSED, "plot: --range %s:%s: %s: %s", printable_name(r->range[0]).text,
+                      printable_name(r->range[1]).text, printable_name(r->range[end]).text, what);
 }
 
 /* Counts the particles whose values are below and above the ends of the colour scale, and stores the largest numbers
@@ -181,8 +182,8 @@ static status view_set_options(struct view *v, const struct plot_request *r)
     v->table = r->table;
     if (r->range[0]) {
         real low, high;
-        TRY(range_end_read(&high, r->range[1], r->range[0], v->field));
-        TRY(range_end_read(&low, r->range[0], r->range[1], v->field));
+        TRY(range_end_read(&low, r, 0, v->field));
+        TRY(range_end_read(&high, r, 1, v->field));
         if (!(high > low))
             return status_set(REFUSED, "plot: --range %s:%s: the lower end is expected first",
                               printable_name(r->range[0]).text, printable_name(r->range[1]).text);

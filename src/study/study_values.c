@@ -85,8 +85,8 @@ struct row {
 };
 
 /* Reads a range FROM:TO:STEP, such as 10:30:5 mm, from `text` into *r. Returns false if the text has another form. Sets
- * *s to REFUSED if the text is a range but its units differ, or if no whole number of steps leads from the first number
- * to the last. k: key of the range, for messages. */
+ * *s to REFUSED if the text is a range but its units differ, if the step is no number, or if no whole number of
+ * steps leads from the first number to the last. k: key of the range, for messages. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};
@@ -101,7 +101,10 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
         const bool other = fits && *unit && *r->unit && strcmp(unit, r->unit) != 0;
         if (fits && *unit && !other) strcpy(r->unit, unit);
         memory_free(piece);
-        if (!fits) return false;
+        if (!fits && part < 2) return false;
+        if (!fits)
+            *s = status_set(REFUSED, "-s %s: %s: from:to:step is expected, with a number as step; other rows as lists",
+                            k->key, text);
         if (other) *s = status_set(REFUSED, "-s %s: %s: one unit is expected, as in 10:30:5 mm", k->key, text);
         at = end + 1;
     }

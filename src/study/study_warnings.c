@@ -8,9 +8,8 @@
 #include "output/summary_read.h"
 #include "study/study.h"
 
-/* Capacity of a warning [byte]; largest number of kinds that are counted; largest number of characters printed of
- * one. */
-enum { WARNING_ROOM = 1024, KINDS_MOST = 64, SHOWN_LONGEST = 240 };
+/* Capacity of a warning [byte]; largest number of kinds that are counted. */
+enum { WARNING_ROOM = 1024, KINDS_MOST = 64 };
 
 /* A kind of warning: texts that differ only in their numbers, because runs with different spacings print different
  * numbers. */
@@ -63,8 +62,7 @@ void study_print_warnings(const struct study *s, FILE *out)
     }
     for (int k = 0; k < kinds; k++) {
         text_replace_control_characters(kind[k].text);
-        fprintf(out, "warning: in %d of %d runs: %.*s%s\n", kind[k].runs, runs, SHOWN_LONGEST, kind[k].text,
-                strlen(kind[k].text) > SHOWN_LONGEST ? "..." : "");
+        fprintf(out, "warning: in %d of %d runs: %s\n", kind[k].runs, runs, kind[k].text);
     }
     memory_free(kind);
 }

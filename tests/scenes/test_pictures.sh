@@ -139,7 +139,8 @@ refused "a picture has space for 192" results/strip --title "$(printf '%0200d' 0
 "$cleave" plot results/strip --field speed --times last --title "a title of $(printf '%0150d' 0)" --size 60mm -o long.png >out 2>err
 drawn "what has no space of a title" "0[.][.][.]' at screen"
 refused "LOW:HIGH" results/strip --field speed --range 3
-refused "--range 5m" results/strip --field speed --range 0:5m
+refused "--range 0:5m: 5m: " results/strip --field speed --range 0:5m
+refused "--range a:b: a: " results/strip --field speed --range a:b
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
 refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
