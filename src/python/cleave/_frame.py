@@ -207,9 +207,12 @@ class Frame:
         return values
 
     def unit(self, name: str) -> str:
-        """Returns the unit of a field or component of a field, "" without."""
+        """Returns the unit of a field or component of a field, "" without. Raises KeyError with the names that are there."""
         units = {**UNITS, "von_mises": "Pa", "pressure": "Pa", "principal_stress": "Pa", "speed": "m/s", **self.units}
-        return units.get(name, units.get(name.rpartition("_")[0], ""))
+        for known in (name, name.rpartition("_")[0]):
+            if known in units:
+                return units[known]
+        raise KeyError("%s; this frame has %s" % (name, ", ".join(self.names)))
 
     # ---- parts and other forms ------------------------------------------------------------------------------------
 

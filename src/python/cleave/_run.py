@@ -13,7 +13,7 @@ import numpy as np
 
 from ._errors import Error
 from ._frame import Frame, Frames
-from ._tables import Record, Table
+from ._tables import Named, Record, Table
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -196,9 +196,10 @@ class Run:
         profiles = [re.fullmatch(r"(.+)_\d{6}\.csv", name) for name in files]
         names = {**dict.fromkeys(figures), **{m.group(1): None for m in profiles if m}}
         names.update((column.rpartition(".")[0], None) for column in history if "." in column)
-        return {name: Probe(name, Record(figures.get(name, {})),
-                            {c[len(name) + 1:]: history[c] for c in history if c.startswith(name + ".")},
-                            [self.table(m.group()) for m in profiles if m and m.group(1) == name]) for name in names}
+        return Named({name: Probe(name, Record(figures.get(name, {})),
+                                  {c[len(name) + 1:]: history[c] for c in history if c.startswith(name + ".")},
+                                  [self.table(m.group()) for m in profiles if m and m.group(1) == name]) for name in names},
+                     "the list of probes")
 
     # ---- frames ---------------------------------------------------------------------------------------------------
 
@@ -211,7 +212,7 @@ class Run:
     def regions(self) -> Dict[str, Frames]:
         """The frames of each region of `output.regions`, by its name."""
         found = [re.fullmatch(r"(.+)\.hdf\.series", name) for name in sorted(os.listdir(self.folder))]
-        return {m.group(1): self._series(m.group()) for m in found if m and m.group(1) != "frames"}
+        return Named({m.group(1): self._series(m.group()) for m in found if m and m.group(1) != "frames"}, "the list of regions")
 
     def _series(self, name: str) -> Frames:
         if not os.path.exists(self._path(name)):

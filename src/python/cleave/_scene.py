@@ -207,8 +207,11 @@ def sweep(scene: Union[Path, Scene, Mapping[str, Any]], values: Mapping[str, Any
     progress function that receives a Progress after each run
 
     Other arguments and exceptions: run. Raises Error if runs fail; what the others left is there for cleave.open.
+    ValueError without values.
     """
     words: List[str] = []
+    if not values:
+        raise ValueError('values: lists of values by key are expected, as {"particles.spacing": ["1 mm", "2 mm"]}')
     for key, listed in values.items():
         many = isinstance(listed, (list, tuple, np.ndarray, range))
         words += ["-s", "%s=%s" % (key, ",".join(value_text(value) for value in listed) if many else value_text(listed))]

@@ -35,6 +35,17 @@ def entry_of(entries: Mapping[str, Any], name: str, what: str) -> Any:
     return entries[name]
 
 
+class Named(Dict[str, Any]):
+    """Entries by name; the KeyError of a name that is not there lists those that are."""
+
+    def __init__(self, entries: Mapping[str, Any], what: str):
+        super().__init__(entries)
+        self._what = what
+
+    def __missing__(self, name: str) -> Any:
+        return entry_of({**self}, name, self._what)
+
+
 def _column(cells: List[str]) -> np.ndarray:
     """Returns numbers if all cells are numbers or empty (nan), else text."""
     try:
