@@ -141,6 +141,17 @@ holds("von Mises", np.allclose(frame["von_mises"] ** 2, 1.5 * (deviator ** 2 * n
 holds("components", (frame["stress_xy"] == frame["stress"][:, 3]).all() and (frame["velocity_y"] == frame["velocity"][:, 1]).all())
 holds("principal stresses", np.allclose(frame["principal_stress"].sum(axis=1), -3 * frame["pressure"], atol=1.0)
       and (np.diff(frame["principal_stress"], axis=1) <= 0).all())
+for what, call in (("a unit", lambda: frame.unit("xx")), ("a probe", lambda: run.probes["xx"]), ("a region", lambda: run.regions["xx"])):
+    try:
+        call()
+        holds("%s of nothing is refused" % what, False)
+    except KeyError as fault:
+        holds("%s of nothing names what is there: %s" % (what, fault), "xx; " in str(fault) and " has " in str(fault))
+try:
+    cleave.sweep({}, {})
+    holds("a sweep without values is refused", False)
+except ValueError as fault:
+    holds("a sweep without values: %s" % fault, "lists of values by key are expected" in str(fault))
 holds("their units", frame.unit("von_mises") == frame.unit("stress_xy") == "Pa" and frame.unit("velocity_y") == "m/s")
 for name in ("stress_z", "velocity_xx", "damage_x", "level"):
     try:
