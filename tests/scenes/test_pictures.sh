@@ -140,7 +140,7 @@ refused "a picture has space for 192" results/strip --title "$(printf '%0200d' 0
 drawn "what has no space of a title" "0[.][.][.]' at screen"
 refused "LOW:HIGH" results/strip --field speed --range 3
 refused "--range 0:5m: 5m: " results/strip --field speed --range 0:5m
-refused "--range a:b: a: " results/strip --field speed --range a:b
+refused "--range a:b: b: " results/strip --field speed --range a:b
 refused "the lower end is expected first" results/strip --field speed --range 5m/s:1m/s
 refused "X:X,Y:Y" results/strip --crop 1mm:2mm
 refused "lower end" results/strip --crop 2mm:1mm,0:1mm
@@ -349,7 +349,7 @@ END
     # A map says what its axes are, in words and one unit, and its colour bar has no more numbers than fit.
     : >all
     "$cleave" sweep strip.yaml -s particles.spacing=2000um,1000um -s boundary.0.traction='[0, 20 MPa],[0, 10 MPa]' --of energy.kinetic \
-        --of crack.length_end --of crack.start_time --size 85mm --format pdf -o words >out 2>err
+        --of crack.length_end --of crack.start_time --size 85mm --format pdf -o in_words >out 2>err
     for label in 'traction on y+ \[MPa\]' 'spacing of particles \[µm\]'; do holds "words at an axis: $(cat err)" grep -a -q "set label '$label' at" all; done
     holds "numbers in ascending order" grep -a -q "set ytics norotate ('1000' 0,'2000' 1)" all
     is "a map has its own tics at each colour bar" "$(grep -a -c 'set cbtics' all)" 3
