@@ -37,7 +37,9 @@ static void print_longest(const struct crack_tip *tip, int dim)
     printf("longest %s grew %.4g %s", dim > 1 ? "crack" : "zone of broken bonds", tip->growth / units[k].size,
            units[k].name);
     if (dim > 1) printf(" at %.3g degrees", tip_deflection_angle(tip, dim));
-    printf(", from (%s) to (%s) m", position_text(tip->origin, dim, 4).text, position_text(tip->place, dim, 4).text);
+    printf(", from (%s)", position_text(tip->origin, dim, 4).text);
+    if (dim > 1) printf(" to (%s)", position_text(tip->place, dim, 4).text);
+    printf(" m");
     if (dim > 1 && !tip->from_crack) printf(", not from a pre-crack");
     if (tip->joined > 0)
         printf(", %.0f %% of it by joining others, which has no speed", 100 * tip->joined / tip->growth);

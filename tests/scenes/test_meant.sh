@@ -514,6 +514,9 @@ holds "an equilibrium: run time with a range: $(cat "$work/said")" \
     >"$work/said" 2>/dev/null
 holds "place of the longest crack: $(cat "$work/said")" \
     grep -q 'longest crack grew 19 mm at 0 degrees, from (0.0005, 0.0165) to (0.0195, 0.0165) m, not from a pre-crack\(, [0-9]* % of it by joining others, which has no speed\)\{0,1\}$' "$work/said"
+"$cleave" run inputs/bar_spall.yaml -o "$work/bar" >"$work/said" 2>/dev/null
+holds "bonds that break in a bar are no crack: $(cat "$work/said")" \
+    grep -q 'longest zone of broken bonds grew 5 mm, from (0.2075) m$' "$work/said"
 free='boundary=[{traction: [0, 1 MPa], face: y+, time: {step: {from: 1 ms, until: 1 s}}}]'
 says "a load after the end" '^warning: loads: nothing loads the body: no load, speed or displacement differs from 0 up to 1e-05 s;' "$plate" -s "$free"
 silent "a load after the end that is meant" 'nothing loads' "$plate" -s "$free" -s 'accept=[stress]'

@@ -54,6 +54,7 @@ static void wrong_values_are_refused(void **state)
         {"a=1,1", "a value is given twice"},
         {"a=1:2:0", "1:2:0: from:to:step"},
         {"a=1:2:-1", "from:to:step"},
+        {"a=1:2:x3", "1:2:x3: from:to:step is expected, with a number as step"},
         {"a=1mm:2cm:1mm", "one unit is expected"},
         {"a=0:1:1e-9", "in fewer than 10000 steps"},
     };
