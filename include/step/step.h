@@ -12,8 +12,8 @@ status step(struct run *e);
 
 /* Marks (FLAG_NEAR) the material points that are near other bodies at their present positions, and near rigid bodies
  * where these are at pseudo-time t [s]; they convert at the next call of step_convert_points_at_broken_bonds. Moves no
- * rigid body. present: present pseudo-time [s]. Does nothing without rigid bodies. */
-void step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
+ * rigid body. present: present pseudo-time [s]. Does nothing and returns false where no rigid body can meet a point. */
+bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
  * broken_bond_count: number of directed bonds broken since the last call. Returns true if points have been converted.

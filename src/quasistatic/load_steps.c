@@ -229,7 +229,7 @@ static status load_step_begin(struct run *e, real t)
         statics_preconditioner_make(e);
     s->kept = false;
     s->directions = 0;
-    step_flag_points_before_rigid_bodies_move(e, s->t, t);
+    if (!step_flag_points_before_rigid_bodies_move(e, s->t, t)) return OK;
     TRY(equilibrium_convert_points_and_solve_again(e, 0));
     return increment && s->solutions > solutions ? crack_increment_find(e) : OK;
 }

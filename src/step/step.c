@@ -202,12 +202,13 @@ static void finish(struct run *e, const struct step *now)
     timer_add_elapsed_to_section(&e->timers, TIMER_SAMPLE);
 }
 
-void step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t)
+bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t)
 {
-    if (!e->coupling->approaches || e->rigid->n == 0) return;
+    if (!e->coupling->approaches || e->rigid->n == 0) return false;
     for (int k = 0; k < e->rigid->n; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], t);
     conversion_flag_points_near_bodies_or_faces(e);
     for (int k = 0; k < e->rigid->n; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], present);
+    return true;
 }
 
 bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count)
