@@ -76,8 +76,13 @@ static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
     node_split(s, left + 1, leaf);
 }
 
+/* Number of trees that have been built: a new tree may have the address of one that was released. */
+static int trees_built;
+
 void hull_build_face_search_tree(struct hull *s)
 {
+#pragma omp atomic
+    trees_built++;
     struct leaflet *leaf = NEW("hull.tree", s->faces, struct leaflet);
     int32_t(*sorted)[DIM_MAX] = memory_new("hull.faces", s->faces, sizeof *sorted);
     s->node =
@@ -353,12 +358,31 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
     return (hull_outside(s, X) ? distance : -distance) <= max_distance;
 }
 
+/* As hull_outside, for a point X at the distance `distance` > 0 [m] from the surface. Points along a line follow each
+ * other: no face is between X and the last point of this thread if the balls around both that contain no face overlap,
+ * and X is on the same side of a closed surface. */
+static bool hull_outside_by_last_point(const struct hull *s, const real *X, real distance)
+{
+    static _Thread_local struct {
+        const struct hull_node *node;
+        int built;
+        real X[DIM_MAX], distance;
+        bool outside;
+    } last;
+    const bool known = !s->open && s->open_edges == 0 && last.node == s->node && last.built == trees_built &&
+                       apart2(X, last.X, s->dim) < square((1 - 1e-6) * (distance + last.distance));
+    if (!known) last.outside = hull_outside(s, X);
+    last.node = s->node, last.built = trees_built, last.distance = distance;
+    array_copy(last.X, X, s->dim, sizeof *X);
+    return last.outside;
+}
+
 real hull_signed_distance(const struct hull *s, const real *X, real *normal)
 {
     real point[DIM_MAX] = {0}, r2 = INFINITY, area[DIM_MAX] = {0};
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
-    const real distance = sqrt(r2), side = hull_outside(s, X) ? 1 : -1;
+    const real distance = sqrt(r2), side = hull_outside_by_last_point(s, X, distance) ? 1 : -1;
     if (normal) hull_compute_face_area_vector(s, face, area);
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)
