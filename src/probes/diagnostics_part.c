@@ -42,7 +42,7 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     json_write_point(j, "origin_", tip->origin, dim);
     json_write_point(j, "", tip->place, dim);
     json_write_real(j, "growth", tip->growth);
-    if (dim > 1) json_write_real(j, "angle_deg", tip_deflection_angle(tip, dim));
+    json_write_real(j, "angle_deg", dim > 1 ? tip_deflection_angle(tip, dim) : NAN);
     put_when(j, s, clock, "start", tip->start_time);
     put_when(j, s, clock, "arrest", tip->arrest_time);
     if (!scene_has_load_steps(s)) json_write_real(j, "speed_max", tip->speed_max);
@@ -73,7 +73,7 @@ static void put_crack(struct json *j, const struct run *e)
         put_when(j, e->scene, &e->clock, "tip_start", longest->start_time);
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_write_real(j, "length_end", longest->growth);
-        if (dim > 1) json_write_real(j, "angle_deg", tip_deflection_angle(longest, dim));
+        json_write_real(j, "angle_deg", dim > 1 ? tip_deflection_angle(longest, dim) : NAN);
         json_write_integer(j, "tied", tips_count_ends_with_largest_growth(&e->fracture->tips));
     }
     if (longest && !scene_has_load_steps(e->scene)) {

@@ -46,8 +46,10 @@ function showHead() {
 function showCards() {
     const all = new Map(flat(summary)), wanted = [
         ["crack.start_time", "first bond breaks"], [
-            "crack.length_end", summary.crack && "angle_deg" in summary.crack ? "longest crack grows by" :
-                                                                                "longest zone of broken bonds grows by"
+            "crack.length_end", // the end of a bar has no angle
+            summary.crack?.angle_deg === null && summary.crack.length_end > 0 ?
+                "longest zone of broken bonds grows by" :
+                "longest crack grows by"
         ],
         ["crack.tip_speed_max", "largest tip speed"], ["energy.fracture", "fracture energy"],
         ["fragments.count", "fragments"], ["energy.balance_error", "error of the energy balance"]
