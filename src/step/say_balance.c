@@ -58,7 +58,7 @@ bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagno
 
 /* Warns of an error of the energy balance that is small beside the kinetic energy of the common motion of all
  * particles, but above ENERGY_DOUBTFUL of the largest energy without that. In flight through the grid the stress of
- * points grows by itself: that of a block of 40 x 20 points at 200 m/s doubled its energy within 20 to 60 cells at 0.8
+ * points grows by itself: that of a block of 40 x 20 points at 200 m/s doubled its energy within 10 to 40 cells at 0.8
  * of the critical time step, grew by a quarter at 0.4. Returns true if it warns. */
 static bool say_flight(const struct particles *p, const struct diagnostics *w, struct warnings *to)
 {

@@ -27,18 +27,7 @@ same "on 2 threads, interrupted after 12 and 60 lines" "$work/flat1" "$work/stop
 # ---- flight through the grid -------------------------------------------------------------------------------------------
 
 # A stretched block at 200 m/s: what its stress gains is small beside its kinetic energy, and is said all the same.
-cat >"$work/flight.yaml" <<'END'
-space: plane strain
-thickness: 0.7 mm
-duration: 10 us
-method: mpm
-mpm: {frame: current}
-material: {young: 70 GPa, poisson: 0.45, density: 2440}
-body: {box: {from: [-2 mm, -1 mm], to: [2 mm, 1 mm]}}
-particles: {spacing: 0.1 mm}
-initial: [{velocity: [200 m/s, 100 m/s], displacement_gradient: [[0.001, 0], [0, 0]]}]
-output: {frames: 0}
-END
+cp tests/scenes/claims/flight.yaml "$work"
 warned "flight" "$work/flight" "of the energy apart from that of flight, has been gained" "$work/flight.yaml"
 
 # The same block at rest in the reference frame, stretched beyond yield: what flows in the first step is at the stress of the start, and the
