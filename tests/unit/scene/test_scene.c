@@ -312,7 +312,9 @@ static void test_overrides(void **state)
         {"probes.line.points", "13"},
     };
     s = read_ok(plate, named, COUNT_OF(named));
-    assert_true(s.material[1].young == 5e9 && s.body[0].velocity[0] == 1 && s.body[2].material == 3);
+    assert_true(s.material[1].young == 5e9 && s.body[0].velocity[0] == 1);
+    assert_string_equal(s.material[s.body[2].material].name, "hard");
+    assert_true(s.unused_materials == 1); /* the one that body 2 had */
     assert_true(s.boundary[0].components == 3 && s.boundary[0].value[1] == 20 && s.boundary[3].time.value[1] == 0.25);
     assert_true(s.boundaries == 7 && s.boundary[4].kind == BOUNDARY_VELOCITY && s.boundary[4].components == 1);
     assert_true(s.crack[0].corner[1][0] == 0.05 && s.crack[1].corner[1][0] == 0.051);
