@@ -26,6 +26,9 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s);
  * if a freely moving one touches a mirror plane of the scene. */
 status rigids_check_start_positions(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
 
+/* Moves all driven rigid bodies to their prescribed positions at time t [s]. */
+void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t);
+
 /* Evaluates the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
  * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
  * the particles (dim components [N s]). */

@@ -66,6 +66,16 @@ static ALWAYS_INLINE void law_points_store_lane(const struct particles *p, const
     if (p->temperature) p->temperature[i] = e->temperature[lane];
 }
 
+/* Stores the stresses of eight points in p->mesh_stress. point: particle numbers; of_lanes: bits of the lanes whose
+ * points are stored; stress: symmetric components [Pa]. */
+static ALWAYS_INLINE void mesh_stress_store(const struct particles *p, const int32_t *point, unsigned of_lanes,
+                                            const lanes *stress, const int dim)
+{
+    for (int k = 0; k < symmetric_component_count(dim); k++)
+        for (int l = 0; l < LANES; l++)
+            if (of_lanes >> l & 1) p->mesh_stress[k][point[l]] = stress[k][l];
+}
+
 /* Maps the trial stresses of the points number `point_number` of eight cells back to their yield surfaces by their flow
  * laws, and updates their plastic state; for points of several materials once for each law. cell: eight cell indices;
  * yielding_lanes: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0 in load steps;
@@ -87,11 +97,9 @@ static NEVER_INLINE void cells_apply_flow_laws(const struct mesh *mesh, const st
         law_points_load(p, &m[material], point, stress, dt, &e, dim);
         e.active = lanes_mask_from_bits((uint8_t)own);
         const unsigned flowed = law_update(m[material].law, &e, m[material].space, m[material].mode);
-        for (int l = 0; l < LANES; l++) {
+        for (int l = 0; l < LANES; l++)
             if (flowed >> l & 1) law_points_store_lane(p, &m[material], &e, l, point[l], stress, dim);
-            for (int k = 0; k < symmetric_component_count(dim) && p->mesh_stress[0] && own >> l & 1; k++)
-                p->mesh_stress[k][point[l]] = stress[k][l];
-        }
+        if (p->mesh_stress[0]) mesh_stress_store(p, point, own, stress, dim);
     }
 }
 

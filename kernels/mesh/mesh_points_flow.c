@@ -13,17 +13,6 @@ struct flow_step {
     real dt;
 };
 
-/* Stores the stresses of the points number `point_number` of eight cells in p->mesh_stress. with_law: bits of the lanes
- * of points that have a law; stress: symmetric components [Pa]. */
-static ALWAYS_INLINE void points_store_stress(const struct flow_step *f, const int32_t *cell, int point_number,
-                                              unsigned with_law, const lanes *stress, const int dim)
-{
-    for (int k = 0; k < symmetric_component_count(dim); k++)
-        for (int l = 0; l < LANES; l++)
-            if (with_law >> l & 1)
-                f->p->mesh_stress[k][mesh_point_of_cell(f->mesh, cell[l], point_number, dim)] = stress[k][l];
-}
-
 /* Updates the plastic state of the points of eight cells at the end of an explicit step. cell: eight cell indices, -1
  * for a lane without cell; u[c][i]: displacements of their corners [m]; finite: true for finite strain. */
 static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *cell, lanes u[CORNERS_MAX][3],
@@ -35,17 +24,19 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
     const bool averaged = cells_mean_dilatation_change(f->mesh, f->p, f->elastic, cell, &s, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         lanes stress[SYM_MAX];
+        int32_t point[LANES];
         unsigned with_law = 0;
         cells_compute_point_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim,
                                    false);
         for (int l = 0; l < LANES; l++) {
-            const int32_t i = mesh_point_of_cell(f->mesh, cell[l], q, dim);
-            if (i < 0) continue;
-            const struct elastic *m = &f->elastic[f->p->material[i]];
+            point[l] = mesh_point_of_cell(f->mesh, cell[l], q, dim);
+            if (point[l] < 0) continue;
+            const struct elastic *m = &f->elastic[f->p->material[point[l]]];
             with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
         }
-        if (with_law && f->dt == 0) points_store_stress(f, cell, q, with_law, stress, dim);
-        if (with_law && f->dt > 0)
+        if (f->dt == 0)
+            mesh_stress_store(f->p, point, with_law, stress, dim);
+        else if (with_law)
             cells_apply_flow_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
     }
 }

@@ -52,11 +52,10 @@ static bool is_candidate(struct candidate *c, const struct bonds *b, const struc
     c->i = i, c->j = bond->nbr;
     c->stretch = bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, 0);
     c->range = bond_softening_range(p, limit, i, bond->nbr);
-    if (!b->soft.settled &&
-        !(bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset))
-        return false;
     return c->stretch > c->range.onset && c->range.onset < c->range.end &&
-           (c->stretch <= c->range.end || b->soft.settled || b->soft.whole);
+           (c->stretch <= c->range.end || b->soft.settled || b->soft.whole) &&
+           (b->soft.settled ||
+            bond_stretch_at_earlier_time(p, bond->inverse_length, i, bond->nbr, limit->dt) > c->range.onset);
 }
 
 /* Returns the row (bonds of one particle) from which the dilatation at particle j is computed: its own row, or for a

@@ -96,7 +96,7 @@ void statics_contact_begin_solution(struct run *e, real pseudo_time)
     statics_contact_search_before_first_solution(e);
     q->force(e, &q->u, &q->f);
     s->energy = energy_present(e) - (touched ? 0 : contact_elastic_energy(e->contact, &e->part));
-    for (int k = 0; k < e->scene->rigids; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], pseudo_time);
+    rigids_move_to_prescribed_positions(e->rigid, pseudo_time);
     s->in_contact = statics_contact_search(e, CARRIED) > 0 || touched;
     s->largest = q->largest;
     if (!s->in_contact) return;

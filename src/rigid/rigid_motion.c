@@ -25,6 +25,11 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
     return OK;
 }
 
+void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t)
+{
+    for (int k = 0; k < rigid->n; k++) rigid_move_to_prescribed_position(&rigid->body[k], t);
+}
+
 void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {

@@ -442,41 +442,6 @@ static status check_model(struct reader *r, const struct yaml_node *root)
     return OK;
 }
 
-/* Returns the first material whose bonds soften, if `soft` is true, or that yields, if it is false; NULL if there is
- * none. */
-static const struct material *first_material(const struct scene *s, bool soft)
-{
-    for (int m = 0; m < s->materials; m++) {
-        const struct material *own = &s->material[m];
-        if (soft ? material_has_softening_bonds(own) : material_yields(own)) return own;
-    }
-    return NULL;
-}
-
-/* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
- * do not support with bonds that soften. root: tree of the scene. */
-static status check_softening(struct reader *r, const struct yaml_node *root)
-{
-    const struct scene *s = r->scene;
-    const struct yaml_node *model = yaml_node_find(root, "model"), *growth = yaml_node_find(root, "growth");
-    const struct material *soft = first_material(s, true), *yields = first_material(s, false);
-    if (soft && yields)
-        return fault(r, yaml_node_find(root, "materials"),
-                     "bonds of material %s soften and those of %s yield, which one scene does not do; tensile_strength "
-                     "or yield_stress, not both, is expected",
-                     soft->name, yields->name);
-    if (!soft || s->model == MODEL_BOND) return OK;
-    if (growth)
-        return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
-    for (int m = 0; m < s->materials; m++)
-        if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
-            return fault(r, model,
-                         "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
-                         "materials that break, or of none, is expected",
-                         s->material[m].name, node_text(r, model));
-    return OK;
-}
-
 /* Returns REFUSED for keys that the static solvers do not support. Must be called after materials and probes are
  * read. root: tree of the scene, for the location in the message. */
 status check_keys_for_static_solver(struct reader *r, const struct yaml_node *root)
@@ -484,7 +449,7 @@ status check_keys_for_static_solver(struct reader *r, const struct yaml_node *ro
     const struct scene *s = r->scene;
     const struct yaml_node *solver = yaml_node_find(root, "solver");
     TRY(check_load_step_keys_unused(r, root));
-    TRY(check_softening(r, root));
+    TRY(check_softening_is_supported(r, root));
     if (!solver || scene_is_dynamic(s)) return OK;
     if (scene_has_load_steps(s)) return check_keys_for_load_steps(r, root);
     for (int m = 0; m < s->materials; m++)

@@ -134,6 +134,13 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
  * have one curve. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
+/* Returns the first material of which has() returns true; NULL if there is none. */
+const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
+
+/* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
+ * do not support with bonds that soften. root: tree of the scene. */
+status check_softening_is_supported(struct reader *r, const struct yaml_node *root);
+
 /* Returns REFUSED for friction where it is not supported: with the contact law between pairs of particles, or together
  * with planes of symmetry. root: tree of the scene. */
 status check_friction_is_supported(struct reader *r, const struct yaml_node *root);

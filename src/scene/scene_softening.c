@@ -186,3 +186,33 @@ status check_single_softening_law(struct reader *r, const struct yaml_node *mate
                          m[j].name);
     return OK;
 }
+
+const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *))
+{
+    for (int m = 0; m < s->materials; m++)
+        if (has(&s->material[m])) return &s->material[m];
+    return NULL;
+}
+
+status check_softening_is_supported(struct reader *r, const struct yaml_node *root)
+{
+    const struct scene *s = r->scene;
+    const struct yaml_node *model = yaml_node_find(root, "model"), *growth = yaml_node_find(root, "growth");
+    const struct material *soft = scene_first_material(s, material_has_softening_bonds),
+                          *yields = scene_first_material(s, material_yields);
+    if (soft && yields)
+        return fault(r, yaml_node_find(root, "materials"),
+                     "bonds of material %s soften and those of %s yield, which one scene does not do; tensile_strength "
+                     "or yield_stress, not both, is expected",
+                     soft->name, yields->name);
+    if (!soft || s->model == MODEL_BOND) return OK;
+    if (growth)
+        return fault(r, growth, "cuts bonds that soften with model: bond, which is expected, or no tensile_strength");
+    for (int m = 0; m < s->materials; m++)
+        if (isfinite(s->material[m].critical_stretch) && !material_has_softening_bonds(&s->material[m]))
+            return fault(r, model,
+                         "material %s breaks without softening, which model %s does not mix; a tensile_strength of all "
+                         "materials that break, or of none, is expected",
+                         s->material[m].name, node_text(r, model));
+    return OK;
+}

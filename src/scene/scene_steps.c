@@ -52,9 +52,7 @@ static status check_steps_loads(struct reader *r, const struct yaml_node *root)
 
 bool scene_has_load_steps_with_softening_bonds(const struct scene *s)
 {
-    bool softens = false;
-    for (int m = 0; m < s->materials; m++) softens |= material_has_softening_bonds(&s->material[m]);
-    return softens && scene_has_load_steps(s);
+    return scene_has_load_steps(s) && scene_first_material(s, material_has_softening_bonds);
 }
 
 /* Returns REFUSED for settings that load steps do not support if bonds soften. root: tree of the scene. */

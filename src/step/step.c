@@ -205,9 +205,9 @@ static void finish(struct run *e, const struct step *now)
 bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t)
 {
     if (!e->coupling->approaches || e->rigid->n == 0) return false;
-    for (int k = 0; k < e->rigid->n; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], t);
+    rigids_move_to_prescribed_positions(e->rigid, t);
     conversion_flag_points_near_bodies_or_faces(e);
-    for (int k = 0; k < e->rigid->n; k++) rigid_move_to_prescribed_position(&e->rigid->body[k], present);
+    rigids_move_to_prescribed_positions(e->rigid, present);
     return true;
 }
 

@@ -269,6 +269,7 @@ status study_draw_results_over_keys(const struct study_table *t, const struct st
 {
     char header[HEADER_ROOM];
     struct study_picture p = {.table = t, .study = s, .keys = keys, .header = header};
+    p.seeds = study_varies_seed_alone(key, keys);
     TRY(panels_show_named_figures(&p, result, results));
     if (results == 0) panels_choose_figures(&p);
     if (p.panels == 0) return OK;

@@ -77,8 +77,8 @@ status panels_show_named_figures(struct study_picture *picture, const char *cons
 /* Returns true if `key` is the seed of random numbers, such as material.scatter.seed. */
 bool key_is_seed(const char *key);
 
-/* Returns the index of the seed among the keys key[key_count] if it is the only one with several values, else -1. */
-int study_index_of_only_seed(const struct shown_key *key, int key_count);
+/* Returns true if a seed is the only one of the keys key[key_count] with several values. */
+bool study_varies_seed_alone(const struct varied_key *key, int key_count);
 
 /* Returns true for a key without physical meaning, such as a random seed. Runs that differ only in such keys are
  * combined to one point with a bar. */

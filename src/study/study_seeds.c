@@ -26,16 +26,15 @@ status study_print_means_over_seeds(FILE *to, const struct study_table *t, const
                                     const struct varied_key *key, int keys, const char *const *result, int results)
 {
     char header[HEADER_ROOM];
-    struct study_picture p = {.table = t, .study = s, .key = shown_keys_make(s, key, keys), .keys = keys};
-    const bool seed = study_index_of_only_seed(p.key, keys) >= 0;
-    const status named = seed ? panels_show_named_figures(&p, result, results) : OK;
-    if (seed && results == 0) panels_choose_figures(&p);
+    struct study_picture p = {.table = t, .study = s};
+    if (!study_varies_seed_alone(key, keys)) return OK;
+    TRY(panels_show_named_figures(&p, result, results));
+    if (results == 0) panels_choose_figures(&p);
     study_read_history_header(header, sizeof header, s);
-    for (int k = 0; k < p.panels && named == OK; k++) {
+    for (int k = 0; k < p.panels; k++) {
         const char *name = t->figure[p.figure[k]];
         if (results > 0 || !study_result_is_technical(name))
             mean_print(to, header, name, t->value[p.figure[k]], t->cases);
     }
-    shown_keys_free(p.key, keys);
-    return named;
+    return OK;
 }

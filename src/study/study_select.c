@@ -67,12 +67,12 @@ bool key_has_no_physical_meaning(const char *key)
     return key_is_seed(key) || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-int study_index_of_only_seed(const struct shown_key *key, int key_count)
+bool study_varies_seed_alone(const struct varied_key *key, int key_count)
 {
     int varied = 0, at = 0;
     for (int k = 0; k < key_count; k++)
-        if (key[k].given.values > 1) varied++, at = k;
-    return varied == 1 && key_is_seed(key[at].given.key) ? at : -1;
+        if (key[k].values > 1) varied++, at = k;
+    return varied == 1 && key_is_seed(key[at].key);
 }
 
 void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count)
@@ -97,7 +97,6 @@ void roles_assign_to_keys(struct study_picture *picture, int max_lines)
 {
     picture->lines = 1;
     picture->chance = false;
-    picture->seeds = study_index_of_only_seed(picture->key, picture->keys) >= 0;
     for (int k = 0; k < picture->keys; k++) {
         const int values = picture->key[k].shown.values;
         picture->role[k] = k == picture->across                                     ? ROLE_ACROSS
