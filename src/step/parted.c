@@ -15,6 +15,7 @@
 #define NEIGHBOUR 1.2
 /* Stretch of the distance of neighbours below which they cannot be parted. */
 #define PARTED_LEAST 1.25
+enum { PARTS_OF_DURATION = 50 }; /* number of comparisons per run: later by a fiftieth, a warning is soon enough */
 
 static const struct weak_shape weak_shapes[] = {{SHAPE_LINEAR, 1.02, 1.25, 0.01, "linear", "12 to 45"},
                                                 {SHAPE_GIMP, 1.4, 1.4, 0.08, "gimp", "6 to 10"}};
@@ -194,7 +195,10 @@ bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct par
                                      const struct scene *s, real t, struct warnings *warning_list)
 {
     real most = 0;
+    const int part = 1 + (int)(PARTS_OF_DURATION * t / s->duration * (1 + 1e-9));
     if (p->n_free == 0 || !p->plastic_strain || scene_silences_warning(s, ACCEPT_STRAIN)) return false;
+    if (part == pairs->compared) return false;
+    pairs->compared = part;
     for (int64_t i = 0; i < p->n; i++) most = real_max(most, p->plastic_strain[i]);
     if (!(most > FLOWED_LEAST)) return false;
     if (!pairs->made) pairs_make(pairs, cells, p, s);
