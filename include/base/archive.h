@@ -26,8 +26,8 @@ struct archive {
     int64_t (*stored_size)(struct archive *a, const char *name);
     void *file; /* belongs to checkpoint.c */
     enum archive_scope scope;
-    /* Restoring into a run with other particles: [stored particles and images] new index of each, -1: absent. NULL:
-     * equal particles. */
+    /* For restoring into a run with other particles: new index of each stored particle or mirror image, -1: it no
+     * longer exists. NULL: the particles are those that were stored. */
     const int32_t *now;
 };
 

@@ -63,6 +63,9 @@ struct memory_limit {
  * (INT64_MAX: no limit) and the name of the limit. */
 struct memory_limit memory_limit(void);
 
+/* Allocate `count` elements of the type `type` and return a pointer to the first one: NEW zeroed (memory_new), BLANK
+ * zeroed, most of them never to be written (memory_new_lazy_zeroed), BARE with undefined contents
+ * (memory_new_uninitialised). */
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
 #define BLANK(label, count, type) ((type *)memory_new_lazy_zeroed(label, count, sizeof(type)))
 #define BARE(label, count, type) ((type *)memory_new_uninitialised(label, count, sizeof(type)))

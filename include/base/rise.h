@@ -16,8 +16,8 @@ enum {
     RISE_VALUES = 64
 };
 
-/* Records of a quantity at time steps. n: number of records so far; at: the last RISE_VALUES of them, record k is at[k
- * % RISE_VALUES]. */
+/* Values of a quantity recorded at some time steps. n: number of records so far; at: the last RISE_VALUES of them,
+ * record k = 0 .. n - 1 is at[k % RISE_VALUES], with the number of its time step. */
 struct growth_samples {
     int64_t n;
     struct {

@@ -14,33 +14,35 @@
 
 #include "base/archive.h"
 
+/* Activity levels of blocks (eight particles or eight nodes), and the list of those that computations visit; the other
+ * blocks are still at rest. All arrays are owned. */
 struct active_set {
-    bool is_current;               /* levels are up to date; until then all blocks are active */
+    bool is_current;               /* `level` is up to date; until then all blocks are active */
     int64_t blocks, active, empty; /* number of blocks; active ones; ones without particles */
-    uint8_t *level, *moved;        /* [blocks + LANES], [blocks]; moved: working memory */
+    uint8_t *level, *moved;        /* [blocks + LANES] activity level of a block; [blocks] working memory */
     int32_t *list;                 /* [active] ascending: the blocks that the hot loops visit */
     bool resumed;                  /* all blocks are visited in the first step after a restart */
-    bool over;                     /* sets of row blocks: all active blocks have moved, so no other becomes active */
+    bool over;                     /* blocks of bonds: all active blocks have moved already, so that no other one becomes active */
 };
 
-/* Allocates the active set r of `block_count` blocks of particles or nodes, all active: computations include every
- * block. Release with active_set_free. */
+/* Allocates the active set r of `block_count` blocks (each of eight particles or nodes) and makes all blocks active, so
+ * that computations include every block. Release with active_set_free. */
 void active_set_make_with_all_blocks_active(struct active_set *r, int64_t block_count);
 
 /* Releases all arrays of the active set r. */
 void active_set_free(struct active_set *r);
 
-/* Rebuilds r->list, the ascending list of the blocks that computations visit (activity level above 0), and r->active,
- * their number. Call it after r->level has changed. */
+/* Rebuilds r->list, the ascending list of the blocks (eight particles or nodes) that computations visit, i.e. those
+ * with an activity level above 0, and sets r->active to their number. Call it after r->level has changed. */
 void active_set_rebuild_active_block_list(struct active_set *r);
 
-/* Saves the activity levels of the blocks to the archive under `name` if a->saving, else restores them. After
- * restoring, computations include all blocks in the next step, because the forces of inactive blocks are not stored.
- * Returns FAILED if the archive cannot be read or written. */
+/* Saves the activity levels of the blocks (groups of eight particles or nodes) to the archive under `name` if
+ * a->saving, else restores them. After restoring, computations include all blocks in the next step, because the forces
+ * of inactive blocks are not stored. Returns FAILED if the archive cannot be read or written. */
 status active_set_save_or_load(struct active_set *r, const char *name, struct archive *a);
 
-/* Returns the number of inactive blocks over the number of blocks that contain particles [1]; inactive blocks are still
- * at rest and skipped by computations. */
+/* Returns the fraction of the blocks with particles that are inactive [1], i.e. still at rest and skipped by
+ * computations. A block is a group of eight particles or nodes. */
 static inline real active_set_inactive_fraction(const struct active_set *r)
 {
     const int64_t blocks = r->blocks - r->empty;

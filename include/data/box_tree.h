@@ -26,7 +26,9 @@ void box_tree_make(struct box_tree *t, const struct bounds *boxes, int box_count
 /* Releases the nodes of the tree. */
 void box_tree_free(struct box_tree *t);
 
-/* BOXES_WAITING: capacity of box_search.wait, the nodes still to be visited by a search for boxes near the point X. */
+/* State of a search for boxes near the point X (borrowed). wait[0 .. waiting - 1]: numbers of the nodes of the tree
+ * still to be visited, each with the least distance that a box below this node can have from X [m]. BOXES_WAITING:
+ * capacity of `wait`. */
 enum { BOXES_WAITING = 48 };
 struct box_search {
     const struct box_tree *tree;
@@ -43,8 +45,8 @@ struct box_search {
 void box_search_start(struct box_search *search, const struct box_tree *tree, const real *point, int dim);
 
 /* Returns the number of another box that is at most `max_distance` [m] away from the point of `search`, or -1 if there
- * are no more. The distance is the largest over the coordinate directions, negative inside the box. The caller may
- * reduce `max_distance` between calls. */
+ * are no more. The distance of a box is the largest of the distances along the coordinate axes, negative inside the
+ * box. The caller may reduce `max_distance` between calls. */
 int box_search_find_next_box_within(struct box_search *search, real max_distance);
 
 #endif

@@ -1,5 +1,5 @@
-/* Search for near particles of the body and its images, with fixed cells over reference positions (families of
- * bonds). */
+/* Search for the neighbours of a particle among particles and mirror images, with fixed cells over reference positions.
+ * Bonds are made from its result. */
 #ifndef CLEAVE_CELLS
 #define CLEAVE_CELLS
 
@@ -34,8 +34,8 @@ int cells_list_particles_near_point(const struct cells *c, const struct particle
  * computed. */
 int cells_neighbour_count_bound(const struct cells *c, real radius);
 
-/* List of particle indices at[0 .. n - 1] that grows as needed. Initialise it with {0} and release `at` with
- * memory_free. */
+/* List of particle indices at[0 .. n - 1] that grows as needed; room: allocated length of `at`. Initialise it with {0}
+ * and release `at` with memory_free. */
 struct neighbour_list {
     int32_t *at;
     int n, room;
@@ -50,7 +50,8 @@ void particles_list_neighbours_within_radius(struct neighbour_list *near, const 
 
 /* Lists the particles and mirror images within `radius` [m] of the particle with index `particle` in near->at, and
  * their number in near->n, in the order of the search cells: slightly faster than the ascending order of
- * particles_list_neighbours_within_radius if there are images. include_itself: true to include this particle itself. */
+ * particles_list_neighbours_within_radius if there are images. c: search cells, whose edge must be at least the radius;
+ * include_itself: true to include this particle itself. */
 void particles_list_neighbours_unordered(struct neighbour_list *near, const struct cells *c, const struct particles *p,
                                          int64_t particle, real radius, bool include_itself);
 

@@ -13,15 +13,16 @@ struct dashpot {
     real impulse[DIM_MAX]; /* impulse on the body in this step [N s] */
 };
 
-/* Effect of all dashpots in a step: dissipated energy [J]; kick, a quarter of their impulse times the change of
- * velocity [J]; impulse on the body [N s]. */
+/* Effect of all dashpots in a step. energy: energy that they dissipate [J]; kick: a quarter of the sum of their impulse
+ * times the change of velocity, by which the kinetic energy that leap-frog conserves is corrected [J]; impulse: of the
+ * dashpots on the body [N s]. */
 struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };
 
-/* By which shares the velocities before a velocity update, and the increments of the update, would be larger without
- * bulk damping [1]; 0 without damping. Supports do the work of the velocities and increments without it
- * (step/damping.h). */
+/* Effect of bulk damping on a velocity update, for the work of supports, which refers to undamped motion
+ * (step/damping.h). velocities, increments: relative amounts by which the velocities before the update, and their
+ * increments in it, would be larger without damping [1]; 0 if there is no damping. */
 struct damping_shares {
     real velocities, increments;
 };
@@ -54,8 +55,9 @@ struct grid {
     struct absorbed absorbed; /* their effect in this step */
 };
 
-/* A light node; its heavier neighbour `leader`; the node `behind` the leader. The acceleration of the light node is
- * extrapolated from both; if no node is behind, behind = leader. */
+/* A node of very small mass (GRID_MASS_LIGHT), whose acceleration is extrapolated from two heavier nodes. leader: the
+ * adjacent heavier node; behind: the next node in the same direction, equal to `leader` if there is none. All three are
+ * node indices. */
 struct follower {
     int32_t node, leader, behind;
 };
@@ -65,7 +67,7 @@ struct follower {
 struct mirror_node {
     int32_t node, image;            /* node beyond the plane; node on the body's side */
     int8_t sign[DIM_MAX];           /* sign of each component of the image: -1 or 1 */
-    uint8_t load;                   /* load whose plane it is */
+    uint8_t load;                   /* index of the boundary condition that is this plane */
     real mass, taken[DIM_MAX];      /* mass and impulse of points on the node itself in this step [kg], [N s] */
     real image_mass, image_inverse; /* of the image node alone (reference frame) [kg], [1/kg] */
     real reaction[DIM_MAX];         /* impulse of the plane on the body in this step [N s] */
@@ -77,9 +79,9 @@ struct wall {
     int32_t node;
     int16_t component, load; /* load: index of the boundary condition */
     real velocity, change;   /* prescribed velocity; its change since the previous step [m/s] */
-    real place;              /* displacement at the end of the step, NAN: integral of the velocity [m] */
+    real place;              /* prescribed displacement at the end of the step [m]; NAN: only the velocity is prescribed */
     real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
-    bool symmetric;          /* of a plane of symmetry: the other components of the node are free */
+    bool symmetric;          /* true: the wall is a plane of symmetry, and other components of the node are free */
 };
 
 /* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `lower` and `upper`
@@ -105,20 +107,20 @@ void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
  * to 0, for a step without points on the grid. */
 void grid_clear_constraints(struct grid *g);
 
-/* Nodes whose mass is less than this share of the mass of a full node are left at rest [1]. The usual value is 1e-9;
- * but the impulse of the force on such a node would be lost, so that momentum is exact to 1e-12 only if just empty
- * nodes are left out. Light nodes do no harm, since after the second map to the nodes their velocity is that of their
+/* Nodes whose mass, divided by the mass of a full node, is below this value are left at rest. The usual value is 1e-9;
+ * but the impulse of the force on such a node is lost, so that momentum is conserved to 1e-12 only if no node with mass
+ * is left out. Light nodes do no harm, since after the second map to the nodes their velocity is that of their
  * particle. */
 #define GRID_MASS_SMALLEST 1e-30
 
-/* The acceleration of nodes whose mass is less than this share of the mass of a full node [1] is extrapolated from
- * heavier neighbours (struct follower). Empirical: with less than 1e-6, motions of a hundredth of a spacing act across
- * gaps; with more than 1e-3, rotating bodies gain more than 1e-3 of their energy in four turns. */
+/* The acceleration of nodes whose mass, divided by the mass of a full node, is below this value is extrapolated from
+ * heavier neighbours (struct follower). Empirical: with values below 1e-6, motions of a hundredth of a spacing act
+ * across gaps; with values above 1e-3, rotating bodies gain more than 1e-3 of their energy in four turns. */
 #define GRID_MASS_LIGHT 1e-5
 
-/* GRID_MASS_LIGHT for static solutions, in which the balance of a node just reached by the edge of a point would set
- * the stress of the point to zero. If such nodes were left at rest, they would support the body: a cantilever of 15
- * times its depth bent by a quarter. */
+/* Value used in place of GRID_MASS_LIGHT, the mass ratio of light nodes, in static solutions. There, the equilibrium of
+ * a node that the edge of a point just reaches would set the stress of the point to zero. If such nodes were left at
+ * rest, they would support the body: a cantilever of 15 times its depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
 /* Returns coordinate `axis` of the `node`-th node along direction `axis` of the box of g [m]. */

@@ -12,7 +12,7 @@ struct cells_without_particles {
     uint8_t *whole;  /* [box.n] 1: the particles are dispensable: all are in the body, and no load, probe or pre-crack
                         needs them; NULL: unknown */
     uint8_t *absent; /* [box.n] 1: the particles are not made; NULL: all are made */
-    bool restored;   /* restored from a checkpoint, which overrides the start */
+    bool restored;   /* true: restored from a checkpoint, and not to be determined anew at the start of the run */
 };
 
 /* Releases the arrays of h. */

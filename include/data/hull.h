@@ -29,7 +29,7 @@ struct hull {
     struct hull_node *node; /* node[0] contains all faces */
     bool open;              /* has no inside: distances are positive */
     /* findings of hull_make_closed_surface */
-    int64_t open_edges;    /* edges of faces that no other face continues; in 2D: end points */
+    int64_t open_edges;    /* edges of faces that belong to no second face; in 2D: end points */
     real open_at[DIM_MAX]; /* the middle of one of them [m] */
     int64_t shells;        /* connected components */
     int64_t dropped;       /* faces without area, and duplicates */
@@ -80,13 +80,16 @@ real hull_support_function(const struct hull *s, const real *direction);
 
 /* Findings at about 4000 sample points in the bounding box of a surface. unclear: share of the points at which inside
  * and outside cannot be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below
- * -0.3; enclosed_again: volume that shells enclose beyond the first time [m^3], in 2D area [m^2]. */
+ * -0.3; enclosed_again: volume inside more than one of the shells (connected parts of the surface), counted once for
+ * each shell but one [m^3], in 2D area [m^2]. */
 struct hull_samples {
     real unclear, enclosed_again;
 };
 
-/* Returns the findings of sample points of the surface. Both are 0 for a closed surface with outward normals whose
- * shells neither overlap nor are inside each other, except that shells of cavities have normals towards the cavity. */
+/* Computes winding numbers at about 4000 points in the bounding box of the surface and returns what they show: the
+ * share of points at which inside and outside cannot be distinguished, and the volume that is enclosed more than once.
+ * Both are 0 for a closed surface whose normals point outwards (at a cavity, into the cavity) and whose shells
+ * (connected parts) neither overlap nor are inside each other. */
 struct hull_samples hull_sample_winding_numbers(const struct hull *s);
 
 /* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node

@@ -41,8 +41,8 @@ enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
 /* Largest number of points of a hardening curve. */
 enum { FLOW_POINTS = 16 };
 
-/* A concave hardening curve through `points` points: plastic strain [1] and stress [Pa]; constant beyond the last. Its
- * segments are lines `start` + `slope` a [Pa], the last of which is constant. */
+/* A concave hardening curve through `points` points: plastic strain [1] and stress [Pa]; constant beyond the last.
+ * Segment k is the line start[k] + slope[k] a [Pa] in the plastic strain a; the last segment is constant. */
 struct flow_curve {
     int points;
     real strain[FLOW_POINTS], stress[FLOW_POINTS];

@@ -24,7 +24,7 @@ enum { RATE_POINTS = 16 };
 struct strength_rate {
     int points;                                  /* number of rates; 0: the strength does not depend on the rate */
     real rate[RATE_POINTS], factor[RATE_POINTS]; /* [1/s] ascending; at least 1, not falling [1] */
-    real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften that gives this strength [1] */
+    real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften; the strength is then as above [1] */
 };
 
 /* A material: constants given by the scene, and constants that material_compute_derived_constants derives from them. */
@@ -49,8 +49,8 @@ struct material {
     struct strength_scatter scatter; /* random field of its critical stretch */
     struct law law;                  /* by which its material points yield */
     struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
-    real surface_least_strain;       /* of that surface: material_smallest_strain_at_strength [1] */
-    int surface_means;               /* number of means over families by which the strain is averaged for it */
+    real surface_least_strain;       /* smallest strain at which `surface` is reached [1] */
+    int surface_means;               /* `surface`: how many times the strain is averaged over the family of each particle */
     /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
@@ -134,20 +134,25 @@ struct surface_strengths {
     real tension, biaxial, shear, hydrostatic;
 };
 
-/* Returns the strengths of material m, which must have a strength surface, in the given space (plane stress, plane
- * strain, solid). */
+/* Returns the strengths that follow from the strength surface of material m: the stresses at which the surface is
+ * reached under uniaxial, biaxial, shear and hydrostatic loading [Pa]. m must have a strength surface. space: plane
+ * stress, plane strain or solid. */
 struct surface_strengths material_strength_surface_strengths(const struct material *m, enum space space);
 
 /* Returns the smallest strain at which the strength surface of material m can be reached [1]: the minimum, over all
- * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond.
- * Returns 0 if some state stretches no bond. */
+ * stress states on the surface, of the largest principal strain, which is the stretch of the most stretched bond. Bonds
+ * with smaller stretches need no check of the surface. space: of the body. Returns 0 if some stress state on the
+ * surface stretches no bond. */
 real material_smallest_strain_at_strength(const struct material *m, enum space space);
 
-/* Sets the strength surface of material m, and computes m->surface_least_strain for it. */
+/* Sets m->surface to `surface`, the strength surface of Drucker and Prager at which the bonds of material m begin to
+ * soften, and m->surface_least_strain to the smallest strain at which it can be reached [1]. space: space of the body,
+ * on which the stress normal to the plane depends. The elastic constants of m must be set. */
 void material_set_strength_surface(struct material *m, enum space space, struct strength_surface surface);
 
-/* Returns the share U of the strength surface of material m that a stress has reached [1]: 1 on the surface, 0 without
- * stress. stress: symmetric components, 3 in the plane, 6 in space [Pa]. */
+/* Returns the stress `stress` divided by the stress on the strength surface of material m in the same direction (the
+ * value U) [1]: 1 on the surface, 0 without stress. stress: symmetric components, 3 in the plane, 6 in space [Pa];
+ * space: determines the stress normal to a plane. */
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
 /* Computes the elastic stiffness as a row-major n x n matrix over the n = symmetric_component_count(dim) components of

@@ -43,11 +43,12 @@ struct mesh_end {
     int32_t point, lane;
 };
 
-/* Slits: free surfaces between points (mesh_slits.c). A cell divided by a slit becomes several cells, each with the
- * points on one side: one keeps the index of the cell, the others have indices behind those of the box. Around a node
- * on a slit the cells form groups: one keeps the node of the grid, every other has an extra node. Extra nodes are in
- * rows behind those of the box, so that loops over all nodes include them. A cell with an extra node is partial and
- * stores its corners. All this follows from particles and slits in the reference state and does not change. */
+/* Slits: pre-cracks as free surfaces of the mesh, between points (mesh_slits.c). A cell divided by a slit becomes
+ * several cells, each with the points on one side: one keeps the index of the cell, the others have indices behind
+ * those of the box. Around a node on a slit the cells form groups: one keeps the node of the grid, every other has an
+ * extra node. Extra nodes are in rows behind those of the box, so that loops over all nodes include them. A cell with
+ * an extra node is partial and stores its corners. All this follows from particles and slits in the reference state and
+ * does not change. */
 struct mesh_slits {
     int64_t nodes, first; /* number of extra nodes; first node and cell behind the box */
     int32_t *base;        /* [grid.n - first] node of the grid at the position of an extra node, -1: no extra node */
@@ -62,7 +63,7 @@ struct mesh_slits {
     int32_t *home;   /* [divided cells][2^dim] cell of the point at each place */
     int32_t *group;  /* [groups of partial cells] number in `lane`, -1: corners of the grid */
     int32_t *lane;   /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
-    int64_t links;   /* pairs of blocks: of extra nodes or cells, and of nodes at their positions */
+    int64_t links;   /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, one of the nodes at their positions */
     struct mesh_link {
         int32_t extra, base;
     } * link;        /* [links] */
@@ -137,8 +138,9 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
     return own ? own[corner] : cell + mesh->corner[corner];
 }
 
-/* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of a group of partial cells, if one
- * of them is an extra node at a slit; NULL otherwise: all corners are then nodes of the grid. */
+/* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of group number `group` of partial
+ * cells (cells with missing or bonded points), if one of the corners is an extra node at a slit; NULL otherwise: all
+ * corners are then nodes of the grid. */
 static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -181,7 +183,7 @@ static inline int cell_deformation_mode_count(int dim)
 }
 
 /* Returns the number of groups of LANES (eight) partial cells, which are processed side by side; the last group may be
- * incomplete. */
+ * incomplete. Partial cells are those with missing or bonded points or several materials. */
 static inline int64_t mesh_partial_cell_group_count(const struct mesh *mesh)
 {
     return (mesh->partial_cells + LANES - 1) / LANES;
@@ -218,8 +220,8 @@ static inline bool mesh_eight_nodes_are_at_rest(const uint8_t *levels, int64_t f
     return (levels[first_node / LANES] | levels[(first_node + LANES - 1) / LANES]) == 0;
 }
 
-/* Blocks `first` to `end` - 1 of eight nodes of a row that contain all its nodes with mass, counted from the begin of
- * the row. */
+/* Range of blocks of a row of nodes, each of eight nodes: blocks `first` to `end` - 1, counted from the begin of the
+ * row, contain all nodes of the row that have mass. */
 struct mesh_row_blocks {
     int64_t first, end;
 };

@@ -210,8 +210,9 @@ static inline real bond_strength_factor(const struct particles *p, int64_t i, in
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
-/* Returns the share of the strength surface of its material that the stored stress of particle i has reached [1]: 1 on
- * the surface; 0 if the material has no such surface. material: materials of the scene, indexed by p->material[i]. */
+/* Returns the stored stress of particle i divided by the stress on the strength surface of its material in the same
+ * direction [1]: 1 on the surface; 0 if the material has no such surface. material: materials of the scene, indexed by
+ * p->material[i]; space: of the body, determines the stress normal to a plane. */
 static inline real particle_stress_to_strength_ratio(const struct particles *p, const struct material *material,
                                                      enum space space, int64_t i)
 {

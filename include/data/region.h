@@ -89,9 +89,9 @@ struct crack {
     real width;              /* width of a notch: its faces touch once their distance has decreased by this [m] */
 };
 
-/* Returns true if the crack cuts the bond between reference positions a and b. Symmetric in a and b to the last bit. A
- * particle closer to the crack's plane than 1e-9 crack lengths counts as on its positive side; a bond that passes
- * exactly through the crack's end is cut. */
+/* Returns true if the crack c cuts the bond between the reference positions `position` and `other_position` (dim
+ * components each [m]). Exchanging the two never changes the result. A particle closer to the crack's plane than 1e-9
+ * crack lengths counts as on its positive side; a bond that passes exactly through the crack's end is cut. */
 bool crack_cuts_bond(const struct crack *c, const real *position, const real *other_position, int dim);
 
 /* Returns false if the crack certainly cuts no bond of length `bond_length` [m] or less of a particle at X (dim
@@ -114,7 +114,8 @@ struct mirror_plane {
 bool crack_end_is_continued_by_mirrors(const struct mirror_plane *mirror_planes, int mirror_count,
                                        const struct crack *c, const real *end, real tolerance);
 
-/* Parts and mirror images of cracks. of[k]: index of the original crack of which crack[k] is a part or an image. */
+/* Parts and mirror images of cracks: crack[k], k = 0 .. n - 1, is a part or an image of the original crack with index
+ * of[k]. Both arrays are owned. */
 struct crack_list {
     int n;
     struct crack *crack;

@@ -22,8 +22,8 @@
 enum { SOFTENING_PIECES = 8 }; /* largest number of straight pieces of a curve */
 
 /* A softening curve G(x) from G(0) = 1 to G(1) = 0, the largest of `pieces` straight lines and 0. The force of a bond
- * of stretch k over its largest force is G((k - s_0)/(s_f - s_0)), with the stretches s_0 and s_f at which it begins to
- * soften and breaks. */
+ * of stretch k, divided by its largest force, is G((k - s_0)/(s_f - s_0)), with the stretches s_0 and s_f at which it
+ * begins to soften and breaks. */
 struct softening_curve {
     int pieces;
     real level[SOFTENING_PIECES], slope[SOFTENING_PIECES]; /* piece k: level - slope x [1] */
@@ -32,9 +32,10 @@ struct softening_curve {
 };
 
 /* Softening of the bonds between two materials. onset: stretch s_0 at which it begins, INFINITY for brittle bonds [1];
- * strength_scatters: true if the random strength factor scales s_0 alone, false if it scales the critical stretch, too;
- * surface: true if a strength surface starts the softening, the factor then scales the limit of its share in place of
- * s_0; rate: how s_0 increases with the strain rate, NULL if it does not. */
+ * strength_scatters: true if the random strength factor of a bond multiplies s_0 alone, false if it also multiplies the
+ * critical stretch; surface: true if a strength surface starts the softening, the factor (with strength_scatters) then
+ * multiplies the strength of the particle instead of s_0; rate: how s_0 increases with the strain rate, NULL if it does
+ * not. */
 struct softening_pair {
     real onset;
     bool strength_scatters, surface;
@@ -46,15 +47,15 @@ struct softening_range {
     real onset, end;
 };
 
-/* Peak stress of a material whose bonds soften, over s_0 E' (E' = E, in plane strain E/(1 - nu^2)) [1]:
- * under uniaxial tension, equal biaxial tension, and pure shear. NAN where the space has no such stress; shear is
- * computed in the plane only. */
+/* Peak stresses of a material whose bonds soften, divided by s_0 E' [1]: under uniaxial tension, equal biaxial tension,
+ * and pure shear. s_0: stretch at which bonds begin to soften; E': E, in plane strain E/(1 - nu^2). NAN where the space
+ * has no such stress; shear is computed in the plane only. */
 struct softening_strength {
     real tension, biaxial, shear;
 };
 
-/* Returns the softening curve G(x) of a softening law: force of a bond over its force when softening begins, where x
- * grows from 0 at that stretch to 1 at the stretch at which the bond breaks. */
+/* Returns the softening curve G(x) of the softening law `law`: the force of a bond divided by its force when softening
+ * begins. x grows in proportion to the stretch, from 0 where softening begins to 1 where the bond breaks. */
 struct softening_curve softening_curve_of_law(enum softening law);
 
 /* Returns the stretch s_f at which a softening bond breaks that dissipates the same energy as a brittle bond of
@@ -75,8 +76,9 @@ static inline struct softening_range softening_range_from_onset(const struct sof
     return (struct softening_range){onset, softening_end_stretch(c, onset, critical)};
 }
 
-/* Returns the value G(x) of the softening curve c, the force of a bond over its force when softening begins [1]. x >=
- * 0: stretch beyond that at which softening begins, over the stretch range up to the break [1]. */
+/* Returns the value G(x) of the softening curve c: the force of a bond divided by its force when softening begins [1].
+ * x >= 0: (k - s_0)/(s_f - s_0) [1], with the stretch k of the bond and the stretches s_0 and s_f at which it begins to
+ * soften and breaks. */
 static inline real softening_curve_value(const struct softening_curve *c, real x)
 {
     real level = 0;
@@ -92,14 +94,14 @@ static inline real softening_remaining_stiffness_fraction(const struct softening
     return onset * softening_curve_value(c, (largest_stretch - onset) / (breaking_stretch - onset)) / largest_stretch;
 }
 
-/* Returns the energy that a softening bond has dissipated, over stiffness, weight and length of the bond [1]. c: its
- * softening curve; onset, breaking_stretch: stretches at which it begins to soften and breaks; largest_stretch: its
+/* Returns the energy that a softening bond has dissipated, divided by stiffness, weight and length of the bond [1]. c:
+ * its softening curve; onset, breaking_stretch: stretches at which it begins to soften and breaks; largest_stretch: its
  * largest stretch so far, at least the onset [1]. */
 real softening_normalised_dissipated_energy(const struct softening_curve *c, real onset, real breaking_stretch,
                                             real largest_stretch);
 
-/* Computes the largest stresses that bonds of all directions with the softening curve c reach under growing uniform
- * strain, over s_0 E', by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
+/* Returns the largest stresses, divided by s_0 E', that bonds of all directions with the softening curve c reach under
+ * growing uniform strain, by quadrature over directions. s_0: stretch at which bonds begin to soften; E': modulus of
  * uniaxial tension; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
 struct softening_strength softening_curve_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio);
@@ -113,8 +115,8 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
 /* Strain rates are measured from this share of the stretch on at which bonds soften in slow loading [1]. */
 #define RATE_FROM 0.5
 
-/* Smallest ratio kappa = (critical stretch/onset)^2 to which the increase of strength with the strain rate reduces that
- * of a bond [1]. */
+/* Smallest ratio kappa = (critical stretch/onset)^2 of a bond [1]. The strain rate increases the onset, the stretch at
+ * which the bond begins to soften, up to this limit only. */
 #define RATE_LEAST_RATIO 1.2
 
 /* Returns the value at the strain rate `rate` [1/s] of a quantity that is table_values[k] at the rate r->rate[k]:

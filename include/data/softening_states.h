@@ -5,29 +5,31 @@
 
 #include "data/softening.h"
 
-/* Peridynamic model of a family. A, B: moduli of a state-based model over the modulus E' of uniaxial tension [1], B = 0
- * for bond-based models; rotates: bonds resist all of their deformation apart from the rotation of the particle, else
- * only their extension. */
+/* Peridynamic model of a family. A, B: moduli of a state-based model divided by the modulus E' of uniaxial tension [1],
+ * B = 0 for bond-based models; rotates: bonds resist all of their deformation apart from the rotation of the particle,
+ * else only their extension. */
 struct softening_model {
     real A, B;
     bool rotates;
 };
 
-/* Computes the largest stresses over s_0 E' that a family of softening bonds of the given bond-based or state-based
- * model reaches under growing uniform strain, by quadrature over directions. c: softening curve; s_0: stretch at which
- * bonds begin to soften; E': modulus of uniaxial tension; squared_stretch_ratio: (critical stretch/s_0)^2 [1]. */
+/* Returns the largest stresses, divided by s_0 E', that a family (particle with its neighbours) of softening bonds of
+ * the model `model` reaches under growing uniform strain, by quadrature over directions. c: softening curve; s_0:
+ * stretch at which bonds begin to soften; E': modulus of uniaxial tension; squared_stretch_ratio: (critical
+ * stretch/s_0)^2 [1]. */
 struct softening_strength softening_model_normalised_strengths(const struct softening_curve *c, enum space space,
                                                                real squared_stretch_ratio,
                                                                const struct softening_model *model);
 
 /* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], for a
- * family of the given bond-based or state-based model, by fixed-point iteration. m->critical_stretch must be set. The
- * result exceeds it if the horizon is too large for this strength. */
+ * family of the given bond-based or state-based model, by fixed-point iteration. m->critical_stretch must be set. If
+ * the horizon is too large for this strength, the result exceeds m->critical_stretch. */
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
 
-/* Computes m->rate.onset: for each rate of the table, the factor on m->onset_stretch, the stretch at which bonds begin
- * to soften, that gives the strength at this rate. Returns the smallest ratio (critical stretch/onset)^2 over all rates
- * [1]. */
+/* Computes how much later bonds of material m soften at each strain rate of the table m->rate: stores in
+ * m->rate.onset[k] the factor on m->onset_stretch, the stretch at which bonds begin to soften in slow loading, with which
+ * the material has its strength at rate k. model: peridynamic model of the bonds. Returns the smallest ratio (critical
+ * stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the strength. */
 real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
                                                   const struct softening_model *model);
 

@@ -29,8 +29,9 @@ struct strength_surface strength_surface_from_hydrostatic(real tensile_strength,
  * biaxial_strength <= tensile_strength. */
 struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
-/* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. xx, yy, zz: normal
- * stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx [Pa^2]. */
+/* Returns the value U of a stress on the strength surface s, its ratio to the strength [1]: 1 on the surface, below 1
+ * inside. xx, yy, zz: normal stresses [Pa]; shear_squares: sum of the squares of the shear stresses xy, yz, zx
+ * [Pa^2]. */
 static inline real strength_surface_stress_ratio(const struct strength_surface *s, real xx, real yy, real zz,
                                                  real shear_squares)
 {
@@ -38,9 +39,9 @@ static inline real strength_surface_stress_ratio(const struct strength_surface *
     return (sqrt(J2) + s->g1 * (xx + yy + zz)) / s->g0;
 }
 
-/* Returns the share U of the strength surface s that a stress has reached [1], 1 on the surface. stress: dim (dim +
- * 1)/2 symmetric components [Pa]. across: in 2D, the stress normal to the plane over the sum of the normal stresses in
- * it: Poisson's ratio in plane strain, 0 in plane stress [1]. */
+/* Returns the value U of a stress on the strength surface s, its ratio to the strength [1]: 1 on the surface, below 1
+ * inside. stress: dim (dim + 1)/2 symmetric components [Pa]; across: in 2D, the stress normal to the plane divided by
+ * the sum of the two normal stresses in the plane [1]: Poisson's ratio in plane strain, 0 in plane stress. */
 static inline real strength_surface_stress_ratio_of_tensor(const struct strength_surface *s, const real *stress,
                                                            real across, const int dim)
 {
@@ -50,8 +51,9 @@ static inline real strength_surface_stress_ratio_of_tensor(const struct strength
     return strength_surface_stress_ratio(s, stress[0], stress[1], zz, shear_squares);
 }
 
-/* Returns the strength under stresses that grow in proportion: the factor on the three principal values direction[3]
- * [1] at which the strength surface is reached [Pa], INFINITY if it never is. */
+/* Returns the strength of a material under stresses that grow in proportion [Pa]: the number by which the three
+ * principal values direction[3] [1] must be multiplied to reach the strength surface s; INFINITY if they never reach
+ * it. */
 real strength_surface_strength_along(const struct strength_surface *s, const real *direction);
 
 #endif

@@ -34,7 +34,7 @@ struct voxel_part {
     const struct voxels *of;
     int ranges;
     struct grey_range range[GREY_RANGES_MAX];
-    int64_t voxels; /* number of voxels */
+    int64_t voxels; /* number of voxels of the solid */
     float *level;   /* signed distance of voxel centres from the surface, negative inside [m] */
 };
 
