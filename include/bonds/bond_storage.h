@@ -39,7 +39,8 @@
 #include "bonds/family.h"
 #include "data/active_set.h"
 
-/* Largest stiffness of the repulsive cores (kernels/pd/bond_core.h) over that of the bonds [1]. */
+/* Largest ratio of the stiffness of the repulsive core of a bond, which acts when the bond is strongly compressed
+ * (kernels/pd/bond_core.h), to the stiffness of the bond. */
 #define CORE_STIFFNESS 3.0
 
 /* Plastic state of a bond: `stretch` at which its force is 0, and `path`, the accumulated plastic stretch [1]. */
@@ -47,16 +48,16 @@ struct bond_plasticity {
     real stretch, path;
 };
 
-/* Value of `onset` and `most` (struct softened) of a bond that may not soften yet, or is brittle; `end` is then the
- * stretch above which the bond is examined. */
+/* Value of the members `onset` and `most` of struct softened for a bond that may not soften yet, or is brittle. The
+ * member `end` of this bond is then the stretch above which the bond is examined. */
 #define SOFTENING_NEVER 1e30f
-/* Whether a row block is due, i.e. one of its bonds may begin to soften before the next sweep over the bonds: no; yes;
- * examined before without success; bit for use during the examination. */
+/* State of a row block (the bonds of eight particles) before the next sweep over the bonds. DUE_NOT: no bond of it may
+ * begin to soften; DUE_NEW: one may, and is to be examined; DUE_AGAIN, DUE_DENIED: see below. */
 enum softening_due {
     DUE_NOT,
     DUE_NEW,
-    DUE_AGAIN,     /* the stress forbade a bond to soften; examined again if limit.retries */
-    DUE_DENIED = 4 /* bit that is set while row blocks are examined: becomes AGAIN */
+    DUE_AGAIN,     /* a bond was examined but may not soften yet; again if bond_limit.retries */
+    DUE_DENIED = 4 /* bit that is set while row blocks are examined; becomes DUE_AGAIN afterwards */
 };
 /* Softening of bonds (data/softening.h): k is the largest stretch of a bond so far, s_0 and s_f are the stretches at
  * which it begins to soften and breaks, d is its softening, 0 to 1. A row block, the bonds of eight particles, stores
@@ -73,17 +74,18 @@ struct softened {
     uint8_t *begun;   /* [row blocks] 1: the arrays are valid */
     uint8_t *due;     /* [row blocks] enum softening_due */
     bool any_due;     /* an entry of `due` is not DUE_NOT */
-    bool at_points;   /* true: bonds of material points have begun to soften */
+    bool at_points;   /* true: bonds that end at material points have begun to soften */
     uint8_t *needed;  /* [row blocks 8] working memory: the dilatation of the row is needed */
     real *dilatation; /* [row blocks 8] working memory: trace of the strain of the family [1] */
-    /* [row blocks 8] mean strain rate of a row on its way from half its onset to the onset, 0 or less: not there [1/s];
-     * time for which it has been beyond half the onset [s]. NULL: no strength depends on the rate */
+    /* [row blocks 8] mean strain rate of the bonds of a particle while their stretch grows from half the onset to the
+     * onset, 0 or less: outside this range [1/s]; time since half the onset was exceeded [s]. NULL: no strength depends
+     * on the rate */
     real *rate, *beyond;
     bool rates_kept;           /* true: rates are to be measured in the next step */
     const struct image *image; /* [images] borrowed */
     real least_ratio;          /* s_f of a bond is at least the trigger of its row times this [1] */
-    uint8_t *near; /* [row blocks] 1: a bond has been beyond `gate` since the last look at the strength surface
-                      (bonds_strength.c); NULL: no material has one */
+    uint8_t *near; /* [row blocks] 1: the stretch of a bond has exceeded `gate` since the strength surfaces were
+                      evaluated last (bonds_strength.c); NULL: no material has a strength surface */
     real gate;     /* stretch from which on the strength surface may be near [1] */
 };
 
@@ -200,22 +202,22 @@ struct bond_holes {
 /* The bonds of a body. All arrays are owned. */
 struct bonds {
     int64_t rows, row_blocks, columns;
-    int64_t used, room;    /* columns that are or were in use; capacity */
-    int64_t n;             /* directed bonds in the rows, broken ones included */
-    int32_t reach;         /* largest distance of a bond's neighbour, in row blocks */
+    int64_t used, room; /* columns that are or were in use; capacity */
+    int64_t n;     /* bonds in all rows, broken ones included (a bond between two particles with rows counts twice) */
+    int32_t reach; /* largest distance of a bond's neighbour, in row blocks */
     int32_t *particle;     /* [row blocks 8] particle of a row; padding rows repeat the last */
     int32_t *row_of;       /* [n_all] row of a particle, -1: none */
     int32_t *no_rows;      /* [n_all] all -1: spare array for the next row_of; NULL: none */
     int64_t *column;       /* [row blocks] first column of a row block */
     int32_t *column_count; /* [row blocks] number of columns */
     uint8_t *whole;        /* [row blocks 8] 1: row of a peridynamic particle, with the whole family */
-    int32_t *made;         /* [row blocks] directed bonds of the row block, broken ones included */
+    int32_t *made;         /* [row blocks] number of bonds in the rows of the row block, broken ones included */
     uint8_t *aligned;      /* [row blocks] 1: the eight particles are consecutive */
     int32_t *first;        /* [columns] neighbour of lane 0 if the eight are consecutive, else -1 */
     int32_t *nbr;          /* [columns 8] neighbour */
     real *inverse_length; /* [columns 8] 1/|X_j - X_i|; negative: broken, so that the stretch is below -1 and exceeds no
                              limit; 0: padding [1/m] */
-    real *w; /* [columns 8] symmetric weight: beta x surface x V_i V_j c_ij over stiffness; 0: broken, cut or padding
+    real *w; /* [columns 8] symmetric weight: beta x surface factor x V_i V_j c_ij/stiffness; 0: broken, cut or padding
                 [1] */
     struct bond_column *common;       /* [columns] */
     struct bond_length *shell_length; /* [BOND_SHELLS] */
@@ -238,8 +240,8 @@ struct bonds {
     struct clamped clamped;
     struct softened soft;
     struct active_set active; /* active row blocks */
-    real core;                /* stiffness of the cores (kernels/pd/bond_core.h) over that of the bonds [1] */
-    real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
+    real core;      /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
+    real stiffness; /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
 /* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
@@ -255,8 +257,9 @@ struct bond_softness {
     float most, onset, end, whole;
 };
 
-/* Returns the softening state of a bond that is brittle or may not soften yet. range: stretches at which softening
- * begins and the bond breaks. `end` of the result is just below range.onset: beyond it the bond is examined. */
+/* Returns the softening state to be stored for a bond that is brittle or has not begun to soften. range: stretches at
+ * which softening begins and the bond breaks [1]. The member `end` of the result is just below range.onset; when the
+ * stretch exceeds it, the bond is examined. */
 static inline struct bond_softness bond_softness_before_onset(struct softening_range range)
 {
     return (struct bond_softness){SOFTENING_NEVER, SOFTENING_NEVER, (float)(range.onset * (1 - SOFTENING_LEAST)), 0};
@@ -280,7 +283,7 @@ static inline void bond_softness_store(struct bonds *b, int64_t bond, struct bon
     column->begun = (uint8_t)(state.onset < SOFTENING_NEVER ? column->begun | lane : column->begun & ~lane);
 }
 
-/* State of an entry without a bond. */
+/* Softening state of an entry of the bond arrays that contains no bond (padding of a short row). */
 static const struct bond_softness bond_softness_none = {SOFTENING_NEVER, SOFTENING_NEVER, 2, 0};
 
 /* Returns true if a bond of row block `row_block` (the bonds of eight particles) has begun to soften. */

@@ -43,8 +43,9 @@ static inline real spring_bound_largest_eigenvalue(const struct spring_bound *bo
 bool precracks_cut_bond_between(const struct crack *precrack, int precrack_count, const struct particles *p,
                                 int64_t particle, int64_t other_particle);
 
-/* Returns an upper bound of the number of neighbours of any particle within the cutoff: source->room if it is set (>
- * 0), else computed from the counts of particles in search cells. source: inputs of the bonds. */
+/* Returns an upper bound of the number of neighbours of any particle within the cutoff, to which arrays are allocated:
+ * source->room if it is set (> 0), else computed from the numbers of particles in search cells. source: inputs of the
+ * bonds. */
 int bonds_neighbour_count_bound(const struct bond_source *source);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
@@ -97,12 +98,13 @@ void bonds_copy_damage_to_new_particles(struct bonds *b, struct particles *p, co
  * missing or its size differs. */
 status bonds_save_or_load(struct bonds *b, struct particles *p, struct archive *a);
 
-/* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
- * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
+/* Returns the weighted volume Q = sum w r^2 over the intact bonds of row `row`, i.e. of one particle, with the weights
+ * w [1] and reference lengths r of the bonds [m^2]. The sum is computed anew, because subtracting broken bonds from a
+ * stored sum would leave round-off when few bonds remain. */
 real state_based_weighted_volume_of_intact_bonds(const struct bonds *b, int64_t row);
 
-/* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
- * state-based models. source: inputs as in bonds_make. */
+/* Recomputes the stored weighted volume Q = sum w r^2 [m^2] of every particle with bonds, with the weights w and
+ * reference lengths r of its intact bonds. Only for state-based models. source: inputs as in bonds_make. */
 void state_based_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
@@ -120,28 +122,30 @@ real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
  * because the strength surface of the material was reached; false if row is -1. */
 bool bonds_row_has_begun_softening(const struct bonds *b, int64_t row);
 
-/* Evaluates the strength surfaces of materials at the present positions, for particles whose bonds have stretches near
- * them (bonds_strength.c). U is the stress of a particle over that on the strength surface. Where U reaches 1 (or the
- * strength factor of the particle, if strength scatters), those bonds of the particle that have not begun to soften do
- * so from their present stretch on. Material points at such bonds are marked for conversion. Does nothing if no
- * material has a surface. source: inputs of the bonds. */
+/* Starts the softening of bonds where the stress has reached the strength surface of the material (bonds_strength.c).
+ * Computes, at the present positions and for particles with large bond stretches, the ratio U of the stress of the
+ * particle to the stress on the strength surface. Where U reaches 1 (or the strength factor of the particle, if
+ * strength scatters), those bonds of the particle that have not begun to soften do so from their present stretch on.
+ * Material points at such bonds are marked for conversion. Does nothing if no material has a surface. source: inputs of
+ * the bonds. */
 void bonds_start_softening_at_strength_surface(struct bonds *b, struct particles *p, const struct bond_source *source);
 
-/* Computes the share U of the strength surface for every particle into stress_ratio[p->n] [1]: its stress over that on
- * the surface, 0 if the material has no surface. The stress of a material point is its own, that of a peridynamic
- * particle follows from the strain averaged over its family. source: inputs of the bonds. */
+/* Computes for every particle the ratio of its stress to the stress on the strength surface of its material into
+ * stress_ratio[p->n] [1]: 1 on the surface, 0 if the material has no surface. The stress of a material point is its
+ * own, that of a peridynamic particle follows from the strain averaged over its family. source: inputs of the bonds. */
 void bonds_compute_stress_to_strength_ratios(const struct bonds *b, const struct particles *p,
                                              const struct bond_source *source, real *stress_ratio);
 
-/* Returns the damage of the particle of row `row` by the softening of its intact bonds [1]: sum d V_j over the volume
- * of its family, with the softening d of the bond to neighbour j and the volume V_j of the neighbour; 0 if row is
- * -1. */
+/* Returns the damage of the particle of row `row` by the softening of its intact bonds [1]: the sum of d V_j divided by
+ * the volume of all neighbours, with the softening d (0 to 1) of the bond to neighbour j and the volume V_j of this
+ * neighbour; 0 if row is -1. */
 real bonds_row_softening_damage(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Returns the energy released by all bonds broken since the start plus the energy dissipated by softening bonds [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
-/* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
+/* Returns eight bits: bit l is set if particle l (0 to 7) of the eight particles whose bonds row block `row_block`
+ * stores has an intact bond. */
 static inline unsigned bond_row_block_lanes_with_intact_bonds(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -165,11 +169,12 @@ static inline bool particle_has_intact_bond(const struct bonds *b, int64_t i)
  * particle_bits: one bit for each particle or image, bit i % 64 of particle_bits[i / 64]. Does nothing if row is -1. */
 void bonds_clear_marks_of_intact_neighbours(const struct bonds *b, int64_t row, uint64_t *particle_bits);
 
-/* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
+/* Returns the sum of the numbers of bonds of the eight particles of row block `row_block`, broken bonds included. A
+ * bond between two of these particles counts twice. */
 static inline int32_t bond_row_block_bond_count(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
-/* Returns the number of columns of a row block, which is the largest possible number of bonds of each of its eight
- * particles. */
+/* Returns the number of columns of row block `row_block`, which stores the bonds of eight particles. Column k holds at
+ * most one bond of each of these particles, so that none has more bonds than there are columns. */
 static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t row_block)
 {
     return b->column_count[row_block];
@@ -184,8 +189,9 @@ static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, 
                    : b->first[b->column[row_block] + column];
 }
 
-/* The eight bonds of one column of a row block, bond l of particle l. first: neighbour of lane 0 if the eight
- * neighbours are consecutive, else -1; nbr: neighbours; inverse_length: 1/r [1/m]; w: weights [1]. */
+/* The eight bonds of one column of a row block (the bonds of eight particles), one bond of each particle. first:
+ * neighbour of lane 0 if the eight neighbours are consecutive, else -1; nbr: neighbours; inverse_length: 1/r [1/m]; w:
+ * weights [1]. */
 struct column_copy {
     int32_t first, nbr[LANES];
     real inverse_length[LANES], w[LANES];
@@ -196,8 +202,9 @@ struct column_copy {
  * stores no columns of its own. Does not change b. */
 void bond_column_read_eight_bonds(struct column_copy *copy, const struct bonds *b, int64_t row_block, int64_t column);
 
-/* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
- * plastic_stretch, plastic_path and pair. */
+/* A bond of a particle as stored. nbr: its neighbour; inverse_length: 1/r, negative if load has broken the bond [1/m];
+ * w: weight, 0 if broken or cut by a pre-crack [1]; entry: index of the bond in the bond arrays, for example
+ * plastic_stretch. */
 struct bond {
     int64_t entry;
     int32_t nbr;

@@ -9,6 +9,9 @@
 #include "data/softening.h"
 #include "data/voids.h"
 
+/* Rules by which the weights of bonds are computed (keys pd.* of the scene). volume_rule: which part of the volume of a
+ * neighbour near the horizon counts; calibration: how the micro-modulus follows from the elastic constants;
+ * surface_rule: correction of bonds near faces; shell_rule: whether weights depend on the direction of the bond. */
 enum volume_rule { VOLUME_WHOLE, VOLUME_RAMP, VOLUME_CUT_RAMP };
 enum calibration { CALIBRATION_LATTICE, CALIBRATION_CONTINUUM, CALIBRATION_VMPD };
 enum surface_rule { SURFACE_NONE, SURFACE_VOLUME, SURFACE_MOMENTS };
@@ -60,7 +63,8 @@ struct bond_limit {
     bool retries; /* bonds that were not allowed to soften are examined again in this step (kernels/pd/bond_begin.c) */
 };
 
-/* Limit of bonds that never break, for all pairs of materials. */
+/* Limits with which no bond breaks or begins to soften, for any pair of materials: for static solutions, and for forces
+ * that no step follows. */
 extern const struct bond_limit bond_limit_never;
 
 /* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: critical stretch of its
@@ -102,7 +106,7 @@ bond_softening_range_at_rate(const struct particles *p, const struct bond_limit 
 }
 
 /* Plastic constants of bonds by pair of materials. stretch: yield stretch s_y [materials^2][1], NULL if no bond yields;
- * hardening: hardening modulus over elastic modulus, H_b/k_e [materials^2][1]. */
+ * hardening: hardening modulus divided by elastic modulus, H_b/k_e [materials^2][1]. */
 struct bond_yield {
     const real *stretch, *hardening;
     int materials;
@@ -132,9 +136,10 @@ struct bond_source {
     struct bond_limit limit;
     struct bond_yield yield;
     const struct state_modulus *modulus; /* state-based models, else NULL */
-    real core;                 /* stiffness of the cores (kernels/pd/bond_core.h) over that of the bonds [1] */
-    bool local, rotates;       /* normalisation by the present family; model with rotations */
-    const int *mirror_axis;    /* [loads] axis of a plane of symmetry, -1: clamped plane */
+    real core; /* stiffness of the repulsive cores (kernels/pd/bond_core.h) divided by that of the bonds [1] */
+    bool local, rotates;    /* state-based: weighted volumes are summed over the present bonds, not over a full family;
+                               model with particle rotations */
+    const int *mirror_axis; /* [loads] axis of a plane of symmetry, -1: clamped plane */
     const struct crack *given; /* pre-cracks of the scene */
     int givens;
     const struct crack *crack; /* parts of the pre-cracks within the body, with their images beyond mirrors */
@@ -144,7 +149,8 @@ struct bond_source {
     const struct mirror_plane *mirror; /* planes of symmetry, without clamped ones */
     int mirrors;
     const struct image *image; /* images made by loads */
-    int room; /* largest number of neighbours of a particle (bonds_neighbour_count_bound); 0: counted when needed */
+    int room; /* upper bound of the number of neighbours of a particle (bonds_neighbour_count_bound); 0: computed when
+                 needed */
     const real *neighbour_volume; /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL: other methods */
     const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };

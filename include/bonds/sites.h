@@ -10,7 +10,8 @@ struct stencil_row {
     int half;
 };
 
-/* Map of the sites of a lattice to particles and images (bonds_site_map.c). */
+/* Map from the sites of a lattice to the particles and mirror images at them, by which neighbours are found without a
+ * search (bonds_site_map.c). All arrays are owned. */
 struct site_map {
     int32_t *at;                /* [sites] particle + 1, 0: none; NULL: particles are not on a lattice */
     real low[DIM_MAX], spacing; /* position of the lowest site of the body; lattice spacing [m] */
@@ -19,7 +20,8 @@ struct site_map {
     int reach;                  /* cutoff, rounded down [sites] */
     int rows, most;             /* length of `row`; number of sites in these rows */
     int users;                  /* users of the map; the last one frees it */
-    bool uniform;               /* exact positions, one volume, mass and material: bonds follow from sites */
+    bool uniform; /* true: all particles are exactly on their sites and have equal volume, mass and material, so that
+                     bonds follow from sites alone */
 };
 
 /* Returns the index of the lattice site at which the particle with index `particle` is, -1 if its position is not a

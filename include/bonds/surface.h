@@ -22,13 +22,15 @@
 /* Factors of the weights of bonds near faces, by class of particle and offset. */
 struct surface_weights {
     real spacing;   /* lattice spacing [m] */
-    real residual;  /* of the least-squares problem, over that of factors of 1; large if its solver gave up [1] */
+    real residual;  /* residual of the least-squares problem divided by that with all factors 1; large if the solver did
+                       not converge [1] */
     int reach, dim; /* largest component of a bond vector [spacings]; dimension */
     int offsets, *offset_at; /* neighbours of a full family; index of an offset by its position in a box of offsets */
     int32_t classes, *class_of; /* [n] class of equal surroundings of a particle; 0: no face nearby */
-    uint8_t *mirrors;           /* [n] mirrors that turn the particle into one of its class, one bit per axis */
-    real *factor;               /* [classes offsets] factor on the weight of a bond [1] */
-    real *weighted;             /* [classes] sum w r^2 of the family, of reference particles [m^2] */
+    uint8_t *mirrors; /* [n] axes (bit d for axis d) that must be reversed to map the surroundings of the particle to
+                         those of its class */
+    real *factor;     /* [classes offsets] factor on the weight of a bond [1] */
+    real *weighted;   /* [classes] sum w r^2 of the family, of reference particles [m^2] */
     int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or image that is not a whole number of spacings
                          away */
 };

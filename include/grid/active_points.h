@@ -12,10 +12,13 @@
 #include "loads/loads.h"
 #include "data/transfer_order.h"
 
+/* Cells and points of the background grid that transfers include; the others are still at rest. All arrays are
+ * owned. */
 struct active_points {
     bool over; /* all cells are active for the rest of the run */
     int64_t nodes;
-    uint8_t *active_cell, *near; /* [nodes] indexed by the lowest node of the cell; near: becomes active */
+    uint8_t *active_cell, *near; /* [nodes] by lowest node of a cell: 1: the cell is active; 1: motion can enter the
+                                    cell, which becomes active */
     struct transfer_order active;
 };
 

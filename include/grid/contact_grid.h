@@ -8,8 +8,9 @@
 #include "data/transfer_order.h"
 #include "data/particles.h"
 
-/* A body in contact of material points: its background grid, the cell order of its points, and the range of nodes that
- * the points reach, from[d] to to[d] along each axis d, counted from the anchor of the grid. */
+/* One of the bodies between which material points make contact: background grid of the body, its points in the order of
+ * the cells, and the range of nodes that the points reach, from[d] to to[d] along each axis d, counted from the anchor
+ * of the grid. Both pointers are borrowed. */
 struct grid_contact_side {
     struct grid *grid;
     const struct transfer_order *order;
@@ -29,13 +30,16 @@ struct grid_contact_node {
     real reach[2];
 };
 
+/* Contact of material points between bodies that have a background grid each: its constants, the nodes in contact, and
+ * the sums of energy so far. All arrays are owned. */
 struct grid_contact {
-    /* coefficient of friction [1]; distance of points at contact, reach of their shapes beyond a cell [m] */
+    /* coefficient of friction [1]; distance of points of two bodies in contact [m]; half the reference edge of a point
+     * [m] */
     real friction, spacing, half_width;
     real smallest_mass; /* of a node that moves [kg] */
     int64_t nodes;
     struct grid_contact_node *node; /* [nodes] of the present step */
-    real begun;                     /* work of the impulses over half the velocities before the step [J] */
+    real begun;                     /* sum of impulse . relative velocity before the step, divided by 2 [J] */
     int sides;
     real *dissipated;             /* [sides^2] energy that contact of two bodies has dissipated so far [J] */
     int64_t touching, nodes_most; /* nodes in contact: in the last step, most so far */

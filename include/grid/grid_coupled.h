@@ -9,6 +9,7 @@
 #include "data/transfer_order.h"
 #include "scene/requests.h"
 
+/* The peridynamic particles that the background grid moves in this step. All arrays are owned. */
 struct grid_coupled {
     struct transfer_order order; /* cell order of the grid-coupled particles */
     int32_t *list;               /* [n] grid-coupled particles in ascending order */

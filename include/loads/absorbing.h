@@ -7,7 +7,8 @@
 #include "data/grid.h"
 #include "data/particles.h"
 
-/* The method that moves a particle: bond forces, background grid or mesh. Each has elastic constants of its own. */
+/* What moves a particle: bond forces, background grid or mesh. The wave impedance of a material differs between them.
+ * MOVERS: number of these methods. */
 enum moved_by { MOVED_BY_BONDS, MOVED_BY_GRID, MOVED_BY_MESH, MOVERS };
 
 /* Wave impedances of a material: normal, rho c_p, and tangential, rho c_s [kg/(m^2 s)], with the speeds c_p, c_s of
@@ -19,13 +20,15 @@ struct impedance {
 /* Dashpots of all absorbing faces. */
 struct absorbing {
     int64_t n;
-    int32_t *particle;                         /* [n] ascending */
-    real *rate[MOVERS][DIM_MAX];               /* [n] force over velocity by component, for each method [kg/s] */
+    int32_t *particle;           /* [n] ascending */
+    real *rate[MOVERS][DIM_MAX]; /* [n] coefficient (force divided by velocity) of the dashpot for each method of motion
+                                    and each component [kg/s] */
     const struct impedance *impedance[MOVERS]; /* [materials] borrowed */
     bool idle;                                 /* dashpots are inactive: forces are computed that no motion follows */
     real energy;                               /* energy dissipated since the start [J] */
-    real kick;                                 /* a quarter of impulse . change of velocity, in the last step [J] */
-    real *field;                               /* working memory: rates of the grid's nodes [kg/s] */
+    real kick;   /* sum of impulse . change of velocity/4 in the last step, by which the kinetic energy of samples is
+                    corrected [J] */
+    real *field; /* working memory: rates of the grid's nodes [kg/s] */
 };
 
 #endif

@@ -121,13 +121,15 @@ static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
 }
 
-/* A constrained velocity component of a node, and the load that constrains it; valid until the grid's box changes. */
+/* A velocity component of a grid node that a boundary condition prescribes. node: index of the node, valid until the
+ * box of nodes changes; component: 0 to dim - 1; load: number of the boundary condition. */
 struct held {
     int32_t node;
     uint8_t component, load;
 };
 
-/* Constrained velocity components of the nodes of a grid; found again when the grid covers another box of nodes. */
+/* Velocity components of the nodes of a grid that boundary conditions prescribe; found again when the grid covers
+ * another box of nodes. */
 struct constrained_set {
     int64_t n, lasting; /* length of `held`; the first `lasting` do not depend on nodal masses */
     struct held *held;
@@ -222,9 +224,10 @@ typedef void face_particle_fn(void *context, int32_t particle, real area);
 void face_visit_surface_particles(const struct boundary *b, const struct particles *p, const uint8_t *selected,
                                   real spacing, face_particle_fn *visit, void *context);
 
-/* Finds the particles with a free face on which the pressure boundary[number] acts, and stores them in l with the areas
- * of these faces. boundary: all `boundaries` of the scene, because others may cover a face. spacing: lattice spacing
- * [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
+/* Finds the particles with a free face on which the pressure boundary[boundary_number] acts, and stores them in l with
+ * the areas of these faces. boundary[boundaries]: all boundary conditions of the scene, because mirrors may cover a
+ * face. spacing: lattice spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free
+ * face. */
 status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int boundaries, int boundary_number,
                                 struct particles *p, real spacing);
 
@@ -246,13 +249,15 @@ status load_prepare_varying_particle_shares(struct load *l, const struct particl
  * FAILED, with a message that contains boundary, position and time, if one has not. */
 status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
- * over the velocity update of duration dt_velocity [s] that ends at time t [s], for loads_add_applied_forces. */
+/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or
+ * mass times a formula), for loads whose formula or surface changes in time: as means over the velocity update of
+ * duration dt_velocity [s] that ends at time t [s]. Part of loads_add_applied_forces. */
 void loads_average_shares_over_velocity_update(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time to their mean
- * over the two velocity updates before and after the position update of the step t - dt/2 to t + dt/2 [s].
- * loads_add_work_of_applied_forces then uses them. */
+/* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or
+ * mass times a formula), for loads whose formula or surface changes in time: as means over the two velocity updates
+ * before and after the position update from t - dt/2 to t + dt/2 [s]. Part of loads_add_work_of_applied_forces, after
+ * the position update. */
 void loads_average_shares_over_step_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
 /* Releases the arrays that load_prepare_varying_particle_shares has allocated for load l. */
@@ -294,7 +299,8 @@ void loads_set_contact_particles(struct loads *l, const struct particles *p, con
 /* Combines loads with equal lists of particles, so that each list is traversed once; last part of loads_make. */
 void loads_merge_equal_particle_lists(struct loads *l, int dim);
 
-/* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
+/* Releases the arrays load.share (area, volume or mass of each loaded particle) of all loads, also arrays that several
+ * loads have in common. */
 void loads_shares_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
@@ -394,28 +400,28 @@ static inline bool boundary_motion_varies_in_space(const struct boundary *b)
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
 
-/* Returns the largest speed of the displacement that load l prescribes between the times 0 and `t_end` [s] [m/s],
+/* Returns the largest speed [m/s] of the displacement that load l prescribes between the times 0 and `t_end` [s],
  * INFINITY if the displacement jumps. Formulas are sampled at some times and at some particles. */
 real load_largest_displacement_speed(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest difference between the velocity that load l prescribes between the times 0 and `t_end` [s] and
- * the velocity of its particles in p, the state at time 0 [m/s]. Sampled at a fixed number of times and at some
- * particles. For rotations the difference of speeds; 0 for prescribed displacements. */
+/* Returns the largest difference [m/s] between the velocity that load l prescribes at times from 0 to `t_end` [s] and
+ * the initial velocity p->v of its particles. Only some times and some particles are examined. For rotations, speeds
+ * are compared; 0 for prescribed displacements. */
 real load_largest_jump_from_initial_velocity(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest speed that load l gives to its particles in p between the times 0 and `t_end` [s] [m/s]:
+/* Returns the largest speed [m/s] that load l prescribes for its particles in p between the times 0 and `t_end` [s]:
  * load_largest_displacement_speed for a prescribed displacement, else load_largest_jump_from_initial_velocity. */
 real load_largest_driven_speed(const struct load *l, const struct particles *p, real t_end);
 
-/* Returns the largest change, within any time span of length `time_span` [s], of the velocity that load l (velocity or
- * displacement) prescribes between the times 0 and `t_end` [s] [m/s]. Before time 0 the particles of the load have the
- * velocity in p. Sampled at a fixed number of times and at some particles; a span shorter than the sampling interval is
- * extended to that interval. */
+/* Returns the largest change [m/s], within any time span of length `time_span` [s], of the velocity that load l
+ * (velocity or displacement) prescribes between the times 0 and `t_end` [s]. Before time 0 the particles of the load
+ * have the velocity in p. Sampled at a fixed number of times and at some particles; a span shorter than the sampling
+ * interval is extended to that interval. */
 real load_largest_velocity_change(const struct load *l, const struct particles *p, real t_end, real time_span);
 
-/* Returns the largest difference between the velocities that two loads prescribe between the times 0 and `t_end`
- * [s], each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component
- * is prescribed by both; INFINITY if one load rotates or depends on position. */
+/* Returns the largest difference [m/s] between the velocities that `load` and `other_load` prescribe between the times
+ * 0 and `t_end` [s], in components that both prescribe; from each velocity the initial velocity of its particles in p
+ * is subtracted. 0 if no component is prescribed by both; INFINITY if one load rotates or depends on position. */
 real loads_largest_velocity_difference(const struct load *load, const struct load *other_load,
                                        const struct particles *p, real t_end);
 
@@ -486,7 +492,7 @@ void loads_compute_static_displacements(struct loads *l, const struct particles 
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
  * loads with a moment have an equilibrium, for example loads on scattered particles of an irregular lattice. Returns
- * the moment of the loads over the largest moment that forces of this size could have [1]. */
+ * the moment of the loads divided by the largest moment that forces of this size could have [1]. */
 real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
 /* Adds the applied forces of a static problem at full load, with those of loads_add_inertia_relief, to p->f [N]. */

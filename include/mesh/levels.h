@@ -29,16 +29,22 @@ enum { LEVELS_MAX = 4, MASTERS_MAX = 4 };
  * without coarse cells: impulses of the coarser levels then have half the period of the finest cells, and resonate. */
 #define LEVELS_STEP_MOST 0.7
 
+/* A ghost: node `coarse` of the mesh of a level that is at the position of node `fine` of the next finer level and
+ * moves with it. */
 struct mesh_ghost {
     int32_t coarse, fine;
 };
+/* A hanging node: node `node` of a mesh in the middle of an edge or a face of a cell of the next coarser level. It
+ * moves with the mean of the nodes master[0 .. masters - 1] of the coarser mesh, 2 or 4 in number, at the ends of the
+ * edge or corners of the face. */
 struct mesh_hanging {
     int32_t node, masters, master[MASTERS_MAX];
 };
 
-/* Mesh of refinement level L > 0 (coarse cells without material points), and its interface with the next finer level L
- * - 1. Ghosts are nodes of level L at positions of nodes of level L - 1, which determine their motion. Hanging nodes
- * are nodes of level L - 1 in the middle of an edge or a face of a coarse cell, which determines their motion. */
+/* Mesh of coarsening level L > 0 (coarse cells without material points; level 0 is the finest), and its interface with
+ * the next finer level L - 1. Ghosts are nodes of level L at positions of nodes of level L - 1, which determine their
+ * motion. Hanging nodes are nodes of level L - 1 in the middle of an edge or a face of a coarse cell, which determines
+ * their motion. */
 struct mesh_level {
     struct mesh mesh;
     struct constrained_set held; /* nodes on mirrors and with prescribed motion */
@@ -49,16 +55,18 @@ struct mesh_level {
     int64_t cells;
 };
 
+/* All coarsening levels of a mesh: level 0, the finest, has the material points; the cells of level L replace 2^L cells
+ * of level 0 along each axis. Arrays are owned, and have an entry for each cell of level 0 unless noted. */
 struct mesh_levels {
     int n;                                   /* number of coarse levels, at[1] .. at[n]; 0: none */
     struct mesh *fine;                       /* level 0; kept by reference */
     int64_t offset[LEVELS_MAX + 1][DIM_MAX]; /* index of the node of each level at the lower corner of the body */
     uint8_t *level;                          /* [fine->grid.n] level of the cell that each cell of level 0 is part of */
-    uint8_t *calm;   /* [fine->grid.n] number of consecutive checks in which a cell could have been coarser */
+    uint8_t *calm;   /* [fine->grid.n] number of consecutive checks in which a coarser cell was admissible */
     uint8_t *wanted; /* [fine->grid.n] enum levels_wanted: why cells around must be of level 0 at the next change */
     uint8_t *safe;   /* [fine->grid.n] enum levels_distance of cells of level 0 */
     bool any_wanted;
-    bool returned;   /* points whose conversion was postponed are marked again in this step */
+    bool returned; /* true: points whose conversion was postponed have been marked for conversion again in this step */
     real wave_speed; /* [m/s] */
     /* distances of converting points from coarse cells, in cells of level 0 (levels_set_conversion_distances) */
     int safe_cells, roomy_cells;
@@ -66,40 +74,41 @@ struct mesh_levels {
     struct mesh_level at[LEVELS_MAX + 1];
 };
 
-/* Why a cell requires that the cells around it are of the finest level at the next change: it does not; a material
- * point may soon convert to a peridynamic particle; a point has lost a bond and its conversion is postponed. */
+/* Whether, and why, a cell requires that the cells around it become cells of level 0 (the finest) at the next change of
+ * levels. WANTED_NOT: it does not; WANTED_STRESS: one of its material points may soon convert to a peridynamic
+ * particle; WANTED_LOST_BOND: one of its points has lost a bond, and its conversion is postponed until then. */
 enum levels_wanted { WANTED_NOT, WANTED_STRESS, WANTED_LOST_BOND };
 
 /* Class of the distance of a cell of the finest level from coarse cells: less than safe_cells, less than roomy_cells,
  * or more (members of struct mesh_levels, in cells of the finest level). */
 enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
-/* Returns the number of cells of refinement level `level` that compute forces. On level 0, the finest, these are the
+/* Returns the number of cells of coarsening level `level` (0: finest) that compute forces. On level 0 these are the
  * cells that contain material points and belong to no coarse cell. */
 int64_t levels_count_cells_of_level(const struct mesh_levels *l, int level);
 
-/* Returns the mesh of a refinement level: level 0 the mesh with material points, higher levels coarse cells. The mesh
- * belongs to l. */
+/* Returns the mesh of coarsening level `level`: for 0 the finest mesh, with the material points, for higher levels a
+ * mesh of coarse cells. The mesh belongs to l. */
 static inline struct mesh *level_mesh(struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
-/* Returns the mesh of a refinement level for reading only: level 0 the mesh with material points, higher levels coarse
- * cells. The mesh belongs to l. */
+/* Returns the mesh of coarsening level `level` for reading only: for 0 the finest mesh, with the material points, for
+ * higher levels a mesh of coarse cells. The mesh belongs to l. */
 static inline const struct mesh *level_mesh_read_only(const struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
-/* Returns the number of steps between instants at which all refinement levels have reached the same time, 2^n for n
- * coarse levels. */
+/* Returns after how many time steps all coarsening levels have again reached the same time: 2^n for n coarse levels, as
+ * level L (0: finest) advances by 2^L steps at once. */
 static inline int levels_steps_per_cycle(const struct mesh_levels *l) { return 1 << l->n; }
 
-/* Makes `coarse_level_count` coarse refinement levels over the mesh `finest_mesh`; at first they have no cells.
- * finest_mesh: finest mesh with material points, kept by reference; source: material constants, slits and voids;
- * density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no levels. Returns FAILED, with a
- * message, if a level would have too many nodes. Release with levels_free. */
+/* Makes the levels 1 to `coarse_level_count` of coarse cells over the mesh `finest_mesh`, which is level 0; at first
+ * they have no cells. finest_mesh: finest mesh with material points, kept by reference; source: material constants,
+ * slits and voids; density: mass density of each material [kg/m^3]. `coarse_level_count` = 0 makes no levels. Returns
+ * FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
 status levels_make_over_finest_mesh(struct mesh_levels *l, int coarse_level_count, struct mesh *finest_mesh,
                                     const struct particles *p, const struct mesh_source *source, const real *density);
 
@@ -117,11 +126,11 @@ void levels_set_conversion_distances(struct mesh_levels *l, int postpone_distanc
  * have this dispersion [m]; wave_speed: speed of longitudinal waves [m/s]; dt: time step [s]. */
 void levels_match_wave_dispersion_of_bonds(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
-/* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
+/* Computes the highest (coarsest) admissible level of each cell. A coarse cell must be completely filled with one
  * material and contain no cell of level 0 (the finest) marked in `finest_required`; levels of adjacent cells differ by
  * at most one. finest_required: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required;
- * highest_level: highest level of each cell, NULL for all levels; admissible: receives the level of the cell to which
- * each cell of level 0 shall belong. */
+ * highest_level: largest level allowed for each cell, NULL for no such limit; admissible: receives the level of the
+ * cell to which each cell of level 0 shall belong. */
 void levels_compute_coarsest_admissible_levels(const struct mesh_levels *l, const struct particles *p,
                                                const uint8_t *finest_required, const uint8_t *highest_level,
                                                uint8_t *admissible);
@@ -145,9 +154,9 @@ void levels_mark_all_cells_in_marked_coarse_cells(const struct mesh_levels *l, c
  * diagonals. cell_is_marked: a byte for each cell of level 0, not 0 if marked. */
 void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *cell_is_marked, int reach_in_cells);
 
-/* Changes the refinement level of cells to new_cell_level[l->fine->grid.n], for each cell of level 0 (the finest) the
- * level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where
- * cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
+/* Changes the coarsening levels of cells. new_cell_level: for each of the l->fine->grid.n cells of level 0 (the finest)
+ * the level of the cell to which it shall belong. Where cells are split, displacement and velocity are interpolated;
+ * where cells are merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is
  * distributed among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces
  * become 0. source: material constants. */
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
@@ -160,8 +169,8 @@ void levels_change_refinement(struct mesh_levels *l, const struct particles *p, 
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite_strain, real dt);
 
-/* Copies displacement and velocity to all ghosts. A ghost is a node of a coarser mesh at the position of a node of the
- * next finer mesh, which determines its motion. */
+/* Copies displacement and velocity to all ghosts from the nodes that determine them. A ghost is a node of the mesh of a
+ * coarser level at the position of a node of the next finer level; this finer node determines the motion. */
 void levels_copy_motion_to_ghost_nodes(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
@@ -171,8 +180,8 @@ void levels_prolong_motion_to_fine_nodes(struct mesh_levels *l);
  * particles in an adjacent cell. */
 void levels_prolong_motion_to_nodes_near_points(struct mesh_levels *l);
 
-/* Returns the highest refinement level whose forces act in step number `step`: the largest L <= l->n for which `step`
- * is a multiple of 2^L. */
+/* Returns the highest coarsening level (0: finest) whose forces act in step number `step`: the largest L <= l->n for
+ * which `step` is a multiple of 2^L, because the forces of level L act every 2^L steps. */
 int levels_highest_level_due_in_step(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `highest_level` on their nodes and on nodes of finer levels at the
@@ -196,8 +205,9 @@ real levels_kinetic_energy_of_coarse_levels(const struct mesh_levels *l);
 real levels_strain_energy_of_coarse_cells(struct mesh_levels *l, const struct particles *p,
                                           const struct elastic *elastic, bool finite_strain);
 
-/* Returns the mean kinetic energy of the nodes of all coarse levels less the one that leap-frog conserves [J]: the sum
- * of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2 over the nodes, of mass m, with their velocities v_old and v_new
+/* Returns the kinetic energy of the nodes of all coarse levels, as mean of its values before and after the last
+ * velocity update, less the kinetic energy that leap-frog conserves [J]. Samples of the energy subtract it. It is the
+ * sum of m (v_old^2 + v_new^2)/4 - m v_old . v_new/2 over the nodes, of mass m, with their velocities v_old and v_new
  * before and after the last update. dt: time step of level 0, the finest [s]. */
 real levels_leapfrog_energy_gap(const struct mesh_levels *l, real dt);
 
@@ -219,9 +229,10 @@ bool levels_contain_inverted_cell(const struct mesh_levels *l, real *X);
  * cells, their motion and their levels are kept. source: material constants. */
 void levels_reconnect_finest_mesh(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
-/* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if
- * a->saving, else restores them. The finest mesh must be restored before. source: material constants. Returns FAILED,
- * with a message, if the archive cannot be read or written or if the restored levels are inconsistent. */
+/* Saves the coarsening level of each cell, the motion of the nodes of coarse cells and the data for the next change of
+ * levels to the archive if a->saving, else restores them. The finest mesh must be restored before. source: material
+ * constants. Returns FAILED, with a message, if the archive cannot be read or written or if the restored levels are
+ * inconsistent. */
 status levels_save_or_load(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                            struct archive *a);
 

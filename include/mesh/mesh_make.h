@@ -15,8 +15,9 @@
 
 /* Data from which the cells of a mesh are made, apart from the particles. */
 struct mesh_source {
-    const struct elastic *elastic;   /* [materials] constants of the cells */
-    const struct elastic *isotropic; /* [materials] constants by which partial stresses were made */
+    const struct elastic *elastic; /* [materials] constants of the cells */
+    const struct elastic
+        *isotropic; /* [materials] elastic constants from which the stiffness of partial stresses is computed */
     int materials;
     const struct partial_stress *partial; /* partial stresses of the points; NULL: none */
     bool still;                           /* true: the caller sets the motion of the nodes */
@@ -97,12 +98,14 @@ bool mesh_compute_cell_stiffness(const struct mesh *mesh, const struct elastic *
  * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
 int64_t mesh_first_particle_in_inverted_cell(const struct mesh *mesh, const struct particles *p);
 
-/* Minimum number of cells of a level across any part of the body. */
+/* Smallest number of coarse cells of one size that must fit across a part of the body for cells of this size to be used
+ * there. */
 enum { CELLS_ACROSS = 6 };
 
-/* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
- * highest_level[mesh->grid.n]. mirror: `mirror_count` planes of symmetry, beyond which the body continues. Returns the
- * largest of these levels. */
+/* Computes for each cell of the finest mesh the highest coarsening level (0: finest, coarse cells of level L replace
+ * 2^L cells along each axis) that the thickness of the body around it allows: CELLS_ACROSS cells of this level must
+ * fit. highest_level: [mesh->grid.n], receives these levels; mirror[mirror_count]: planes of symmetry, beyond which the
+ * body continues. Returns the largest of these levels. */
 int mesh_compute_highest_cell_levels(const struct mesh *mesh, const struct mirror_plane *mirror, int mirror_count,
                                      uint8_t *highest_level);
 

@@ -14,8 +14,8 @@ struct frame_choice {
     const char *reason;
 };
 
-/* A disc in which cells stay the smallest: the domain of a probe of stress-intensity factors. place: its centre [m];
- * radius [m]. */
+/* A disc in which cells are kept at the finest level: the domain of a probe of stress-intensity factors. place: centre
+ * of the disc [m]; radius: of the disc [m]. */
 struct frame_ring {
     real place[2], radius;
 };
@@ -35,7 +35,7 @@ struct reference_frame {
     bool finite;                 /* strains are finite, else small */
     bool converts;               /* points with a large stress become peridynamic (method adaptive) */
     bool active_set;             /* nodes still at rest are skipped */
-    bool room_limits;            /* `room` limits the levels, which are automatic */
+    bool room_limits;            /* the scene leaves the levels to the program, so that `room` limits them */
     struct mesh mesh;
     struct mesh_source source;
     struct elastic *elastic;   /* [materials] constants of the cells */
@@ -43,8 +43,8 @@ struct reference_frame {
     uint8_t *room;             /* [mesh.grid.n] largest level by the thickness of the body; NULL: not computed */
     int room_most;             /* largest value of `room` */
     struct cells_without_particles hollow; /* cells whose particles are not made */
-    bool lacks;                            /* particles needed at the start are missing: the run must be set up again */
-    struct elastic *coarse;                /* [materials] constants of coarse cells, with a smaller conversion stress */
+    bool lacks; /* true: particles that are needed at the start were not made, and the run must be set up again */
+    struct elastic *coarse; /* [materials] constants of coarse cells, with a smaller conversion stress */
     int rings;
     /* [scene->probes] discs in which cells stay the smallest at present; the first `rings` */
     struct frame_ring *ring;
@@ -82,7 +82,7 @@ status reference_frame_make_mesh(struct run *e, const struct mesh_source *source
 real reference_frame_critical_time_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
 /* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
- * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
+ * the boundary conditions `loads` act, after points or coarsening levels of the mesh have changed. */
 void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, const struct particles *p,
                                                   const struct bonds *bonds, struct loads *loads);
 
@@ -91,7 +91,7 @@ void reference_frame_list_bonded_or_loaded_points(struct reference_frame *r, con
 void reference_frame_move_bonded_or_loaded_points(struct reference_frame *r, struct particles *p);
 
 /* Computes the nodal forces of the mesh in step number `step`: the forces of bonds on its points, taken from p->f and
- * distributed to the nodes, plus the forces of all cells whose refinement level acts in this step. Level L, 0 for the
+ * distributed to the nodes, plus the forces of all cells whose coarsening level acts in this step. Level L, 0 for the
  * finest cells, acts every 2^L steps. */
 void reference_frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
@@ -128,10 +128,10 @@ bool reference_frame_update_after_conversion(struct reference_frame *r, struct p
 void reference_frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *inserted_points,
                                    int64_t inserted_count, real *energy_lost);
 
-/* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
+/* Returns the kinetic energy of all nodes of the reference frame, of all coarsening levels [J]. */
 real reference_frame_kinetic_energy(const struct reference_frame *reference);
 
-/* Returns the strain energy of all cells of the reference frame, of all refinement levels [J]. */
+/* Returns the strain energy of all cells of the reference frame, of all coarsening levels [J]. */
 real reference_frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load with the shortest rise time, which requires the smallest cells: none, a boundary condition, initial
@@ -143,10 +143,12 @@ struct load_rise {
     enum rise_kind kind;
     int number;          /* its number in the scene */
     bool pulse;          /* a pulse; its rise time is a quarter of its length */
-    real seconds, waves; /* rise time [s]; distance that waves travel in it [spacings] */
+    real seconds, waves; /* rise time [s]; distance that waves travel in this time [spacings] */
 };
 
-/* Reason for the number of refinement levels that `mpm.levels: auto` chooses. */
+/* Reason for the number of levels of coarse cells that `mpm.levels: auto` chooses: rise time of the loads and size of
+ * the body, static solver, no points in the reference frame, too few particles, bulk damping, time step too close to
+ * the critical one, body too thin. */
 enum levels_why {
     LEVELS_BY_LOADS,
     LEVELS_AT_REST,
@@ -164,48 +166,48 @@ struct levels_choice {
     enum levels_why why;
     real across;       /* thickness of the body [spacings] */
     int64_t particles; /* particles of the body, made or not */
-    real step_share;   /* time.step over the critical step [1] */
+    real step_share;   /* time step of the scene divided by the critical time step [1] */
     struct load_rise rise;
 };
 
-/* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
- * have coarse cells; otherwise r->room stays NULL. particle_count: number of particles of the body, including those not
- * made. */
+/* Computes r->room, the highest coarsening level (0: finest) that the thickness of the body allows in each cell, if
+ * scene s may have coarse cells; otherwise r->room stays NULL. particle_count: number of particles of the body,
+ * including those not made. */
 void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, const struct scene *s,
                                                    int64_t particle_count);
 
-/* Returns the number of coarse refinement levels for scene s, and the reason. The number is given by the scene or
- * chosen from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
+/* Returns the number of levels of coarse cells for scene s, and the reason. The number is given by the scene or chosen
+ * from its loads and the thickness of the body. dt_critical: critical time step of the run [s]. */
 struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical);
 
-/* Writes the number of refinement levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
+/* Writes the number of coarsening levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
  * from mesh_levels_choose_level_count. */
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
                                       size_t capacity);
 
-/* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
+/* Returns true if the scene gives more coarsening levels than its loads or the thickness of the body allow, and writes
  * why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
  * mesh_levels_choose_level_count. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);
 
-/* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels;
+/* Makes the coarse cells of run e, whose time step must be known, with initial coarsening levels;
  * levels_from_checkpoint: true if the levels follow from a checkpoint instead. Returns FAILED, with a message, if a
  * level would have too many nodes. */
 status mesh_levels_make_coarse_cells(struct run *e, bool levels_from_checkpoint);
 
-/* Returns true if refinement levels may change before step number `step`: if there are coarse levels, step > 0, and all
+/* Returns true if coarsening levels may change before step number `step`: if there are coarse levels, step > 0, and all
  * levels have reached the same time. */
 bool mesh_levels_may_change_before_step(const struct mesh_levels *l, int64_t step);
 
-/* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
- * conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees, with the
- * level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
+/* Computes the coarsening levels of cells (0: finest) for the next steps from stress, cracks and present motion. loads:
+ * boundary conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees,
+ * with the level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
 uint8_t *mesh_levels_choose_for_next_steps(struct reference_frame *r, const struct particles *p,
                                            const struct loads *loads, int64_t step, real mass);
 
-/* Changes the refinement levels of run e. new_cell_level: for each cell of level 0 (the finest) the level of the cell
+/* Changes the coarsening levels of run e. new_cell_level: for each cell of level 0 (the finest) the level of the cell
  * to which it shall belong, as mesh_levels_choose_for_next_steps returns it. Cells that become level 0 must have
  * particles (levels_need_more_particles). The energy that the change removes is added to e->damped. */
 void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level);
@@ -214,7 +216,7 @@ void mesh_levels_change_cell_levels(struct run *e, const uint8_t *new_cell_level
  * convert, and requests finer cells there. To be called before points convert. */
 void mesh_levels_delay_conversion_at_coarse_cells(struct mesh_levels *l, struct particles *p);
 
-/* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
+/* Updates, after coarsening levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
  * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
 void mesh_levels_update_node_lists(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                    struct loads *loads);
@@ -240,7 +242,7 @@ bool initial_levels_have_all_needed_particles(struct reference_frame *r, const u
  * with more particles. new_cell_level: for each cell of level 0 the level of the cell to which it shall belong. */
 bool levels_need_more_particles(const struct mesh *mesh, const uint8_t *new_cell_level);
 
-/* Chooses the cells without particles for the given refinement levels and stores them in r->hollow. Particles change
+/* Chooses the cells without particles for the given coarsening levels and stores them in r->hollow. Particles change
  * only when the run is set up again. cell_level: for each cell of level 0 (the finest) the level of the cell to which
  * it shall belong. */
 void cells_without_particles_update_from_levels(struct reference_frame *r, const uint8_t *cell_level);

@@ -11,20 +11,22 @@
 
 enum rigid_motion { RIGID_FIXED, RIGID_DRIVEN, RIGID_FREE };
 
+/* A rigid body: its shape, how it moves, and its present motion and forces. Members marked FREE or DRIVEN have a
+ * meaning for this kind of motion only. */
 struct rigid_body {
     char name[NAME_MAX_LENGTH];
     const struct region *shape; /* of t = 0; kept by reference */
     int dim;
     enum rigid_motion motion;
     bool turns;                /* FREE: may rotate */
-    real speed[DIM_MAX], ramp; /* DRIVEN: velocity [m/s] from t = `ramp` on, before in proportion to t [s] */
+    real speed[DIM_MAX], ramp; /* DRIVEN: velocity from t = `ramp` on [m/s]; before, it grows in proportion to t [s] */
     real mass;                 /* FREE [kg] */
     /* FREE: tensor of inertia about the centre, at t = 0; in the plane only zz counts [kg m^2] */
     real inertia[DIM_MAX][DIM_MAX];
     real weight[DIM_MAX]; /* FREE: constant force at the centre [N] */
     /* largest face of the bounding box: 1 in 1D, a length [m] in 2D, an area [m^2] in 3D */
     real face;
-    real centre[DIM_MAX]; /* at t = 0: of mass, without a mass of the volume [m] */
+    real centre[DIM_MAX]; /* at t = 0: centre of mass, or of volume if the body has no mass [m] */
     real radius;          /* diagonal of the bounding box [m] */
 
     real x[DIM_MAX]; /* present position of the centre [m] */
@@ -33,7 +35,7 @@ struct rigid_body {
     real angular[DIM_MAX];        /* angular momentum about the centre [kg m^2/s] */
     real turn[DIM_MAX][DIM_MAX];  /* rotation matrix from t = 0 to the present */
     real force[DIM_MAX];          /* contact force on the body in the last step [N] */
-    real moment[DIM_MAX];         /* and its moment about the centre [N m] */
+    real moment[DIM_MAX];         /* moment of the contact forces about the centre in the last step [N m] */
     real force_most;              /* largest |force| so far [N] */
     real increment[DIM_MAX];      /* displacement in the last step [m] */
     real force_previous[DIM_MAX]; /* force at the last call of rigid_add_work_of_prescribed_motion [N] */

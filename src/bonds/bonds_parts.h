@@ -79,9 +79,9 @@ void bonds_copy_softening_of_row(struct bonds *b, const struct particles *p, con
  * FAILED if an entry is missing or its size differs. */
 status softening_save_or_load_bond_states(struct bonds *b, struct archive *a);
 
-/* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
- * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
- * peridynamic. */
+/* Returns true if the row of particle i in the previous bonds maker->old lists its present neighbours, so that they
+ * need not be searched for. This requires that such a row exists, and either that maker->fresh[i] is 0, or that the row
+ * has all neighbours and the particle is peridynamic. */
 static inline bool bond_row_previous_is_still_valid(const struct row_maker *maker, int64_t i)
 {
     const int64_t before = maker->old ? maker->old->row_of[i] : -1;
@@ -119,10 +119,10 @@ struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, i
 /* Copies the neighbours saved in `saved` back to the first `row_count` rows of the array `row`. */
 void bond_rows_restore_found_neighbours(const struct row_block_found *saved, struct row *row, int row_count);
 
-/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays.
- * previous_row_block[row blocks]: number of the previous row block in maker->old whose columns are used again in place,
- * -1 for a row block that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use columns of removed
- * row blocks if these are enough, else columns behind all others (bonds_columns.c). */
+/* Assigns a range of columns (eight bonds each) to every row block (the bonds of eight particles) of b and allocates
+ * the column arrays. previous_row_block[row blocks]: number of the previous row block in maker->old whose columns are
+ * used again in place, -1 for a row block that is rebuilt; NULL if there are no previous bonds. Rebuilt row blocks use
+ * columns of removed row blocks if these are enough, else columns behind all others (bonds_columns.c). */
 void bonds_assign_columns_to_row_blocks(struct bonds *b, const struct row_maker *maker,
                                         const int64_t *previous_row_block);
 
@@ -177,11 +177,12 @@ bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
 
-/* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
- * quickly (bonds_stencil_cache.c). map: of the lattice sites. Release with stencil_cache_free. */
+/* Returns a new, empty cache for one thread: a memory of the last row blocks (bonds of eight particles each) that were
+ * made, with which later ones are compared, so that equal bonds are copied instead of computed (bonds_stencil_cache.c).
+ * map: from lattice sites to particles, kept by reference. Release with stencil_cache_free. */
 struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 
-/* Releases the cache t. */
+/* Releases the cache t of row blocks. Does nothing if t is NULL. */
 void stencil_cache_free(struct stencil_cache *t);
 
 /* Searches the cache for a row block whose bonds equal `bonds`, those of the eight particles from `first_particle` on,
@@ -205,10 +206,11 @@ bool bond_row_block_compute_lattice_bonds(const struct site_map *map, const stru
                                           const struct particles *p, int64_t first_particle,
                                           struct regular_bonds *found_bonds);
 
-/* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
+/* Returns the number of columns that `bonds`, the bonds of eight particles on a lattice, need: one for each index
+ * distance (index of the neighbour less index of the particle) at which one of them has a bond. */
 int regular_bonds_count_columns(const struct regular_bonds *bonds);
 
-/* Returns the number of directed bonds of eight particles on a lattice. */
+/* Returns the sum of the numbers of bonds of eight particles on a lattice. A bond between two of them counts twice. */
 int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
@@ -257,8 +259,9 @@ void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buf
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                             const struct row_maker *maker);
 
-/* Stores the columns in `buffer` as columns of row block `row_block`, or, if their bonds equal those of a known
- * stencil, makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
+/* Stores the columns in `buffer` as columns of row block `row_block` (the bonds of eight particles), or, if their bonds
+ * equal those of a known stencil (a bond pattern of the lattice), makes the row block follow that stencil and stores no
+ * columns. Called after the columns were filled. */
 void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                              const struct particles *p);
 
@@ -276,13 +279,14 @@ int bonds_find_lattice_shell(const struct bonds *b, const real *inverse_length, 
  * table if `existing` is NULL (bonds_stencils.c). Release with stencils_release_table. */
 struct stencils *stencils_share_or_make_table(struct stencils *existing);
 
-/* Removes one user of the table of stencils p; the last user releases it. */
+/* Removes one user of the table `stencils`, the bond patterns that many row blocks of a lattice share; the last user
+ * releases it. */
 void stencils_release_table(struct stencils *stencils);
 
 /* Allocates `stencil` for up to `max_columns` columns. Release with stencil_free. */
 void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 
-/* Releases the arrays of `stencil`. */
+/* Releases the arrays of `stencil`, a bond pattern for row blocks of a lattice. */
 void stencil_free(struct stencil *stencil);
 
 /* Appends the column `added_column` (eight bonds) of the row block with the eight consecutive particles from
@@ -298,8 +302,9 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
                                           const struct stencil *first_guess);
 
 /* Makes row block `row_block` use the stencil of the row block that contains particle `particle`, so that it needs no
- * stored columns; breaking limits and family volumes are copied from there, too. If cached = -1, `row_block` uses the
- * stencil that it already has. Returns false, and changes nothing, if there is no stencil. */
+ * stored columns; breaking limits and family volumes are copied from there, too. If particle = -1, `row_block` uses the
+ * stencil that it already has. A stencil is a list of columns that many row blocks (bonds of eight particles) of a
+ * lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
 /* Writes the eight bonds `bonds` to column number `column_number` of the bond arrays. */

@@ -54,17 +54,18 @@ static inline struct seen near_faces_source_of_entry(const struct near_faces *b,
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
 
-/* Returns the particle or image at offset number k from the t-th particle near faces, -1 if there is none or the bond
- * is cut. */
+/* Returns the particle or mirror image that is offset number `offset_number` (an index into the arrays of b->offset,
+ * the relative positions of neighbours on the lattice) away from b->particle[particle_number]; -1 if there is none or
+ * the bond is cut. */
 static inline int32_t near_faces_neighbour_at_offset(const struct near_faces *b, int64_t particle_number,
                                                      int offset_number)
 {
     return b->neighbour[particle_number * b->offset.n + offset_number];
 }
 
-/* Returns the neighbour at offset number `offset`, in space, of a particle near faces that is itself seen through
- * mirrors (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there
- * is no neighbour or the bond is cut. */
+/* Returns the neighbour at offset number `offset` (a relative position on the lattice) of `from`, a particle near faces
+ * or its image in mirrors. The result contains the particle of the body and the axes that mirrors reverse on the way to
+ * this neighbour; its member `particle` is -1 if there is no neighbour or the bond is cut. */
 static inline struct seen near_faces_mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
 {
     const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
@@ -75,7 +76,8 @@ static inline struct seen near_faces_mirrored_neighbour(const struct near_faces 
     return to;
 }
 
-/* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
+/* Returns true if no neighbour of entry j of the particle arrays is missing, so that no face is near. If j is a mirror
+ * image, the particle that it mirrors is examined. */
 static inline bool particle_family_is_complete(const struct near_faces *b, int64_t j)
 {
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
@@ -100,8 +102,8 @@ void near_faces_free(struct near_faces *b);
 struct surface_fit_targets {
     real (*area)[DIM_MAX]; /* [n] area of the faces in the particle's cell times outward normal, extrapolated from
                               layers to the face [spacing^(dim-1)] */
-    real *dipole; /* [n] relative increase tau of the target of the fourth moment of the bonds, over the constant alpha
-                     of the model [1] */
+    real *dipole; /* [n] tau/alpha: relative increase tau of the required fourth moment of the bonds, divided by the
+                     constant alpha of the model [1] */
     real (*normal2)[DIM_MAX][DIM_MAX]; /* [n] N (x) N of the face normal N, averaged over nearby faces; trace 1 at a
                                           plane face, less at smaller faces, 0 without a face nearby */
     uint8_t *thin;                     /* [n] too few layers between two faces: fewer than THIN or THIN_ROTATING */
@@ -133,8 +135,9 @@ struct bond_classes {
  * with one factor each. Release with bond_classes_free. */
 void bond_classes_group_bonds_near_faces(struct bond_classes *classes, const struct near_faces *near);
 
-/* Returns the particle or image at offset number k from the first member of a class of particles with equal
- * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
+/* Returns the particle or mirror image that is offset number `offset_number` (a relative position on the lattice) away
+ * from the first particle of class `class`, whose particles have equal surroundings up to reflections; -1 if there is
+ * none. The offset refers to the axes of the class, some of which may be reversed at this particle. */
 static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *classes, const struct near_faces *near,
                                                      int32_t class, int offset_number)
 {
@@ -143,7 +146,7 @@ static inline int32_t bond_class_neighbour_at_offset(const struct bond_classes *
                                           near->offset.mirrored[classes->mirrors[t] * near->offset.n + offset_number]);
 }
 
-/* Releases all arrays of a. */
+/* Releases all arrays of `classes`. */
 void bond_classes_free(struct bond_classes *classes);
 
 /* Number of third and fourth moments of a bond in space, and in the plane (_2D), each padded to an even number. */
@@ -174,13 +177,13 @@ enum { SURFACE_PRODUCTS = 1000 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
  * the factors [groups]. max_matrix_products: largest number of products with the matrix of the dual problem, fewer in
- * large bodies. Returns the remaining residual over the residual with all factors 1 [1]. */
+ * large bodies. Returns the remaining residual divided by the residual with all factors 1 [1]. */
 real surface_fit_solve_least_squares(const struct surface_fit_problem *q, real *factor, int max_matrix_products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [classes->groups] [1]; targets: targets of the fit; with_rotations: true for the model with particle
- * rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the residual that is left, over the
- * first one [1]. */
+ * rotations. max_matrix_products: as in surface_fit_solve_least_squares. Returns the remaining residual divided by that
+ * with all factors 1 [1]. */
 real surface_fit_compute_bond_weight_factors(real *factor, const struct near_faces *near,
                                              const struct surface_fit_targets *targets,
                                              const struct bond_classes *classes, bool with_rotations,

@@ -19,9 +19,9 @@ static inline void grid_advance_to_next_node_indices(const struct grid *g, int64
     for (int d = 0; d < g->dim && ++axis_index[d] == g->count[d]; d++) axis_index[d] = 0;
 }
 
-/* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). fine_index:
- * indices of the cell of level 0 along the axes; coarse_index: receives the indices of the coarse cell along the axes,
- * NULL if not needed. */
+/* Returns the index of the cell of coarsening level `level` that contains a cell of level 0 (the finest). fine_index:
+ * indices of the cell of level 0 along the axes; coarse_index: receives those of the coarse cell, NULL if not
+ * needed. */
 static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *l, int level, const int64_t *fine_index,
                                                       int64_t *coarse_index)
 {
@@ -35,7 +35,7 @@ static inline int64_t levels_coarse_cell_of_fine_cell(const struct mesh_levels *
     return I;
 }
 
-/* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`.
+/* Returns the index of the node of level 0 (the finest) at the position of a node of coarsening level `level`.
  * coarse_index: indices of this node along the axes. */
 static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *l, int level,
                                                       const int64_t *coarse_index)
@@ -47,7 +47,7 @@ static inline int64_t levels_fine_node_of_coarse_node(const struct mesh_levels *
     return I;
 }
 
-/* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of refinement level `level`
+/* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of coarsening level `level`
  * that contains it. fine_index: indices of the cell of level 0 along the axes. */
 static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels *l, int level,
                                                        const int64_t *fine_index)
@@ -58,14 +58,15 @@ static inline bool levels_fine_cell_is_at_lower_corner(const struct mesh_levels 
     return lowest;
 }
 
-/* Returns the number of cells of level 0 (the finest) in one cell of refinement level `level`. */
+/* Returns the number of cells of level 0 (the finest) in one cell of coarsening level `level`. */
 static inline int levels_fine_cells_per_cell(const struct mesh_levels *l, int level)
 {
     return 1 << l->fine->grid.dim * level;
 }
 
-/* Returns the index of cell number `number_in_coarse_cell` of those cells of level 0 (the finest) that form one cell of
- * refinement level `level`. first_cell: index of the one at the lower corner. */
+/* Returns the index of one of the cells of level 0 (the finest) that form a cell of coarsening level `level`.
+ * number_in_coarse_cell: number of this cell of level 0 in the coarse cell, 0 to 2^(dim level) - 1, x fastest;
+ * first_cell: index of the cell of level 0 at the lower corner of the coarse cell. */
 static inline int64_t levels_fine_cell_in_coarse_cell(const struct mesh_levels *l, int level, int64_t first_cell,
                                                       int number_in_coarse_cell)
 {
@@ -74,7 +75,7 @@ static inline int64_t levels_fine_cell_in_coarse_cell(const struct mesh_levels *
     return first_cell;
 }
 
-/* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
+/* Returns true if one of the cells of level 0 (the finest) in a cell of coarsening level `level` has a lower level in
  * `cell_level`, an array with a level for each cell of level 0. first_cell: index of the cell of level 0 at the lower
  * corner. */
 static inline bool levels_coarse_cell_contains_finer_level(const struct mesh_levels *l, int level, int64_t first_cell,
@@ -100,20 +101,21 @@ static inline bool mesh_cell_computes_forces(const struct mesh *mesh, int64_t ce
     return mesh->kind[cell] == CELL_WHOLE || mesh->kind[cell] == CELL_PARTIAL;
 }
 
-/* Copies displacement and velocity to the ghosts of a refinement level, the nodes at positions of nodes of the next
- * finer level, from these nodes. */
+/* Copies displacement and velocity to the ghosts of coarsening level `level` > 0: nodes of its mesh at the positions of
+ * nodes of the next finer level, from which the motion is copied. */
 void levels_copy_motion_to_ghosts_of_one_level(struct mesh_levels *l, int level);
 
-/* Sets displacement and velocity of the hanging nodes of level - 1, the nodes in the middle of edges or faces of cells
- * of `level`, to the mean of the nodes at the ends or corners. */
+/* Sets displacement and velocity of hanging nodes to the mean of the nodes around them. These are nodes of level
+ * `level` - 1 in the middle of an edge or a face of a cell of the coarser level `level`; the mean is over the ends of
+ * the edge or the corners of the face. */
 void levels_interpolate_motion_of_hanging_nodes(struct mesh_levels *l, int level);
 
-/* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
- * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
- * between levels follows in levels_add_masses_of_dependent_nodes. */
+/* Determines the cells of all coarse levels from l->level, the coarsening level of each cell of level 0 (the finest):
+ * their kind, material and number, and the masses of their nodes (the mass of a cell is divided equally among its
+ * corners). The transfer of mass between levels follows in levels_add_masses_of_dependent_nodes. */
 void levels_compute_coarse_cells_and_masses(struct mesh_levels *l, const struct particles *p);
 
-/* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
+/* Finds the nodes at interfaces of coarsening levels: ghosts, at the position of a node of the next finer level, and
  * hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose inertia is
  * matched to the dispersion of the bonds (levels_match_wave_dispersion_of_bonds). */
 void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
@@ -123,7 +125,7 @@ void levels_find_ghost_and_hanging_nodes(struct mesh_levels *l);
  * their momentum in grid.momentum [kg m/s], too. */
 void levels_add_masses_of_dependent_nodes(struct mesh_levels *l, bool transfer_momenta);
 
-/* Finds the runs of all refinement levels (rows of consecutive cells of equal material), the spans of nodes with mass,
+/* Finds the runs of all coarsening levels (rows of consecutive cells of equal material), the spans of nodes with mass,
  * and the active blocks of nodes. To be called after levels_add_masses_of_dependent_nodes. */
 void levels_make_cell_rows_and_node_spans(struct mesh_levels *l);
 
@@ -136,7 +138,7 @@ void levels_interpolate_motion_to_fine_nodes(struct mesh_levels *l, bool all_nod
  * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta_from_velocities(struct mesh_levels *l);
 
-/* Returns true if the refinement levels are consistent: all cells of level 0 in a coarse cell have its level, and
+/* Returns true if the coarsening levels are consistent: all cells of level 0 in a coarse cell have its level, and
  * coarse cells are completely filled. */
 bool levels_are_consistent(const struct mesh_levels *l);
 

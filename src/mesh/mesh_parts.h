@@ -1,4 +1,5 @@
-/* Private header of the files of the mesh. */
+/* Declarations shared by the files of the room mesh: partial cells and their stiffness, slits, nodal fits, masses and
+ * blocks of nodes. */
 #ifndef CLEAVE_MESH_PARTS
 #define CLEAVE_MESH_PARTS
 
@@ -51,8 +52,9 @@ void mesh_partial_free(struct mesh *mesh);
 status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                const real *lower_corner, const real *upper_corner);
 
-/* Connects each block of nodes (eight along x) beside slits with the blocks of the second nodes at the same positions,
- * so that motion spreads from one to the other. To be called after the blocks are made. */
+/* Connects each block of nodes (eight along x) beside slits (pre-cracks as free surfaces of the mesh) with the blocks
+ * of the second nodes at the same positions, so that a block becomes active when the other one moves. To be called
+ * after the blocks are made. */
 void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
 /* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Slits
@@ -60,7 +62,7 @@ void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
  * groups are made. */
 void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
-/* Frees the arrays of s. */
+/* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh. */
 void mesh_slits_free(struct mesh_slits *s);
 
 /* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
@@ -82,7 +84,7 @@ int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const st
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
- * mesh->level, the refinement level of each cell, has changed in some cells. source: material constants and partial
+ * mesh->level, the coarsening level of each cell, has changed in some cells. source: material constants and partial
  * stresses; level_has_changed: mesh->grid.n + LANES bytes, not 0 for these cells. */
 void mesh_rebuild_cells_after_level_change(struct mesh *mesh, const struct particles *p,
                                            const struct mesh_source *source, const uint8_t *level_has_changed);
@@ -110,7 +112,7 @@ bool mesh_cell_is_inverted(const struct mesh *mesh, int64_t cell);
 status mesh_allocate_box(struct mesh *mesh, const struct grid *node_grid, const real *lower_corner,
                          const real *upper_corner, const struct particles *p, const struct mesh_source *source);
 
-/* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
+/* Returns true if cell `cell` of level 0 (the finest) is part of a coarse cell, by its coarsening level or because its
  * particles are not made. */
 static inline bool mesh_cell_is_part_of_coarse_cell(const struct mesh *mesh, int64_t cell)
 {

@@ -9,10 +9,12 @@ struct region_moments {
     real volume;                   /* [m^dim] */
     real centre[DIM_MAX];          /* centre of the volume [m] */
     real second[DIM_MAX][DIM_MAX]; /* mean of (X - centre)(X - centre)^T [m^2] */
-    real change;                   /* relative change of the moments in the last refinement, about their error [1] */
+    real change; /* relative change of the moments in the last refinement of the sampling, an estimate of their error
+                    [1] */
 };
 
-/* Relative error of the moments from which on a uniform grid of sampling points is not enough [1]. */
+/* Largest relative error of the moments with a uniform grid of sampling points [1]; if it is exceeded, cells at the
+ * surface are divided instead. */
 #define MOMENTS_ACCURATE 0.005
 
 /* Computes the moments of a region within its bounding box `from` .. `to` (dim components each [m]): with a uniform
