@@ -34,6 +34,8 @@ struct contact_profile {
     real density[PROFILE_NODES], depth[PROFILE_NODES], slope[PROFILE_NODES];
 };
 
+/* Law of contact between particles: between which particles and in which form contact acts, stiffness and friction, and
+ * the geometry that it depends on. `stiffness` is owned. */
 struct contact_law {
     enum contact_between between;   /* allowed between: no particles, different bodies, all particles */
     enum contact_form form;         /* surface or pair */
@@ -41,7 +43,8 @@ struct contact_law {
     struct contact_profile profile; /* of the form `surface` */
     real friction;                  /* coefficient of friction [1] */
     int materials;
-    real *stiffness;           /* [materials^2] k/(V_i V_j) [N/m^7] */
+    real *stiffness; /* [materials^2] k/(V_i V_j) by pair of materials: contact stiffness k divided by the volumes of
+                        both particles [N/m^7] */
     real spacing, section;     /* of the lattice [m]; thickness or cross section (lattice_particle_volume) */
     const struct image *image; /* images of particles, of the loads; kept by reference */
     const struct crack *crack; /* kept by reference; cracks with a width are notches */
@@ -63,7 +66,7 @@ struct contact_spring {
  * spring in every step. */
 struct contact_reaction {
     real arm[DIM_MAX];  /* from the weighted mean position of the face to the particle [m] */
-    real turn[DIM_MAX]; /* moment of the drag about that position over the moment of inertia [N/m] */
+    real turn[DIM_MAX]; /* moment of the drag about that position, divided by the moment of inertia [N/m] */
 };
 
 /* Contact of a particle with the faces of other bodies or fragments beside it. Its energy is 1/4 k gap^2 with the
@@ -72,7 +75,8 @@ struct contact_face {
     real zero;      /* height above the face at which contact begins [spacings] */
     real stiffness; /* stiffness k [J] */
     real far;       /* smallest possible gap at the last search, 0 or more [spacings] */
-    /* derivative of the energy by the density [J]; by the mean rise, over the density [J]; mean rise [spacings] */
+    /* derivative of the energy by the density of the face [J]; derivative by `mean`, divided by the density [J]; mean
+     * height of the surface of the body above the particles of the face, minus 1/2 [spacings] */
     real push, lift, mean;
 };
 
@@ -80,7 +84,7 @@ struct contact_face {
  * follows (contact_balance.c). */
 struct contact_balance {
     real gap, older; /* gaps of the last two steps [spacings] */
-    real drag;       /* force against the rate of the gap [J] */
+    real drag;       /* correcting force: derivative of the energy by the gap, against the rate of the gap [J] */
     real account;    /* energy added minus energy removed [J] */
 };
 
@@ -129,24 +133,25 @@ struct contact {
     bool marked;                       /* equilibria: exactly the marked contacts act, with either sign of the gap */
     uint8_t *touch;                    /* marks: form `surface` [rows], form `pair` [pairs]; NULL: none */
     bool by_overlap;                   /* the marks exist but are ignored at present */
-    int64_t waiting;                   /* rows that may come into contact once their particles move */
+    int64_t waiting;                   /* number of rows that may come into contact once their particles move */
     real friction_work;                /* work of friction up to the last search [J] */
     int rigids;
     struct rigid_body *rigid;  /* [rigids] kept by reference */
     struct contact_near *near; /* [rigids]; NULL before the first search */
     real moved;                /* largest displacement of a particle since the last search [m] */
-    int64_t searched, broken;  /* at the last search: step number; directed bonds broken */
-    int64_t changed;           /* number of conversions and reversions that the row states include */
-    bool due;                  /* a search is due regardless of displacements */
-    int64_t pairs_most;        /* largest number of pairs in contact at a time */
-    real overlap;              /* largest overlap d - r in the last step [m] */
-    real overlap_most;         /* largest overlap of the run [m] */
-    int32_t deepest;           /* a particle of the pair with the largest overlap; -1: none */
-    bool overlap_said;         /* the warning of large overlaps has been given */
-    real began, ended;         /* first and last time of contact; NAN: none so far [s] */
-    int64_t touching;          /* directed pairs in contact in the last step */
-    bool recorded;             /* contact forces of the next step are recorded in `push` */
-    real *push[DIM_MAX];       /* [particles of the body] recorded contact forces; NULL: not recorded [N] */
+    int64_t searched, broken;  /* at the last search: step number; number of bonds broken so far, each counted once for
+                                  each of its particles */
+    int64_t changed;     /* number of conversions and reversions at which the states `followed` were last updated */
+    bool due;            /* a search is due regardless of displacements */
+    int64_t pairs_most;  /* largest number of pairs in contact at a time */
+    real overlap;        /* largest overlap d - r in the last step [m] */
+    real overlap_most;   /* largest overlap of the run [m] */
+    int32_t deepest;     /* a particle of the pair with the largest overlap; -1: none */
+    bool overlap_said;   /* the warning of large overlaps has been given */
+    real began, ended;   /* first and last time of contact; NAN: none so far [s] */
+    int64_t touching;    /* pairs in contact in the last step, each counted once for each of its particles */
+    bool recorded;       /* contact forces of the next step are recorded in `push` */
+    real *push[DIM_MAX]; /* [particles of the body] recorded contact forces; NULL: not recorded [N] */
 };
 
 /* Initialises the contact c of a run, without a search for pairs. between: which bodies can be in contact; law: form,
@@ -170,8 +175,8 @@ real contact_critical_time_step(const struct contact *c, const struct particles 
  * done in three cases: particles have moved farther than contact_pair_list_safe_displacement since the last search;
  * bonds have been broken since then, and it was at least BREAKS_WAIT steps ago; or a search was requested (c->due).
  * Particles on which contact forces may act are marked as loaded in `loads`, and their bonds in b as active, i.e. to be
- * computed. family: horizon and lattice; broken_bond_count: number of directed bonds broken so far; conversion_count:
- * number of conversions and reversions so far. */
+ * computed. family: horizon and lattice; broken_bond_count: number of bonds broken so far, each counted once for each
+ * of its particles; conversion_count: number of conversions and reversions so far. */
 void contact_update_pair_list_if_outdated(struct contact *c, const struct particles *p, struct bonds *b,
                                           struct loads *loads, const struct family *family, int64_t step_number,
                                           int64_t broken_bond_count, int64_t conversion_count);
@@ -220,13 +225,15 @@ real contact_friction_dissipated_energy(const struct contact *c);
 int64_t contact_search_select_and_count_changes(struct contact *c, const struct particles *p, struct bonds *b,
                                                 struct loads *loads, const struct family *family, real max_gap);
 
-/* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: those that overlap, and
- * those between different bodies whose gap is less than `max_gap` [spacings]. A contact whose gap is 0 within
- * round-off stays as it was. Returns the number of contacts whose selection changed. */
+/* Selects the contacts that act in an equilibrium solution, from the existing list of pairs: contacts that overlap, and
+ * contacts between different bodies whose gap is less than `max_gap` [spacings]. They act as linear springs until the
+ * next selection. A contact whose gap is 0 within round-off stays as it was. Returns the number of contacts whose
+ * selection changed. */
 int64_t contact_select_active_and_count_changes(struct contact *c, const struct particles *p, real max_gap);
 
-/* Chooses which contacts act when forces are computed next. selected_only: true for those selected by
- * contact_select_active_and_count_changes, as linear springs; false for all that overlap. */
+/* Chooses which contacts act when forces are computed next. selected_only: true for the contacts that
+ * contact_select_active_and_count_changes has selected for an equilibrium, which act as linear springs with either sign
+ * of the gap; false for all contacts that overlap. */
 void contact_restrict_forces_to_selection(struct contact *c, bool selected_only);
 
 /* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
@@ -238,8 +245,8 @@ void contact_discard_equilibrium_selection(struct contact *c);
  * search. */
 bool contact_search_is_needed(struct contact *c, const struct particles *p);
 
-/* Returns the largest distance that each particle may move after a search for pairs [m]. Up to it, no pair that is
- * missing in the list can come into contact. */
+/* Returns the largest distance that each particle may move after a search for pairs [m]. As long as no particle has
+ * moved farther, no pair that is missing in the list can come into contact. */
 real contact_pair_list_safe_displacement(const struct contact *c);
 
 /* Calls visit(context, term) for each contact selected by contact_select_active_and_count_changes. term: the contact as

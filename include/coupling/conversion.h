@@ -18,10 +18,11 @@ struct conversion {
     real first_time;                  /* time of the first conversion [s], NAN: none so far */
     real first_place[DIM_MAX];        /* reference position of the particle that triggered the first conversion [m] */
     int64_t start, converted, events; /* peridynamic particles at t = 0; conversions since; passes with conversions */
-    int64_t peak_bonds;               /* largest number of stored directed bonds at a time */
-    int64_t peak;                     /* largest number of peridynamic particles at a time */
-    int64_t reverted, reversions;     /* particles that became material points again; passes with reversions */
-    real reversion_energy;            /* change of the total energy by reversions [J] */
+    int64_t peak_bonds; /* largest number of stored bonds at a time, each counted once for each of its particles that
+                           has a row */
+    int64_t peak;       /* largest number of peridynamic particles at a time */
+    int64_t reverted, reversions; /* particles that became material points again; passes with reversions */
+    real reversion_energy;        /* change of the total energy by reversions [J] */
 };
 
 /* Functions that convert_flagged_points calls, with `context` as first argument. sync: brings the motion of n listed
@@ -58,9 +59,9 @@ void initial_pd_region_make(struct region *region, const struct region *scene_re
 /* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, i.e. bonds to peridynamic
  * particles. This is the part of the stress of the point that it leaves to these bonds, stored as the matrix M that
  * maps the stress of the point to it: M = T C^-1 with the elastic stiffness C of the material and T = (1/V) sum K xi^2
- * l e e e e (partial_stress.c). The sum is over the bonds: K stiffness, xi length, e direction, l share of the
- * reference segment inside the cell; V: volume of the point. changed: n particles converted since the last call, only
- * points near which are recomputed; NULL: all points are. */
+ * l e e e e (partial_stress.c). The sum is over the bonds, with stiffness K, length xi, direction e and share l of the
+ * length inside the cell; V: volume of the point. changed: n particles converted since the last call, only points near
+ * which are recomputed; NULL: all points are. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 

@@ -17,7 +17,8 @@ struct coupling_state {
     bool uses_partial;          /* `partial` is filled: partial stresses, or data of state-based PD-MPM bonds */
     uint8_t *bonded;            /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
     struct interface_zone zone; /* damped zone beside peridynamic particles (FLIP, partial stress) */
-    real damping_share;         /* strength of the damping of the zone in a step [1]; 0: none */
+    real damping_share; /* strength of the damping in `zone` in a step (interface_zone_damp_and_return_half_energy) [1];
+                           0: none */
     struct conversion conversion;
     struct notches notches;     /* representation of pre-cracks: slits or cut bonds */
     struct region start_region; /* peridynamic from the start; no solids: empty */
@@ -34,8 +35,9 @@ void coupling_choose_and_compute_partial_stress(struct run *e);
 status coupling_make_reference_frame_mesh(struct run *e, bool caller_sets_motion);
 
 /* Rebuilds the data of coupling state c that depend on the bonds, after the bonds b have changed. c->bonded: marks of
- * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone, in
- * which motion is damped, for FLIP with partial stress only. source: inputs of the bonds. */
+ * material points with bonds to peridynamic particles, for the FLIP transfer only. c->zone: the interface zone,
+ * material points beside peridynamic particles whose motion is damped, for FLIP with partial stress only. source:
+ * inputs of the bonds. */
 void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const struct particles *p,
                                               const struct bonds *b, const struct bond_source *source);
 
@@ -85,14 +87,15 @@ void warn_of_bodies_that_pass_or_stick(const struct run *e, struct warnings *war
 
 /* Prepares the conversion of material points in a step: marks points (FLAG_NEAR) that are near other bodies, or beside
  * crack faces that approach each other, in each load step or once in APPROACH_STEPS time steps. Also updates the list
- * of row blocks of bonds that are active, i.e. may move. Returns true if the faces of cracks and voids were examined in
- * this step, so that points beside them may be marked. */
+ * of active row blocks (the bonds of eight particles each), whose particles may move. Returns true if the faces of
+ * cracks and voids were examined in this step, so that points beside them may be marked. */
 bool conversion_flag_points_near_bodies_or_faces(struct run *e);
 
 /* Converts the marked material points to peridynamic particles, and updates all that depends on it: bonds, contact,
- * partial stresses, interface zone and mesh. broken_bond_count: number of directed bonds broken in this step;
- * faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this step; bonds_fade: true if
- * bonds of growing cracks lose strength gradually. Returns the number of particles converted. */
+ * partial stresses, interface zone and mesh. broken_bond_count: number of bonds broken in this step, each counted once
+ * for each of its particles; faces_examined: value that conversion_flag_points_near_bodies_or_faces returned in this
+ * step; bonds_fade: true if bonds of growing cracks lose strength gradually. Returns the number of particles
+ * converted. */
 int64_t conversion_convert_points_and_update_run(struct run *e, int64_t broken_bond_count, bool faces_examined,
                                                  bool bonds_fade);
 

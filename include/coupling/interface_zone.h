@@ -18,8 +18,11 @@
 #include "bonds/bonds.h"
 #include "data/particles.h"
 
+/* The interface zone: material points beside peridynamic particles, whose motion is damped, and their neighbours. All
+ * arrays are owned. */
 struct interface_zone {
-    int64_t n, points;  /* members (points of the zone, then their other neighbours); points of the zone */
+    int64_t n, points;  /* members, i.e. points of the zone, then neighbours of these points outside the zone; number of
+                           points of the zone */
     int32_t *particle;  /* [n] particle of each member */
     int64_t *start;     /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
     int32_t *neighbour; /* members, as indices in `particle` */

@@ -9,20 +9,26 @@
  * [spacings]. */
 #define NOTCH_GAP 1e-4
 
+/* How a pre-crack is represented. slit: true as a slit, a free surface of the mesh; false by cut bonds along all its
+ * length; reason: why it is no slit, in words, NULL if it is one. */
 struct notch {
     bool slit;
     const char *reason;
-}; /* reason: why the crack is no slit; NULL: it is one */
+};
 
+/* All pre-cracks of a run, those that are slits and those that cut bonds, and the particles beside slits and narrow
+ * voids. */
 struct notches {
     int n;
     struct notch *notch; /* [n] for each pre-crack */
     int slits, images, cuts;
-    /* kept by reference. slit: [slits] of the scene, then [images] slits in the body with their mirror images; cut:
-     * [cuts] cracks that cut bonds along all their length, likewise */
+    /* owned, except the corners of the cracks. slit: the [slits] slits as given in the scene, then [images] parts of
+     * them in the body and mirror images; cut: [cuts] cracks that cut bonds along all their length: parts in the body
+     * and mirror images */
     struct crack *slit, *cut;
     real radius; /* radius of the peridynamic zones round the ends of slits [m] */
-    real *lost;  /* [particles] share of the family of each particle beyond slits [1]; NULL: no slits */
+    real *lost;  /* [particles] fraction of the neighbours of each particle that slits separate from it [1]; NULL: no
+                    slits */
     int64_t faces;
     int32_t *face;             /* [faces] particles beside a slit or a narrow void, in ascending order */
     real *depth;               /* [faces] depth of particles beside a void below the surface [m] */

@@ -8,8 +8,8 @@
 struct reversion_rule {
     const struct bond_source *source;
     const struct elastic *elastic; /* [materials] with the stress at which points convert */
-    const struct region *kept;     /* region that stays peridynamic; NULL: none */
-    real low_stress;               /* largest stress for reversion, over the stress at which points convert [1] */
+    const struct region *kept;     /* region whose particles always stay peridynamic; NULL: none */
+    real low_stress;               /* largest stress for reversion, divided by the stress at which points convert [1] */
     real hold_time;                /* time for which the stress must have been low [s] */
 };
 
@@ -19,8 +19,8 @@ struct reversion_rule {
  * Returns their number. A particle is selected if three conditions hold. It is outside the region rule->kept, and its
  * stress and that of all peridynamic particles of its family have been low for rule->hold_time. No bond of it or of a
  * particle within two horizons was ever cut, by load or by a pre-crack. It is inside a ball with the radius of one
- * horizon that will contain material points only. The remaining peridynamic regions thus consist of full families, as
- * conversion makes them, and the regions that revert are at least as wide as a family. */
+ * horizon that will contain material points only. By the third condition the remaining peridynamic regions consist of
+ * full families, as after conversion, and regions that revert are at least two horizons wide. */
 int64_t reversion_select_particles_to_become_mpm(const struct reversion_rule *rule, struct particles *p,
                                                  const struct bonds *b, real t, int32_t **selected);
 

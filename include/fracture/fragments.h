@@ -4,19 +4,21 @@
 
 #include "bonds/bonds.h"
 
+/* A fragment: a set of particles that unbroken bonds connect. */
 struct fragment {
     int body;
     int64_t particles;
-    int32_t first;                     /* its particle with the lowest index */
+    int32_t first;                     /* lowest particle index in the fragment */
     real mass, x[DIM_MAX], v[DIM_MAX]; /* mass [kg]; centre of mass [m], velocity of the centre [m/s] */
 };
 
+/* All fragments of a body, and its particles without a bond. Both arrays are owned. */
 struct fragments {
     int64_t n; /* fragments of two particles or more, the heaviest first */
     struct fragment *fragment;
     int32_t *of;       /* [particles of the body] index of the fragment of a particle; -1: none */
-    int64_t singles;   /* number of particles without a bond ... */
-    real mass_singles; /* ... and their mass [kg] */
+    int64_t singles;   /* number of particles without a bond, which are no fragments */
+    real mass_singles; /* total mass of particles without a bond [kg] */
 };
 
 /* Finds the fragments of a body: sets of peridynamic particles that unbroken bonds of b connect. Writes them to f,

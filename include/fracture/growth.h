@@ -40,27 +40,30 @@
 #include "scene/requests.h"
 #include "sif.h"
 
-/* Stress-intensity factors that drive a crack, with their time, and the direction of the tip in whose frame they were
- * computed: the crack turns relative to this direction until new factors are available. */
+/* Stress-intensity factors that drive a crack. along: unit vector of the direction of the tip in whose frame they were
+ * computed; the crack turns relative to this direction until new factors are available. */
 struct growth_control {
     struct sif factors;
     real along[2];
-    real time;                  /* of the factors [s] */
+    real time;                  /* time at which the factors were computed [s] */
     struct crack_medium medium; /* elastic body round the tip */
 };
 
-/* A bond i-j that a growing crack has crossed and that loses its weight gradually. whole, before, now: its weight when
- * it was crossed, in the previous step and at present [1]; length: length of the crack when the bond was crossed
- * [m]. */
+/* A bond between the particles i and j that a growing crack has crossed and that loses its weight gradually. whole,
+ * before, now: weight of the bond when it was crossed, in the previous step and at present [1]; length: length of
+ * growth of the crack when the bond was crossed [m]. */
 struct fading {
     int32_t i, j;
     real whole, before, now;
     real length;
 };
 
+/* State of a crack whose growth is prescribed or driven by stress-intensity factors. The list of fading bonds is
+ * owned. */
 struct growing_crack {
     const struct growth_rule *rule; /* kept by reference */
-    /* present position of the tip [m], direction of the factors' frame, speed of the last step, 0 at rest [m/s] */
+    /* present reference position of the tip [m]; direction in whose frame factors are computed (unit vector); speed in
+     * the last step, 0 at rest [m/s] */
     real place[2], along[2], speed;
     /* unit vector of the present direction of growth; `along` is its mean over the smoothing length */
     real heading[2];

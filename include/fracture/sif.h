@@ -26,15 +26,16 @@
 struct sight {
     const struct crack *crack;
     int cracks;
-    const struct bonds *bonds; /* whose broken bonds hide particles; NULL: none */
+    const struct bonds *bonds; /* bonds; neighbours behind a broken one are hidden; NULL: none are */
 };
 
+/* How gradients of fields at particles are computed: method, range, and which neighbours count. */
 struct gradient_rule {
     enum gradient_method method;
     real reach; /* rho_m; range of neighbours is 2 rho_m [m] */
     struct sight sight;
-    /* exponent l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther, round the tip; 0: not at all
-     * (visibility) */
+    /* exponent of the diffraction method of Organ et al. 1996, 1 or 2: hidden neighbours have the distance round the
+     * tip; 0: hidden neighbours are left out (visibility method) */
     int diffraction;
     real tip[DIM_MAX]; /* position of the tip [m] */
 };
@@ -68,9 +69,11 @@ void gradient_stencil_apply(const struct gradient_stencil *s, int64_t particle, 
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
+/* An annulus round a crack tip, over which the weight q of the interaction integral decreases. inner, outer: radii at
+ * which q begins to decrease from 1 and reaches 0 [m]. */
 struct contour {
     real inner, outer;
-}; /* radii where q decreases from 1 and reaches 0 [m] */
+};
 
 /* A crack tip and options of the integration round it. The second sum is the part of the interaction integral with the
  * inertia terms. */
@@ -80,8 +83,8 @@ struct sif_tip {
     int face;                /* +-1: side of the crack (sign of x_2) to which particles on it belong */
     int body;                /* particles of this body contribute; -1: of all bodies */
     real speed;              /* speed v of the tip, 0: at rest [m/s] */
-    /* radius at which the second sum counts half while the tip moves: not within a third of it, fully from five thirds
-     * on [m] */
+    /* radius at which the second sum counts half while the tip moves; it does not count within a third of this radius,
+     * and counts fully beyond five thirds [m] */
     real core;
     real thickness; /* thickness of the body [m] */
     enum sif_weight weight;
@@ -92,13 +95,14 @@ struct sif_tip {
  * acceleration are NULL for an equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
-    const real *body[2];   /* forces of loads over masses [m/s^2]; NULL: no loads inside the contours */
+    const real *body[2];   /* forces of loads divided by masses [m/s^2]; NULL: no loads inside the contours */
     const real *stress[3]; /* xx, yy, xy [Pa]; SIF_PARTICLE only */
 };
 
+/* Stress-intensity factors K[MODE_I], K[MODE_II] [Pa m^(1/2)] and J [J/m^2] of a crack tip. */
 struct sif {
     real K[MODES], J;
-}; /* [Pa m^(1/2)], [J/m^2] */
+};
 
 /* Computes the weight q of the interaction integral and its slope at distance r = `distance` from the crack tip [m].
  * *weight receives q, 1 for r <= contour->inner and 0 for r >= contour->outer; *slope receives dq/dr [1/m]. form:
@@ -122,8 +126,9 @@ void sif_compute_by_interaction_integral(const struct sif_tip *tip, const struct
                                          const struct particles *p, const struct cells *c, struct sif *result);
 
 /* Returns the largest relative difference between the results of `contour_count` contours [1]: the largest minus the
- * smallest K_I, or K_II, over sqrt(K_I^2 + K_II^2) of the mean factors, or the largest minus the smallest J over the
- * mean J, whichever is largest. Returns NAN if a denominator is 0. */
+ * smallest K_I, or K_II, divided by sqrt(K_I^2 + K_II^2) of the mean factors, or the largest minus the smallest J
+ * divided by the mean J, whichever is largest. It measures how far the result depends on the radii. Returns NAN if a
+ * divisor is 0. */
 real sif_relative_spread_over_contours(const struct sif *result, int contour_count);
 
 #endif

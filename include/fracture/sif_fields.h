@@ -30,10 +30,11 @@ struct crack_state {
     real acceleration[2];   /* particle acceleration [m/s^2] */
 };
 
+/* Field round a crack tip at one point: displacement [m] in the frame of the tip, and motion and stress. */
 struct crack_field {
     real displacement[2];
     struct crack_state state;
-}; /* [m] */
+};
 
 /* Computes the stress in the plane from the displacement gradient by Hooke's law. m: elastic constants, which include
  * the choice of plane stress or plane strain; gradient: du_i/dx_j [1]; stress: receives sigma_ij [Pa]. */
@@ -59,23 +60,24 @@ void crack_tip_field_moving(const struct crack_medium *m, enum crack_mode mode, 
 void crack_tip_field(const struct crack_medium *m, enum crack_mode mode, real speed, const real x[2],
                      struct crack_field *f);
 
-/* Returns the universal function A_I(v) (mode I) or A_II(v) (mode II) of the energy release rate G = (A_I K_I^2 + A_II
- * K_II^2)/E* (Freund 1990, chapter 5) [1]; both tend to 1 at rest. speed: speed v of the tip [m/s]. Both contain the
- * factor 1 - a_s^2, with a_s = sqrt(1 - v^2/c_s^2); some prints have 1 - a_d^2 in A_II, with a_d = sqrt(1 - v^2/c_d^2),
- * by which A_II would not tend to 1. */
+/* Returns the universal function A_I(v) (mode I) or A_II(v) (mode II) [1] of the energy release rate G = (A_I K_I^2 +
+ * A_II K_II^2)/E* of a moving crack (Freund 1990, chapter 5); both tend to 1 at rest. speed: speed v of the tip [m/s].
+ * Both contain the factor 1 - a_s^2, with a_s = sqrt(1 - v^2/c_s^2); some prints have 1 - a_d^2 in A_II, with a_d =
+ * sqrt(1 - v^2/c_d^2), by which A_II would not tend to 1. */
 real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real speed);
 
-/* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:
- * exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 - v/c_R)/sqrt(1 - v/c_d). */
+/* Formula for k(v), the ratio of K_I to K_I at rest, of a semi-infinite crack that grows at constant speed under a
+ * time-independent load: exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 -
+ * v/c_R)/sqrt(1 - v/c_d). */
 enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 
 /* Returns k(v), the ratio of K_I of a semi-infinite crack growing at the constant speed v = `speed` [m/s] to K_I of the
  * crack at rest under the same load [1]. form: exact solution or one of two approximations. */
 real crack_moving_to_resting_sif_ratio(const struct crack_medium *m, enum speed_factor form, real speed);
 
-/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_moving_to_resting_sif_ratio) equals
- * `sif_ratio` [m/s], limited to `max_speed` [m/s], which must be below the Rayleigh speed. Returns 0 if sif_ratio >= 1.
- */
+/* Returns the crack speed v [m/s] at which the exact ratio k(v) of K_I to K_I at rest
+ * (crack_moving_to_resting_sif_ratio) equals `sif_ratio` [1], limited to `max_speed` [m/s], which must be below the
+ * Rayleigh speed. Returns 0 if sif_ratio >= 1. */
 real crack_speed_from_sif_ratio(const struct crack_medium *m, real sif_ratio, real max_speed);
 
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund

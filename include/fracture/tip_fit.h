@@ -19,14 +19,16 @@
 #include "data/region.h"
 #include "sif_fields.h"
 
+/* A crack tip and the particles round it to whose displacements stress-intensity factors are fitted. */
 struct tip_view {
     struct crack_medium medium;
     /* unit vectors of the plane perpendicular to the front, in which all following vectors are */
     real axis[2][DIM_MAX];
-    real place[2];             /* reference position of the tip [m] */
-    real along[2], last[2];    /* unit vectors: of the frame; of the last part of the crack */
-    real inner, outer;         /* particles between these radii are fitted [m] */
-    int body;                  /* particles of this body are fitted */
+    real place[2];          /* reference position of the tip [m] */
+    real along[2], last[2]; /* unit vectors: direction of the crack in whose frame K is computed; direction of the last
+                               part of the crack */
+    real inner, outer;      /* particles between these radii are fitted [m] */
+    int body;               /* particles of this body are fitted */
     const struct crack *crack; /* [cracks] that hide particles from the tip */
     int cracks;
 };

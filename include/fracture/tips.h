@@ -19,9 +19,11 @@
 #include "data/particles.h"
 #include "data/region.h"
 
+/* Damage above which a particle counts as part of a crack [1]. */
 #define TIP_DAMAGE 0.35
 enum { TIPS_MAX = 64 };
 
+/* A crack tip that is tracked from sample to sample: where it started, present position, growth and speed. */
 struct crack_tip {
     bool from_crack; /* starts at the end of a pre-crack */
     int body;
@@ -30,16 +32,18 @@ struct crack_tip {
     real edge[DIM_MAX];   /* 3D: half the edge of the front, origin -+ edge are its ends; else 0 [m] */
     real place[DIM_MAX];  /* present reference position [m] */
     real growth;          /* distance from the start, 3D: from the edge of the front [m] */
-    real joined;          /* part of the growth by joining another crack, which has no speed [m] */
-    real first_time;      /* time of the first particle above 0.35 [s]; NAN: none so far */
+    real joined;     /* part of the growth that came from joining another crack, and does not count for the speed [m] */
+    real first_time; /* time of the first particle above 0.35 [s]; NAN: none so far */
     /* time when growth exceeded one spacing; time of the last growth [s]; NAN: none so far */
     real start_time, arrest_time;
-    /* largest slope of the regression over the window; growth over (arrest - start) [m/s] */
+    /* largest regression slope of the growth over the time `window`; growth divided by (arrest_time - start_time)
+     * [m/s] */
     real speed_max, speed_mean;
-    int64_t particles; /* number of its particles */
+    int64_t particles; /* number of particles of the crack */
     int64_t ends;      /* separate groups of particles that are equally far within a spacing */
 };
 
+/* All crack tips of a run, the crack to which each particle belongs, and the recorded growth. The arrays are owned. */
 struct crack_tips {
     int dim, n;
     struct crack_tip tip[TIPS_MAX];
@@ -94,7 +98,7 @@ struct tip_surroundings {
     const struct mirror_plane *mirror; /* [mirrors] planes of symmetry */
     int mirrors;
     real section; /* thickness in 2D [m], cross-section in 1D [m^2], 1 in 3D */
-    real half;    /* half of the damage of particles beside a plane cut [1] */
+    real half;    /* half the damage that a plane cut gives to the particles beside it [1] */
 };
 
 /* Area of cracks [m^2]. face: area of one of the two faces; own: area whose fracture energy the modelled body has

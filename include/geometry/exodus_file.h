@@ -18,7 +18,7 @@ struct exodus_file {
     int64_t dimensions, arrays;
     struct exodus_dimension *dimension; /* [dimensions], [arrays]: of a classic file */
     struct exodus_array *array;
-    int dim; /* of space, 1 to 3 */
+    int dim; /* number of coordinates of a node, 1 to 3 */
     int64_t nodes, blocks, node_sets, side_sets, element_sets;
 };
 

@@ -33,8 +33,8 @@ struct grid_contact_node {
 /* Contact of material points between bodies that have a background grid each: its constants, the nodes in contact, and
  * the sums of energy so far. All arrays are owned. */
 struct grid_contact {
-    /* coefficient of friction [1]; distance of points of two bodies in contact [m]; half the reference edge of a point
-     * [m] */
+    /* coefficient of friction [1]; distance of points of two bodies in contact [m]; length by which the shape function
+     * of a point extends beyond a cell [m] */
     real friction, spacing, half_width;
     real smallest_mass; /* of a node that moves [kg] */
     int64_t nodes;

@@ -17,7 +17,7 @@ struct run_clock {
     real t, dt, dt_critical; /* time, time step, critical time step [s] */
     int64_t step, steps;     /* steps done; steps of the whole run */
     int64_t load_step;       /* number of the load step in progress or just done; 0: none */
-    real dt_bears;           /* stable time step of the body, also if the run takes load steps [s] */
+    real dt_bears;           /* stable time step of the body, also known in runs with load steps [s] */
     /* steps after which all levels of cells are at the same time: interval of samples and frames */
     int stride;
 };

@@ -29,6 +29,7 @@ status energy_check_last_sample(struct run *e);
  * energy of the run. w: energies of the last sample of a run of scene s. Returns true if it is. */
 bool fracture_energy_warn_if_negative(const struct scene *s, const struct diagnostics *w, struct warnings *to);
 
+/* Capacity of the text of stability_describe_remedy [byte]. */
 enum { REMEDY_LENGTH = 640 };
 
 /* Writes to text[capacity] what the user should change in the scene: the loads, if they explain the motion of the body;

@@ -15,9 +15,10 @@ struct damping_state {
  * damping rate and dt the time step; 1 without damping. rate_times_dt: c dt [1]. */
 real damping_velocity_increment_factor(real rate_times_dt);
 
-/* Returns by which shares velocities and increments of a time step would be larger without bulk damping, for the work
- * of supports. rate_times_dt: c dt [1]; first_step: true in the first time step of a run, before which velocities are
- * damped by half a step only. */
+/* Returns the relative amounts by which the velocities before a time step, and their increments in it, would be larger
+ * without bulk damping [1]; the work of supports is computed with these undamped values. rate_times_dt: c dt [1], with
+ * the damping rate c and the time step dt; first_step: true in the first time step of a run, before which velocities
+ * are damped by half a step only. */
 struct damping_shares damping_shares_of_step(real rate_times_dt, bool first_step);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,

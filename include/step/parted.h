@@ -6,17 +6,17 @@
 #include "data/cells.h"
 #include "scene/scene.h"
 
-/* A shape function whose material points bear too little where metal is pulled. Measured with a specimen with heads of
- * 100 + 500 a MPa (tests/scenes/claims/pulled_metal.yaml), beside (sigma_y + H log l)/l at the stretch l: linear shapes
- * -12 % at 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp
- * -3, -4, -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are pulled so far for a moment, as the
- * foot spreads. */
+/* A shape function of the material point method with which points transmit too little force in stretched metal, and the
+ * limits from which the run warns. Force error, measured with a specimen with heads of 100 + 500 a MPa
+ * (tests/scenes/claims/pulled_metal.yaml), beside (sigma_y + H log l)/l at the stretch l: linear shapes -12 % at 1.1,
+ * -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4, -4 %.
+ * In bars that hit a wall up to 0.06 of the pairs of neighbours are pulled so far for a moment, as the foot spreads. */
 struct weak_shape {
     enum shape shape;
-    real stretch;           /* of a bar over its initial length above which it bears too little [1] */
-    real pulled, share;     /* stretch of the distance of neighbours above which they count as pulled, and share of such
-                               pairs above which the run says that the shape is too weak [1] */
-    const char *word;       /* value of mpm.shape */
+    real stretch;       /* stretch of a bar (length divided by initial length) above which the force is too small [1] */
+    real pulled, share; /* stretch of the distance of two neighbours above which the pair counts as pulled [1]; fraction
+                           of pulled pairs above which the run warns [1] */
+    const char *word;   /* name of the shape function in key mpm.shape */
     const char *too_little; /* by how much the force is too small [%] */
 };
 
@@ -33,8 +33,7 @@ struct point_pair {
  * found; this is done at the first comparison. */
 struct point_pairs {
     bool made;
-    bool pulled;  /* the warning that pulled points bear too little has been printed */
-    int compared; /* number, from 1, of the part of the duration at whose beginning they were compared last; 0: never */
+    bool pulled; /* the warning that stretched points transmit too little force has been printed */
     int64_t n;
     struct point_pair *pair; /* [n] owned */
 };

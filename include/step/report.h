@@ -12,11 +12,12 @@
 struct sampling {
     bool due;                                      /* a sample is taken in this step */
     real kinetic, work, constraint_work, absorbed; /* at the start of the step [J] */
-    real *before[DIM_MAX];  /* [n] velocities at the start of the step; only stored if points are on the grid [m/s] */
-    struct energy energy;   /* at the positions of t_n; the kinetic energy is set last */
-    real rigid;             /* kinetic energy of rigid bodies at the start of the step [J] */
-    real rigid_work;        /* work of rigid bodies up to t_n [J] */
-    int64_t pd, bonds;      /* numbers of peridynamic particles and of directed bonds at t_n */
+    real *before[DIM_MAX]; /* [n] velocities at the start of the step; only stored if points are on the grid [m/s] */
+    struct energy energy;  /* at the positions of t_n; the kinetic energy is set last */
+    real rigid;            /* kinetic energy of rigid bodies at the start of the step [J] */
+    real rigid_work;       /* work of rigid bodies up to t_n [J] */
+    int64_t pd,
+        bonds; /* numbers at t_n of peridynamic particles, and of bonds, each counted once for each of its particles */
     real t_velocity;        /* time of the velocities at the start of the step [s] */
     real momentum[DIM_MAX]; /* at the start of the step [kg m/s] */
 };
@@ -42,13 +43,14 @@ struct run_report {
     real *record;                  /* values of one line of history.csv */
     status history_status;         /* result of writing the last line of history.csv */
     int64_t particle_steps[KINDS]; /* particle updates so far, by kind */
-    int64_t bond_visits;           /* directed bonds times steps so far */
-    real inactive;                 /* share of the body at rest, summed over all steps [1] */
+    int64_t
+        bond_visits; /* number of bonds (each counted once for each of its particles) summed over all steps so far */
+    real inactive;   /* fraction of the body at rest, summed over all steps [1] */
     struct {
         real inactive;
         int64_t step;
-    } sampled;                 /* inactive and step at the last sample */
-    struct run_seconds before; /* of the processes before a restart, up to the checkpoint */
+    } sampled;                 /* values of `inactive` and of the step number at the last sample */
+    struct run_seconds before; /* times of the processes before a restart, up to the checkpoint */
     double setup_seconds;      /* wall-clock time before the first step in this process, without files [s] */
     double began, started;     /* wall-clock times at which the scene was read, and of the first step [s] */
     double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
@@ -56,7 +58,7 @@ struct run_report {
     double checkpoints_spent;              /* time of the checkpoints after that of step 0, in this process [s] */
     int64_t step_started;                  /* number of the first step of this process */
     bool yield_said;                       /* the warning that bonds yield has been printed */
-    bool excerpt;                /* only the first steps run, for the export: the energy balance is not judged */
+    bool excerpt;                /* only the first steps run, for the export: no warning about the energy balance */
     bool quiet;                  /* no progress line */
     char note[96];               /* text for the progress line of load steps */
     const struct error_bar *bar; /* [bars] half-widths for the summary, kept by reference; NULL without a study */
@@ -123,7 +125,7 @@ void warn_of_tips_above_rayleigh_speed(const struct crack_tips *t, const struct 
 void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s,
                            struct warnings *warning_list);
 
-/* Computes the fields that particles do not store (strain, density, plastic work, coarsening level) and stores
+/* Computes the fields that particles do not store (strain, density, plastic work, level of the coarse cell) and stores
  * pointers to them in *extra, from which the frame is written. requested_field_bits: set of these fields, as bits
  * ASK_... (output/output.h). Before the call, the positions and stresses of all particles must be up to date
  * (run_update_particle_motion_and_stress), and extra->more, the material points of coarse cells, must be set. Call

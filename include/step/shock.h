@@ -6,9 +6,9 @@
 
 /* The collision that a scene leads to expect whose front is nearest to breaking or yielding a body. */
 struct shock {
-    real speed;         /* closing speed from the initial velocities of the bodies [m/s] */
-    real share;         /* speed over the closing speed at which a front breaks or yields one of the two bodies; 0 if it
-                           is below a tenth of that, or if all materials are viscous [1] */
+    real speed; /* closing speed from the initial velocities of the bodies [m/s] */
+    real share; /* `speed` divided by the closing speed at which the front breaks or yields one of the two bodies [1]; 0
+                   if this is below a tenth, or if all materials are viscous */
     const char *remedy; /* what the scene can do against oscillations behind the front; NULL if share is 0 */
 };
 

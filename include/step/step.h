@@ -12,12 +12,13 @@ status step(struct run *e);
 
 /* Marks (FLAG_NEAR) the material points that are near other bodies at their present positions, and near rigid bodies
  * where these are at pseudo-time t [s]; they convert at the next call of step_convert_points_at_broken_bonds. Moves no
- * rigid body. present: present pseudo-time [s]. Does nothing and returns false where no rigid body can meet a point. */
+ * rigid body. present: present pseudo-time [s]. Returns true if positions were examined; does nothing and returns false
+ * if no rigid body can touch a material point. */
 bool step_flag_points_before_rigid_bodies_move(struct run *e, real present, real t);
 
 /* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions.
- * broken_bond_count: number of directed bonds broken since the last call. Returns true if points have been converted.
- */
+ * broken_bond_count: number of bonds broken since the last call, each counted once for each of its particles. Returns
+ * true if points have been converted. */
 bool step_convert_points_at_broken_bonds(struct run *e, int64_t broken_bond_count);
 
 /* Computes the internal forces at the current positions without moving anything: forces of bonds in e->part.f, and

@@ -6,15 +6,14 @@
 
 #include "contact/contact.h"
 
-/* Lengths of contact. CONTACT_REACH: range within which a particle contributes to the density of a face. CONTACT_SKIN,
- * STATIC_SKIN: distance by which the list of pairs extends beyond the contact distance, larger for equilibria, whose
- * corrections move particles further. By the rule of LAMMPS, contact of a pair begins at the smaller of FAR_LAMMPS mean
- * spacings and NEAR_LAMMPS times its reference distance. */
-#define CONTACT_REACH 2.0 /* range of the field of a face [mean spacings] */
-#define CONTACT_SKIN 0.3  /* skin of the list beyond the contact distance [spacings] */
-#define STATIC_SKIN 1.5   /* skin for the corrections of an equilibrium [spacings] */
-#define FAR_LAMMPS 1.35   /* largest distance of pairs by the rule of LAMMPS [mean spacings] and ... */
-#define NEAR_LAMMPS 0.9   /* ... [distance in the reference configuration] */
+/* Lengths of contact. The list of pairs extends beyond the contact distance by a margin, which is larger for
+ * equilibrium solutions, because their corrections move particles farther. */
+#define CONTACT_REACH 2.0 /* range within which a particle contributes to the density of a face [mean spacings] */
+#define CONTACT_SKIN 0.3  /* margin of the list of pairs beyond the contact distance [spacings] */
+#define STATIC_SKIN 1.5   /* the same margin in equilibrium solutions [spacings] */
+#define FAR_LAMMPS 1.35   /* rule of LAMMPS: contact distance of a pair is the smaller of this [mean spacings] and ... \
+                           */
+#define NEAR_LAMMPS 0.9   /* ... this times the distance of the pair in the reference configuration [1] */
 /* Largest ratio of the reduction of a gap to the largest displacement of a particle [1]: 2 because both faces move,
  * plus a margin for the curvature of the density field. */
 #define CONTACT_FLATNESS 3
@@ -100,15 +99,16 @@ static inline const uint8_t *contact_rigid_selection_marks(const struct contact 
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact number `contact_number` acts. marks: an array with a byte for each contact that is not 0 if
- * it acts; NULL if those contacts act that overlap. overlaps: true if the contact overlaps. */
+/* Returns true if contact number `contact_number` acts. marks: an array with a byte for each contact, not 0 if the
+ * contact acts; NULL if exactly the overlapping contacts act. overlaps: true if this contact overlaps. */
 static inline bool contact_is_active(const uint8_t *marks, int64_t contact_number, bool overlaps)
 {
     return marks ? marks[contact_number] != 0 : overlaps;
 }
 
 /* Returns the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
- * faces beside it [spacings], negative if they overlap. Only for laws of the form `surface`. */
+ * nearby faces of other bodies or fragments [spacings], negative if they overlap. Only for laws of the form `surface`,
+ * in which faces are smooth. */
 real contact_face_gap_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance of the two particles of pair number `pair`, minus the distance at which their contact begins
@@ -128,7 +128,8 @@ real contact_rigid_gap_of_particle(const struct contact *c, const struct particl
 void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
                                       struct contact_term *term);
 
-/* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
+/* Enables contact forces on all particles of the contact list, also on particles at rest, which time steps leave out
+ * but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
 /* Saves the selection of contacts for equilibria (contact_select_active_and_count_changes) to the archive if a->saving,
@@ -204,9 +205,9 @@ void contact_face_set_onset_height(struct contact *c, const struct contact *prev
  * last call; if it is false, the last force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
-/* Returns the initial account of the energy errors of a contact on a new list of pairs
- * (contact_energy_correction_force). gap: present gap; previous: account of the contact on the previous list, which is
- * continued; NULL if the contact was not listed. */
+/* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from
+ * which contact_energy_correction_force computes a correcting force. gap: present gap; previous: account of the contact
+ * on the previous list, which is continued; NULL if the contact was not listed. */
 struct contact_balance contact_energy_correction_start_account(const struct contact_balance *previous, real gap);
 
 /* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];

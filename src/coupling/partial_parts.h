@@ -13,8 +13,9 @@
 void particle_find_family_members(struct neighbour_list *near, const struct bond_source *source,
                                   const struct site_map *map, const struct particles *p, int64_t particle);
 
-/* Returns the share of the length of the segment from a to b (dim components [m]) that is inside a square or cube [1].
- * cube_centre: middle of the cube; half_edge: half of its edge [m]. */
+/* Returns the share of the length of the segment from `segment_start` to `segment_end` that is inside a square or cube
+ * with edges along the axes [1]. cube_centre: middle of the cube; half_edge: half of an edge of the cube [m]. Positions
+ * have dim components [m]. */
 real segment_fraction_in_cube(const real *segment_start, const real *segment_end, const real *cube_centre,
                               real half_edge, int dim);
 
@@ -29,23 +30,23 @@ struct reflection {
  * entry of the particle arrays. It is the identity if `image` itself is a particle of the body. */
 struct reflection mirror_image_reflection(const struct bond_source *s, const struct particles *p, int64_t image);
 
-/* Derivative of the force F of a bond by a uniform strain eps, times the length of the bond [N m]. With the unit vector
- * e along the bond,
+/* Strain response of a bond: derivative of the force F of the bond by a uniform strain eps, times the length of the
+ * bond [N m], as the factors of three terms. With the unit vector e along the bond,
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response {
     real central, pressure, vector;
 };
 
-/* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond. i: particle in whose
- * row the bond is. */
+/* Returns the derivative of the force of `bond` by a uniform strain, times the length of the bond [N m], as the factors
+ * of struct response. i: particle to whose bonds `bond` belongs; source: inputs of the bonds. */
 struct response bond_force_derivative_by_strain(const struct particles *p, const struct bonds *b,
                                                 const struct bond_source *source, int32_t i, const struct bond *bond);
 
 /* Adds the contribution of a bond to the tensor T = `tensor` of a cell [J], by which bonds reduce the stiffness of the
  * cell: T_abcd += l e_b dF_a/deps_cd, symmetric in ab and in cd. l: length of the bond inside the cell; e: unit vector
- * along the bond; F: its force. point, other_position: positions of its material point and of its other particle, dim
- * components each [m]; centre, half_edge: centre and half edge of the cell [m]; response: r dF/deps, with the length r
- * of the bond. */
+ * along the bond; F: its force. point_position, other_position: positions of the material point and of the other
+ * particle of the bond, dim components each [m]; centre, half_edge: centre of the cell and half of an edge [m];
+ * response: r dF/deps, with the length r of the bond. */
 void partial_tensor_add_bond_contribution(real *tensor, const real *point_position, const real *other_position,
                                           const real *centre, real half_edge, struct response response, int dim);
 
@@ -66,37 +67,43 @@ void partial_tensor_limit_for_bond_based_model(real *tensor, const struct partic
 /* Returns half the edge of the square or cubic cell of particle i, from its volume [m]. */
 real particle_cell_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
-/* Table for particles on a lattice (partial_table.c): the share of every bond vector inside every cell that it crosses.
- * From it the tensor T follows quickly, by which bonds reduce the stiffness of the cell of a material point. Empty if
- * particles are not on lattices. */
+/* Table for particles on a lattice (partial_table.c): for every possible bond and every cell that it crosses, the
+ * fraction of the length of the bond inside the cell. With it, the tensor T by which bonds reduce the stiffness of the
+ * cell of a material point is computed quickly. Empty if particles are not on lattices. */
 struct partial_table;
 
-/* Creates the table of the shares of bonds inside cells for the particles p. It is empty if they are not on lattices or
- * have too many bond vectors. tensor_size: number of values of the tensor T, by which bonds reduce the stiffness of a
- * cell. Release with partial_table_free. */
+/* Creates the table that contains, for every possible bond between particles p on a lattice, the fraction of its length
+ * inside each cell that it crosses. It is empty if they are not on lattices or have too many bond vectors. tensor_size:
+ * number of values of the tensor T, by which bonds reduce the stiffness of a cell. Release with partial_table_free. */
 struct partial_table *partial_table_make_of_bond_shares_in_cells(const struct particles *p,
                                                                  const struct bond_source *source, int tensor_size);
 
 /* Releases the table t. */
 void partial_table_free(struct partial_table *t);
 
-/* Returns true if the table t is not empty, i.e. if particles are on lattices and have few enough bond vectors. */
+/* Returns true if the table t of bond lengths inside cells could be made: if particles are on lattices, with few enough
+ * different bonds. Otherwise it is empty. */
 bool partial_table_is_filled(const struct partial_table *t);
 
-/* Returns true if the table t can be used for every particle, because all have the volume of a lattice cell. */
+/* Returns true if all particles for which the table t of bond lengths inside cells was made have the volume of a
+ * lattice cell. The table can then be used for every particle; it holds for square or cubic cells of this size only. */
 bool partial_table_covers_all_particles(const struct partial_table *t);
 
-/* Returns true if `particle` has the volume of a lattice cell, so that the table can be used for it. */
+/* Returns true if `particle` has the volume of a lattice cell, so that the table of bond lengths inside cells (struct
+ * partial_table) can be used for it. source: inputs of the bonds. */
 bool partial_table_applies_to_particle(const struct particles *p, const struct bond_source *source, int64_t particle);
 
-/* Recomputes the stored strain responses (struct response) of the bonds of the material points point_list[point_count],
- * or of all material points if `point_list` is NULL. Responses of other points are kept. */
+/* Recomputes the strain responses that the table t stores for each bond of a material point: the derivative of the
+ * force of the bond by a uniform strain, times the length of the bond (struct response). point_list[point_count]:
+ * indices of the points whose bonds have changed, NULL for all material points; the responses of other points are kept.
+ * source: inputs of the bonds. Call before partial_table_sum_stiffness_tensor. */
 void partial_table_update_strain_responses(struct partial_table *t, const struct particles *p, const struct bonds *b,
                                            const struct bond_source *source, const int32_t *point_list,
                                            int64_t point_count);
 
 /* Computes the tensor `tensor` of the material point `point` [J], by which bonds reduce the stiffness of its cell, from
- * the table and the stored strain responses of the bonds of the material points around it. near: working memory. */
+ * the table t and the strain responses that it stores for the bonds of the material points around `point`. The
+ * responses must be up to date (partial_table_update_strain_responses). near: working memory. */
 void partial_table_sum_stiffness_tensor(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                                         const struct bond_source *source, int64_t point, struct neighbour_list *near,
                                         real *tensor);

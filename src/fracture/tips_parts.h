@@ -1,4 +1,5 @@
-/* Private header of the files of the crack tips. */
+/* Declarations shared by the files of the crack tips: limits of distance, the extent of cracks, and the search for
+ * particles near a position. */
 #ifndef CLEAVE_TIPS_PARTS
 #define CLEAVE_TIPS_PARTS
 
@@ -42,6 +43,8 @@ struct tip_reach {
  * TIPS_MAX tips; must be 0 on entry. */
 void tips_compute_crack_extents(const struct crack_tips *t, const struct particles *p, struct tip_reach *extent);
 
+/* Search for particles near a position, with a result array that is reused. room: capacity of `found`, which the caller
+ * releases. */
 struct tip_search {
     const struct particles *p;
     const struct cells *c;

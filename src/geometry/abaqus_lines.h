@@ -29,7 +29,8 @@ bool abaqus_find_data_line(struct source *s);
  * prescribes. Returns REFUSED unless it is a finite number. */
 status abaqus_parse_real(const struct source *s, const char *field, real *value);
 
-/* Returns true if a field is a label, not the name of a set. */
+/* Returns true if `field`, a field of a line, is a label (number of a node or element) and not the name of a set: if it
+ * begins with a digit. */
 bool abaqus_is_label(const char *field);
 
 /* Parses a field as the label of a node or element. Returns REFUSED unless it is a whole number from 0 to LABEL_MAX. */

@@ -12,7 +12,7 @@ struct abaqus_shape {
 };
 
 /* Finds the shape of an element type such as C3D10M or CPS4R, in capitals. Stores NULL in *shape for types that are
- * left out: points, lines, and what only joins others. Returns REFUSED, with file and line, for any other type. */
+ * left out: points, lines, and connectors between elements. Returns REFUSED, with file and line, for any other type. */
 status abaqus_shape_of_type(const struct abaqus_shape **shape, const struct source *file, const char *type);
 
 #endif

@@ -106,7 +106,7 @@ int element_mesh_find_or_create_set(struct element_mesh *m, const char *name, bo
 void element_mesh_add_to_set(struct element_mesh *m, int set, int64_t member);
 
 /* Rotates a node of the mesh m by `angle` [rad] about the axis from the point a to the point b (Rodrigues' formula). a
- * and b must differ. node: its index. */
+ * and b must differ. node: index of the node; a, b: three coordinates each [unit of the file]. */
 void element_mesh_rotate_node(struct element_mesh *m, int64_t node, const real *a, const real *b, real angle);
 
 /* Releases all arrays of m and zeroes it. */
