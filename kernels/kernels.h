@@ -13,12 +13,15 @@
 #include "data/transfer_order.h"
 #include "data/turning.h"
 
+/* Shape functions of the material points on the background grid, and schemes by which velocities are transferred
+ * between points and grid. */
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_CPGIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 enum transfer { TRANSFER_FLIP, TRANSFER_APIC, TRANSFERS };
+/* Peridynamic models, each with kernels of its own. */
 enum pd_model {
     PD_BOND,         /* elastic, brittle */
-    PD_BOND_PLASTIC, /* elastic-plastic, brittle; needs the plastic arrays of struct bonds */
-    PD_BOND_SOFT,    /* elastic, softening; needs struct softened */
+    PD_BOND_PLASTIC, /* bond-based, elastic-plastic, brittle; needs the plastic arrays of struct bonds */
+    PD_BOND_SOFT,    /* bond-based, elastic, softening; needs struct softened */
     PD_OSPD,         /* ordinary state-based (Silling et al. 2007); needs struct state */
     PD_MOSPD,        /* modified state-based: with the rotations of the particles (pd/state_laws.h) */
     PD_MODELS
@@ -32,8 +35,9 @@ struct elastic {
                      weakest point [Pa] */
     real trigger_mean; /* sigma_1 of conversion of a point of strength 1; equals `trigger` without scatter [Pa] */
     real poisson;      /* Poisson's ratio in plane strain [1] */
-    struct strength_surface surface; /* g0 = 0: none; else points convert, too, where U g0 exceeds `failure` */
-    real failure;                    /* U g0 of conversion; with scatter of a point of strength 1 [Pa] */
+    struct strength_surface
+        surface;  /* g0 = 0: none; else points also convert where U g0 (sqrt(J2) + g1 I1) exceeds `failure` */
+    real failure; /* value of U g0 at which points convert; where strength scatters, of a point of strength 1 [Pa] */
     enum space space;
     const struct law *law; /* law by which the material yields; NULL: it is elastic */
     enum law_mode mode;    /* how the law is solved */
@@ -61,7 +65,7 @@ struct partial_stress {
     real *local;
     bool gives_all; /* all stress is transmitted (coupling `handshake`): M and local are 0 */
     int64_t entries;
-    int32_t *touched; /* particles whose entries were recomputed; the reader sets touches = 0 */
+    int32_t *touched; /* particles whose entries were recomputed; whoever has read them sets touches = 0 */
     int64_t touches;
     struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
@@ -110,16 +114,17 @@ struct pd_motion {
  * and fracture energy are of second order in the time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where the motion of
  * neither particle is prescribed), damage, counts of broken bonds and fracture energy. motion: step sizes, with which
  * active peridynamic particles that are neither on the grid nor marked in motion->loaded are also moved in this loop
- * (pd/sweep.h); NULL: no particle is moved. Returns the number of directed bonds broken. */
+ * (pd/sweep.h); NULL: no particle is moved. Returns the number of bonds broken, each counted once for each of its
+ * particles. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
 /* Computes the forces of all bonds by the kernel `sweep` of the model, and breaks bonds stretched beyond `limit`.
- * Returns the number of directed bonds broken. A clamped plane is a plane of symmetry along which motion is prevented,
- * too: the reaction on a mirror image in a clamped plane is added to the force on the particle that the image mirrors
- * (pd/clamp_force.c). motion: step sizes with which particles are moved in the same loop; NULL: no particle is moved.
- * The caller must set in motion->loaded the particles with bonds to such images and the particles that these images
- * mirror, which are moved after the loop. */
+ * Returns the number of bonds broken, each counted once for each of its particles. A clamped plane is a plane of
+ * symmetry along which motion is prevented, too: the reaction on a mirror image in a clamped plane is added to the
+ * force on the particle that the image mirrors (pd/clamp_force.c). motion: step sizes with which particles are moved in
+ * the same loop; NULL: no particle is moved. The caller must set in motion->loaded the particles with bonds to such
+ * images and the particles that these images mirror, which are moved after the loop. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
@@ -139,7 +144,7 @@ KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, con
  * and rotations in b->state must be those of the present positions. *changed: set to true if the damage of a bond has
  * changed; the states of those row blocks (bonds of eight particles) that have b->soft.begun set must then be computed
  * again. Row blocks with bonds beyond their onset of softening that have not begun are marked in b->soft.due for
- * bonds_begin_to_soften. Returns the number of directed bonds broken. */
+ * bonds_begin_to_soften. Returns the number of bonds broken, each counted once for each of its particles. */
 KERNEL(int64_t, state_soften,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, bool *changed));
 
@@ -149,8 +154,8 @@ KERNEL(int64_t, state_soften,
 KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64_t q));
 
 /* Breaks the bonds whose largest stretch has reached the end of their softening. The energy that such a bond has
- * dissipated becomes fracture energy of its row. For load steps, between two equilibria. Returns the number of directed
- * bonds broken. */
+ * dissipated becomes fracture energy of its row. For load steps, between two equilibria. Returns the number of bonds
+ * broken, each counted once for each of its particles. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
 /* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it
@@ -164,9 +169,9 @@ KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p
 typedef void family_states_precompute_fn(struct bonds *b, struct particles *p);
 
 /* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
- * to the fracture energy of their rows. The forces p->f of the row block must be up to date; the contribution of a
- * broken bond to them is replaced by the share that acts until it breaks within the step (pd/bond_last.h). Slow, since
- * it computes bond by bond: call it only where a bond may break. Returns the number of directed bonds broken. */
+ * to the fracture energy of their rows. The forces p->f on these particles must be up to date; of the force of a broken
+ * bond only the share remains in p->f that acts until the bond breaks within the step (pd/bond_last.h). Slow, since it
+ * computes bond by bond: call it only where a bond may break. Returns the number of bonds broken in these rows. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
@@ -186,8 +191,9 @@ KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct partic
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
-/* Restores the bond with index q, which a trial load step has broken, in the row (all bonds of one particle) `row`,
- * with weight w [1]. The caller restores the fracture energy of the row, and damage and flags of its particle. */
+/* Restores the bond with index q in the row (all bonds of one particle) `row`, which a trial load step has broken, and
+ * sets its weight to w [1]. The caller restores the fracture energy of the row, and damage and flags of its
+ * particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
 /* Returns the elastic energy of the family of one row (all bonds of one particle) of a state-based model [J], from its
@@ -224,8 +230,10 @@ typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, con
  * not finite. list: indices, ascending, aligned to 32 bytes. */
 KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
-/* Adds mass, momentum and force, -V sigma_given . grad N + N f, of the points of p to the nodes of g: the first
- * particle-to-grid map (Zeng et al. 2022, eqs. 33-38). transfer: order of the points, step sizes, partial stress. */
+/* Adds mass, momentum and force of the points of p to the nodes of g: the first particle-to-grid map (Zeng et al. 2022,
+ * eqs. 33-38). The force is -V sigma . grad N + N f, with the volume V and the force f of the point, the stress sigma
+ * that it transmits (without its partial stress), and the shape function N of the node. transfer: order of the points,
+ * step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Remapping of MUSL (Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the change of nodal velocities to
@@ -267,6 +275,8 @@ struct kernels {
     spread_to_nodes_fn *spread;
 };
 
+/* Tables of all kernels, from which kernels_choose selects: entry [dim][..] is the kernel for this dimension and model,
+ * shape function or transfer; NULL if there is none. */
 KERNEL_TABLE(bond_force_fn, bond_force_table, [PD_MODELS]);
 KERNEL_TABLE(bond_energy_fn, bond_energy_table, [PD_MODELS]);
 KERNEL_TABLE(bond_stress_fn, bond_stress_table, [PD_MODELS]);
@@ -384,15 +394,15 @@ KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, co
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 
-/* Computes nodal velocities of a mesh of coarse cells, `to`, from momentum over mass of its nodes, `from`, both
- * [dim][grid.n] [m/s], with the mass matrix blended of lumped and consistent mass (mesh_inertia.c). */
+/* Computes nodal velocities of a mesh of coarse cells, `to`, from the momentum of its nodes divided by their mass,
+ * `from`, both [dim][grid.n] [m/s], with the mass matrix blended of lumped and consistent mass (mesh_inertia.c). */
 KERNEL(void, mesh_velocity, (const struct mesh *mesh, real *const *from, real *const *to));
 
 /* Returns the kinetic energy of the mesh, the sum of m v^2/2 over its nodes [J]. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 
-/* Returns the sum of (dt f)^2/(4 m) over the nodes of the mesh [J], the correction of the kinetic energy, whose
- * velocities are half a step behind, to the time of the positions. */
+/* Returns the sum of (dt f)^2/(4 m) over the nodes of the mesh, with the force f and the mass m of a node [J]. It
+ * corrects the kinetic energy, because velocities are half a step behind the positions. dt: time step [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Returns the elastic energy of all cells of the mesh [J], including their contribution to the families of bonded
  * points. m: elastic constants by material; finite: true for finite strain, false for small strain. */

@@ -29,8 +29,8 @@ static ALWAYS_INLINE lanes flow_stress_johnson_cook(const struct law *law, lanes
     return (law->johnson_cook.A + power) * factor;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` at constant temperature
- * [J/m^3]. */
+/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain` at the
+ * constant temperature `temperature` [K], the plastic work per volume [J/m^3]. */
 static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *law, lanes plastic_strain,
                                                              lanes temperature)
 {
@@ -40,8 +40,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_johnson_cook(const struct law *l
     return cold * johnson_cook_softening(law, temperature);
 }
 
-/* Returns the plastic strain at which the yield stress at the given temperature is `stress` [Pa];
- * INFINITY without hardening. */
+/* Returns for eight points the plastic strain [1] at which the yield stress at the temperature `temperature` [K] is
+ * `stress` [Pa]; INFINITY for a law without hardening. */
 static ALWAYS_INLINE lanes plastic_strain_bound_johnson_cook(const struct law *law, lanes stress, lanes temperature)
 {
     const lanes factor = lanes_max(johnson_cook_softening(law, temperature), lanes_broadcast(1e-12));

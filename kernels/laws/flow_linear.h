@@ -22,15 +22,16 @@ static ALWAYS_INLINE lanes flow_stress_linear(const struct law *law, lanes plast
     return law->yield + law->hardening * plastic_strain;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3]. */
+/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain`, the
+ * plastic work per volume [J/m^3]. Temperature has no effect. */
 static ALWAYS_INLINE lanes flow_stress_integral_linear(const struct law *law, lanes plastic_strain, lanes temperature)
 {
     (void)temperature;
     return (law->yield + 0.5 * law->hardening * plastic_strain) * plastic_strain;
 }
 
-/* Returns INFINITY, i.e. no bound of the plastic strain at which the yield stress is `stress`: the iteration of load
- * steps needs none for a linear law. */
+/* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
+ * the iteration of load steps needs none for a linear law. The arguments are not used. */
 static ALWAYS_INLINE lanes plastic_strain_bound_linear(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

@@ -23,7 +23,8 @@ static ALWAYS_INLINE lanes flow_stress_table(const struct law *law, lanes plasti
     return least;
 }
 
-/* Returns the integral of the yield stress from plastic strain 0 to `plastic_strain` [J/m^3], segment by segment. */
+/* Returns for eight points the integral of the yield stress over the plastic strain from 0 to `plastic_strain`, the
+ * plastic work per volume [J/m^3], segment by segment of the curve. Temperature has no effect. */
 static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lanes plastic_strain, lanes temperature)
 {
     (void)temperature;
@@ -37,7 +38,8 @@ static ALWAYS_INLINE lanes flow_stress_integral_table(const struct law *law, lan
     return work;
 }
 
-/* Returns INFINITY: this law gives no bound of the plastic strain at which the yield stress is `stress`. */
+/* Returns INFINITY for eight points, i.e. no upper bound of the plastic strain at which the yield stress is `stress`:
+ * load steps then start from an elastic bound. The arguments are not used. */
 static ALWAYS_INLINE lanes plastic_strain_bound_table(const struct law *law, lanes stress, lanes temperature)
 {
     return (void)law, (void)stress, (void)temperature, lanes_broadcast(INFINITY);

@@ -25,8 +25,8 @@ static ALWAYS_INLINE lanes law_flow_stress(const struct law *law, lanes plastic_
 #undef FLOW_CALL
 }
 
-/* Returns for eight points the plastic strain at which the yield stress of the flow law `law` is `stress` [Pa], or an
- * upper bound of it; INFINITY if there is none [1]. temperature: temperatures [K]. */
+/* Returns for eight points the plastic strain [1] at which the yield stress of the flow law `law` is `stress` [Pa], or
+ * an upper bound of this strain; INFINITY if no bound is known. temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes stress, lanes temperature)
 {
 #define FLOW_CALL(name) plastic_strain_bound_##name(law, stress, temperature)
@@ -38,8 +38,8 @@ static ALWAYS_INLINE lanes law_plastic_strain_bound(const struct law *law, lanes
 #undef FLOW_CALL
 }
 
-/* Returns for eight points the integral of the yield stress of the flow law `law` from plastic strain 0 to
- * `plastic_strain` [J/m^3]. temperature: temperatures [K]. */
+/* Returns for eight points the integral of the yield stress of the flow law `law` over the plastic strain from 0 to
+ * `plastic_strain`, the plastic work per volume [J/m^3]. temperature: temperatures [K]. */
 static ALWAYS_INLINE lanes law_flow_stress_integral(const struct law *law, lanes plastic_strain, lanes temperature)
 {
 #define FLOW_CALL(name) flow_stress_integral_##name(law, plastic_strain, temperature)

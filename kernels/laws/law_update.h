@@ -14,16 +14,18 @@
 
 /* State of eight points at the end of a step. Tensors have the components xx yy zz xy yz zx in every space. */
 struct law_points {
-    lanes s[SYM_MAX];            /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
-    lanes before[SYM_MAX];       /* stress at the start of the step, rotated by its spin [Pa] */
-    lanes volume_before, volume; /* volume at the start and at the end of the step, over the reference volume [1] */
-    real duration;               /* of an explicit step [s]; 0: the rate has no effect */
-    lanes a;                     /* accumulated equivalent plastic strain, updated [1] */
-    lanes back[SYM_MAX];         /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
-    lanes temperature;           /* updated [K] */
-    lanes work;                  /* plastic work per reference volume, updated [J/m^3] */
-    bool thins; /* plane stress and 1D: the volume follows the plastic strain across, which keeps it; explicit steps */
-    lanes_mask active; /* lanes whose points have this law; the others are left as they are */
+    lanes s[SYM_MAX];      /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
+    lanes before[SYM_MAX]; /* stress at the start of the step, rotated by its spin [Pa] */
+    lanes volume_before,
+        volume;          /* volume at the start and at the end of the step, divided by the reference volume [1] */
+    real duration;       /* of an explicit step [s]; 0: the rate has no effect */
+    lanes a;             /* accumulated equivalent plastic strain, updated [1] */
+    lanes back[SYM_MAX]; /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
+    lanes temperature;   /* updated [K] */
+    lanes work;          /* plastic work per reference volume, updated [J/m^3] */
+    bool thins;          /* explicit steps in plane stress and 1D: `volume` is corrected by the change of thickness or
+                            cross-section due to plastic strain */
+    lanes_mask active;   /* lanes whose points have this law; the points of other lanes are not changed */
 };
 
 /* law_place[dim][c]: index of component c of particles.stress among the six components xx yy zz xy yz zx of struct

@@ -58,10 +58,9 @@ static ALWAYS_INLINE real point_elastic_energy_density(const struct particles *p
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Replaces value[q] of point number q of eight cells, one cell per lane, by its difference from the mean over the
- * points of the same cell and material: mean less value. Values of materials without mean dilatation, and of lanes
- * without a cell, become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all
- * materials. */
+/* Replaces value[q] of point number q of eight cells, one cell per lane, by (mean - value[q]), with the mean over the
+ * points of the same cell and material. Values of materials without mean dilatation, and of lanes without a cell,
+ * become 0. cell: eight cell indices, -1 for a lane without cell; m: elastic constants of all materials. */
 static ALWAYS_INLINE void cells_subtract_from_mean(const struct mesh *mesh, const struct particles *p,
                                                    const struct elastic *m, const int32_t *cell,
                                                    lanes value[CORNERS_MAX], const int dim)

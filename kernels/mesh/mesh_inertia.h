@@ -8,8 +8,8 @@
  *
  * B is symmetric and positive, and the rows of L - C sum to 0: momentum is exact, and the kinetic energy is p . v/2.
  * alpha makes the dispersion equal to that of the bonds' lattice (match_share in src/mesh/levels_build.c). Cells next
- * to cells of another size, at faces and with held nodes are not matched: B is then the inverse of the lumped mass at
- * these nodes. */
+ * to cells of another size, at faces, and with nodes whose motion is prescribed are not matched: B is then the inverse
+ * of the lumped mass at these nodes. */
 #ifndef CLEAVE_KERNELS_MESH_INERTIA
 #define CLEAVE_KERNELS_MESH_INERTIA
 

@@ -4,7 +4,7 @@
  *
  *     mode_M = 2^-(dim - |M|)/h  sum_c (prod_{d in M} s_c,d) u_c        M: a set of axes
  *
- * M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
+ * |M| = 1 is the mean gradient g; larger sets are bending modes. Bending mode M adds to the gradient at a point mode_M
  * times the coordinates (+-1/4) of the point along all axes of M except the axis of differentiation. Sums over the
  * points are then closed forms, equal to sums point by point up to round-off: <x^2> = 1/16, <x^2 y^2> = 1/256.
  *

@@ -113,10 +113,10 @@ static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, con
     return any;
 }
 
-/* Replaces value[q] of each point q of a cell by mean less value, with the mean over the points of the cell of the same
- * material. The value becomes 0 for materials without mean dilatation, and where there is no point. m: elastic
- * constants of all materials; material: number of the material of every particle; point: the 2^dim points of the cell,
- * -1: none. */
+/* Replaces value[q] of each point q of a cell by (mean - value[q]), the change that gives all points of the cell of one
+ * material the mean of their values. The value becomes 0 for materials without mean dilatation, and where there is no
+ * point. m: elastic constants of all materials; material: number of the material of every particle; point: the 2^dim
+ * points of the cell, -1: none. */
 static ALWAYS_INLINE void cell_subtract_from_mean(const struct elastic *m, const uint8_t *material,
                                                   const int32_t *point, real *value, const int dim)
 {

@@ -13,7 +13,8 @@ struct microbench_lattice;
 /* Creates about 80,000 particles in `dim` dimensions with neighbours within 3.015 spacings. Release with
  * microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
-/* Computes once the forces of all bonds of the lattice s. Returns the time per directed bond [s]. */
+/* Computes once the forces of all bonds of the lattice s, at each of the two particles of a bond. Returns the time per
+ * bond and particle [s]. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
 /* Releases s, the data of the lattice benchmark. */

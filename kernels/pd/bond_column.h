@@ -14,8 +14,10 @@ enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead
  * saves 5 to 7 % of the time of forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* One column: the k-th bonds of the eight particles of a row block, with indices number * LANES to number * LANES + 7.
- * `kind` is a compile-time constant wherever a column is used. */
+/* One column of a row block: a row block stores the bonds of eight particles, and each of its columns holds one bond of
+ * each particle. number: index of the column among all columns, so that its bonds have the indices number * LANES + l
+ * in the bond arrays, for the particles l = 0 .. 7; kind: what the eight bonds have in common, a compile-time constant
+ * wherever a column is used. */
 struct column {
     const struct bonds *b;
     int64_t number;
@@ -25,7 +27,8 @@ struct column {
     enum column_kind kind;
 };
 
-/* Returns stored column `column_number`; prefetches the columns COLUMNS_AHEAD further on. */
+/* Returns a view of the stored column number `column_number` (one bond of each of eight particles), and prefetches the
+ * column COLUMNS_AHEAD columns behind it. kind: COLUMN_FREE, SHELL or ALIKE, as the column requires. */
 static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int64_t column_number,
                                                       const enum column_kind kind)
 {
@@ -36,9 +39,10 @@ static ALWAYS_INLINE struct column column_load_stored(const struct bonds *b, int
     return (struct column){b, column_number, b->common[column_number].first, NULL, NULL, kind};
 }
 
-/* Returns column k of a row block that follows a stencil, with the data of the bonds from that stencil. first_particle:
- * first particle of the row block; column_number: index of the column among all columns; kind: COLUMN_STENCIL, WHOLE or
- * UNIT. */
+/* Returns a view of a column (one bond of each of eight consecutive particles) whose bonds are not stored but follow
+ * from `stencil`, a bond pattern that many row blocks of a lattice share. column_in_stencil: number of the column in
+ * the stencil; first_particle: first of the eight particles; column_number: index of the column among all columns;
+ * kind: COLUMN_STENCIL, WHOLE or UNIT. */
 static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, int64_t column_number,
                                                        const struct stencil *stencil, int64_t column_in_stencil,
                                                        int64_t first_particle, const enum column_kind kind)
@@ -52,8 +56,9 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                            kind};
 }
 
-/* Calls VISIT(column) for every column of a row block that has an intact bond. The call is compiled once for each kind
- * of column, with the kind as a constant. */
+/* Calls VISIT(column) for every column with an intact bond in row block number ROW_BLOCK of the bonds B. A row block
+ * stores the bonds of eight particles, a column one bond of each. The call is compiled once for each kind of column,
+ * with the kind as a constant. */
 #define FOR_COLUMNS(B, ROW_BLOCK, VISIT)                                                                               \
     do {                                                                                                               \
         const struct stencil *stencil_ = (B)->stencil[ROW_BLOCK];                                                      \
@@ -80,8 +85,8 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
                 VISIT(column_from_stencil(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                         \
     } while (0)
 
-/* Calls VISIT(column) for every column of a row block as FOR_COLUMNS does, or VISIT_BRITTLE(column) if MODEL is
- * PD_BOND_SOFT and no bond of the row block has begun to soften. */
+/* Calls VISIT(column) for every column of a row block (the bonds of eight particles) as FOR_COLUMNS does, or
+ * VISIT_BRITTLE(column) if MODEL is PD_BOND_SOFT and no bond of the row block has begun to soften. */
 #define FOR_COLUMNS_BY_LAW(B, ROW_BLOCK, MODEL, VISIT, VISIT_BRITTLE)                                                  \
     do {                                                                                                               \
         if ((MODEL) != PD_BOND_SOFT || bond_row_block_has_begun_softening(B, ROW_BLOCK))                               \
@@ -167,8 +172,8 @@ static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column
     return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact_bits(column), a, other);
 }
 
-/* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these
- * particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the numbers are
+/* Stores `value`, one value for each of the eight particles of a row block, in the particle array `to`. row: indices of
+ * these particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the indices are
  * consecutive. */
 static ALWAYS_INLINE void bond_row_block_store_values(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {

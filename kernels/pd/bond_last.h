@@ -6,15 +6,16 @@
 
 #include "kernels/kernels.h"
 
-/* Returns component d of x_j - x_i a time `lag` before the present positions [m]. lag [s]. */
+/* Returns component `axis` of the vector x_j - x_i between the particles i and j [m] at a time `lag` [s] before the
+ * present positions, extrapolated by the present velocities. */
 static inline real bond_vector_at_earlier_time(const struct particles *p, int32_t i, int32_t j, int axis, real lag)
 {
     const real y = p->x[axis][j] - p->x[axis][i];
     return lag == 0 ? y : y - lag * (p->v[axis][j] - p->v[axis][i]);
 }
 
-/* Returns the stretch [1] of the bond i-j a time `lag` before the present positions [s]. inverse_length: 1/|xi| [1/m],
- * may be negative (broken bonds). */
+/* Returns the stretch [1] of the bond between the particles i and j at a time `lag` [s] before the present positions.
+ * inverse_length: inverse of its reference length [1/m], may be negative (broken bonds). */
 static inline real bond_stretch_at_earlier_time(const struct particles *p, real inverse_length, int32_t i, int32_t j,
                                                 real lag)
 {
@@ -23,18 +24,20 @@ static inline real bond_stretch_at_earlier_time(const struct particles *p, real 
     return sqrt(distance2) * fabs(inverse_length) - 1;
 }
 
-/* When a bond breaks within a time step: `lag`, the time before the present positions at which its stretch exceeded the
- * limit [s], and `share`, the fraction of its force that acts in the velocity update of this step [1]. */
+/* When a bond breaks within a time step. lag: time from the moment at which the stretch exceeded the limit to the
+ * present positions [s]; share: fraction of the force of the bond that acts in the velocity update of this step [1]. */
 struct bond_break_moment {
     real lag, share;
 };
 
-/* Computes when the bond between particles i and j exceeded its breaking stretch, and which share of its force acts in
- * this step, by the rule limit->last_force. inverse_length: 1/|xi| [1/m]; plastic: plastic stretch s_p of the bond [1].
- * Returns the time before the present positions at which the bond exceeded the limit (lag [s]; 0 for all rules but
- * MOMENT) and the share [1]. Both are 0 for rule MOMENT if the bond was above its limit already one step before, and
- * where bonds soften: what the step takes of their energy is then known exactly (stretch_at_break in bond_break.c).
- * Results are bitwise equal for i-j and j-i.
+/* Computes when, within the last step, the bond between the particles i and j exceeded its breaking stretch, and how
+ * much of its force acts in the velocity update of this step. Returns two numbers: the lag, the time from this moment
+ * to the present positions [s], and the share, the fraction of the force that acts [1]. limit->last_force selects the
+ * rule: with LAST_FORCE_HALF, WHOLE and NONE the share is 1/2, 1 and 0, and the lag 0; with LAST_FORCE_MOMENT both
+ * follow from the stretches before and after the step as below. With this rule both are 0 if the bond exceeded its
+ * limit already before the step, and if bonds soften, whose energy loss in the step is computed elsewhere
+ * (stretch_at_break in bond_break.c). inverse_length: inverse of the reference length of the bond [1/m]; plastic:
+ * plastic stretch s_p of the bond [1]. The result for j and i is bitwise equal.
  *
  * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The velocity
  * update by the forces at x extends from half a step before x to half a step after. By impulse, a bond that breaks at

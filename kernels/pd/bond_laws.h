@@ -11,8 +11,8 @@
 
 /* Applies return mapping with linear isotropic hardening to the eight bonds with indices `first_bond` to `first_bond` +
  * 7, and updates the plastic state of those set in the mask `intact`. stretch: total stretch s [1]. With the plastic
- * stretch s_p, the accumulated plastic stretch alpha, the yield stretch s_y, and H, the hardening modulus over the
- * elastic one,
+ * stretch s_p, the accumulated plastic stretch alpha, the yield stretch s_y, and the hardening modulus divided by the
+ * elastic one, H,
  *
  *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
  *
@@ -50,8 +50,8 @@ static ALWAYS_INLINE lanes bonds_softened_stretch(const struct bonds *b, int64_t
 }
 
 /* Returns stretch times remaining stiffness fraction [1] of the eight bonds with indices `first_bond` to `first_bond` +
- * 7, which are in one column. Stores those of the present stretches as largest ones that exceed the stored ones, except
- * in load steps. Returns the stretches, and stores nothing, if none of the eight bonds has begun to soften. */
+ * 7, which are in one column. Raises the stored largest stretches of these bonds to their present stretches `stretch`,
+ * except in load steps. If none of the eight bonds has begun to soften, returns `stretch` and stores nothing. */
 static ALWAYS_INLINE lanes bonds_update_softened_stretch(const struct bonds *b, int64_t first_bond, lanes stretch)
 {
     lanes most = lanes_load_floats(b->soft.most + first_bond);
@@ -114,7 +114,7 @@ static ALWAYS_INLINE lanes bonds_normalised_energy(const enum pd_model model, la
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */
 
-/* Returns the present stretch of a bond in the row of particle i [1]. */
+/* Returns the present stretch of `bond`, a bond of particle i [1]. */
 static inline real bond_stretch_of(const struct particles *p, const struct bond *bond, int32_t i)
 {
     real distance2 = 0;
@@ -122,22 +122,22 @@ static inline real bond_stretch_of(const struct particles *p, const struct bond 
     return sqrt(distance2) * bond->inverse_length - 1;
 }
 
-/* Returns the elastic part of the stretch of a bond in the row of particle i, its force over stiffness and weight
- * [1]. */
+/* Returns the elastic part of the present stretch of `bond`, a bond of particle i: the force of the bond divided by
+ * stiffness and weight [1]. */
 static inline real bond_elastic_stretch_of(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i)
 {
     return bond_entry_elastic_stretch(b, b->row_of[i] / LANES, bond->entry, bond_stretch_of(p, bond, i));
 }
 
-/* Returns the force of a bond in the row of particle i [N], equal to the one that the force kernel computes; tension is
- * positive. */
+/* Returns the force of `bond`, a bond of particle i [N], equal to the force that the force kernel computes; tension is
+ * positive. Returns 0 if the bond is broken. */
 static inline real bond_force_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     return bond->w == 0 ? 0 : b->stiffness * bond->w * bond_elastic_stretch_of(b, p, bond, i);
 }
 
-/* Stores the force of a bond on particle i, in its row, as a vector in f[dim] [N]. */
+/* Stores the force that `bond`, a bond of particle i, exerts on this particle as a vector in f[dim] [N]. */
 static inline void bond_force_vector(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                      int32_t i, real *f)
 {
@@ -147,7 +147,7 @@ static inline void bond_force_vector(const struct bonds *b, const struct particl
     for (int d = 0; d < p->dim; d++) f[d] *= force;
 }
 
-/* Returns the elastic energy of a bond in the row of particle i [J]. */
+/* Returns the elastic energy of `bond`, a bond of particle i [J]; 0 if it is broken. */
 static inline real bond_energy_of(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i)
 {
     if (bond->w == 0) return 0;

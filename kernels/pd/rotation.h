@@ -15,8 +15,9 @@
 
 #define TURN_TINY 1e-300 /* keeps the root of zero finite */
 
-/* Computes the row of the matrix 4 (q, q0) (q, q0)^T with the largest diagonal entry, so that no division by a small
- * component follows (Shepperd 1978). Returns that diagonal entry. R: row major. */
+/* Computes, for eight rotations R (row major) with the unit quaternions (q, q0), the row of the matrix 4 (q, q0) (q,
+ * q0)^T with the largest diagonal entry, from which the quaternion follows without division by a small number (Shepperd
+ * 1978). row: four entries. Returns the diagonal entries. */
 static ALWAYS_INLINE lanes quaternion_largest_row(const lanes *R, lanes *row)
 {
     const lanes odd[3] = {R[7] - R[5], R[2] - R[6], R[3] - R[1]}, even[3] = {R[1] + R[3], R[5] + R[7], R[6] + R[2]};
@@ -67,15 +68,16 @@ static ALWAYS_INLINE void rotation_subtract_product(lanes *f, const lanes *rotat
     }
 }
 
-/* Returns true if rotation_subtract_product reads number c of a stored rotation, so that it must be loaded: in 3D all,
- * in 2D numbers 0 and 2. */
+/* Returns true if rotation_subtract_product reads number `component` (0 to 3) of a stored rotation, so that it must be
+ * loaded: in 3D all numbers, in 2D numbers 0 and 2. */
 static ALWAYS_INLINE bool rotation_component_is_read(int component, const int dim)
 {
     return dim > 2 || component % 2 == 0;
 }
 
-/* Returns true if number c of a stored rotation changes sign when the particle is reflected in a plane normal to `axis`
- * (-1: no plane). All components of a rotation vector change sign except the one along the normal. */
+/* Returns true if number `component` (0 to 3) of a stored rotation changes sign when the particle is reflected in a
+ * plane normal to `axis` (-1: no plane). All components of a rotation vector change sign except the one along the
+ * normal. */
 static inline bool rotation_component_changes_sign(int component, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? component == 1 || component == 2 : component < 3 && component != axis);

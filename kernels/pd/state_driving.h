@@ -7,9 +7,9 @@
 #include "kernels/kernels.h"
 #include "rotation.h"
 
-/* Returns the energy per weight [J] that an increase of the damage of `bond` would set free at the present states of
- * both families (the driving force Y over the weight w). i: particle in whose row the bond is. Both rows of a bond get
- * equal bits. */
+/* Returns the energy [J] that an increase of the damage of `bond` sets free, per damage and weight of the bond, at the
+ * present states of the families of both particles (the driving force Y divided by the weight w). i: particle to whose
+ * bonds `bond` belongs; the result for the other particle is bitwise equal. */
 static inline real bond_driving_energy(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                        int32_t i)
 {

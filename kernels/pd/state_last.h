@@ -46,8 +46,9 @@ static inline struct family_left family_sums_of_unbroken_bonds(const struct bond
     return left;
 }
 
-/* Replaces *value by share * *value + (1 - share) * without_breaking, the mixture of the values with and without the
- * breaking bonds. */
+/* Replaces *value, a quantity of a family with the bonds that break in this step, by weight * *value + (1 - weight) *
+ * without_breaking, where `without_breaking` is the quantity without these bonds. weight: share of their force that
+ * acts in this step [1]. */
 static inline void blend_with_value_without_breaking(real *value, real without_breaking, real weight)
 {
     *value = weight * *value + (1 - weight) * without_breaking;
@@ -124,8 +125,9 @@ static inline real state_component_before_breaking(const struct bonds *b, const 
     return sign * (component == 0 ? t->pressure[i] : component == 1 ? t->spring[i] : t->rotation[component - 2][i]);
 }
 
-/* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of the families of both
- * particles. present: true for their present states, false for the states before bonds broke in this step. */
+/* Computes the force of the state-based bond `bond` on particle i, to whose bonds it belongs, in f[dim] [N], from the
+ * states of the families of both particles. present: true for their present states, false for the states before bonds
+ * broke in this step. */
 static inline void state_bond_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool present, real *f, const int dim)
 {
@@ -154,9 +156,9 @@ static inline void state_bond_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* Computes the force of a bond on particle i of its row, f[dim] [N], in a bond-based or state-based model. present, for
- * state-based models: true for the present states of both particles, false for the states before bonds broke in this
- * step. */
+/* Computes the force of `bond` on particle i, to whose bonds it belongs, in f[dim] [N], in a bond-based or state-based
+ * model. present, for state-based models: true for the present states of both particles, false for the states before
+ * bonds broke in this step. */
 static inline void bond_force_of_any_model(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                            int32_t i, bool present, real *f)
 {

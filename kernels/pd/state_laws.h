@@ -81,8 +81,8 @@ static ALWAYS_INLINE lanes state_reference_length(const struct column column, la
            (column.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_broadcast(1)));
 }
 
-/* Computes the extension of a bond over its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF
- * (bond_column.h). LENGTH: |xi|; INVERSE: 1/|Y|. */
+/* Computes the extension of a bond divided by its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF
+ * (bond_column.h), so that it is exactly 0 where nothing has moved. LENGTH: |xi|; INVERSE: 1/|Y|. */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
 #endif

@@ -95,7 +95,7 @@ static ALWAYS_INLINE void sweep_move_remaining_rows(struct sweep *s, const struc
 /* Defines the body of a force kernel, with the return statement: a parallel loop over the active row blocks of B.
  * FORCE: expression that computes the forces of `row_block` and returns the number of bonds broken; M: step sizes with
  * which particles of P are moved in the same loop (D dimensions), NULL: none is moved. The kernel returns the number of
- * directed bonds broken, and sets M->diverged if a particle has diverged. */
+ * bonds broken, each counted once for each of its particles, and sets M->diverged if a particle has diverged. */
 #define SWEEP(B, P, M, D, FORCE)                                                                                       \
     int64_t broken = 0, diverged = 0;                                                                                  \
     _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \

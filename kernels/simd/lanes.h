@@ -12,6 +12,8 @@
 #include <immintrin.h>
 #endif
 
+/* Vectors of eight (LANES) numbers: aligned doubles, doubles at any address, floats, masks (all bits of a lane set or
+ * clear), bit patterns of doubles, and 16-bit integers. */
 typedef real lanes __attribute__((vector_size(LANES * sizeof(real))));
 typedef real lanes_anywhere __attribute__((vector_size(LANES * sizeof(real)), aligned(sizeof(real)), may_alias));
 typedef float lanes_floats __attribute__((vector_size(LANES * sizeof(float)), aligned(sizeof(float)), may_alias));
