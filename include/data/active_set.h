@@ -22,7 +22,7 @@ struct active_set {
     uint8_t *level, *moved;        /* [blocks + LANES] activity level of a block; [blocks] working memory */
     int32_t *list;                 /* [active] ascending: the blocks that the hot loops visit */
     bool resumed;                  /* all blocks are visited in the first step after a restart */
-    bool over;                     /* blocks of bonds: all active blocks have moved already, so that no other one becomes active */
+    bool over; /* blocks of bonds: all active blocks have moved already, so that no other one becomes active */
 };
 
 /* Allocates the active set r of `block_count` blocks (each of eight particles or nodes) and makes all blocks active, so

@@ -79,9 +79,9 @@ struct wall {
     int32_t node;
     int16_t component, load; /* load: index of the boundary condition */
     real velocity, change;   /* prescribed velocity; its change since the previous step [m/s] */
-    real place;              /* prescribed displacement at the end of the step [m]; NAN: only the velocity is prescribed */
-    real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
-    bool symmetric;          /* true: the wall is a plane of symmetry, and other components of the node are free */
+    real place;     /* prescribed displacement at the end of the step [m]; NAN: only the velocity is prescribed */
+    real reaction;  /* impulse in this step, without that of the prescribed change [N s] */
+    bool symmetric; /* true: the wall is a plane of symmetry, and other components of the node are free */
 };
 
 /* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `lower` and `upper`

@@ -24,7 +24,8 @@ enum { RATE_POINTS = 16 };
 struct strength_rate {
     int points;                                  /* number of rates; 0: the strength does not depend on the rate */
     real rate[RATE_POINTS], factor[RATE_POINTS]; /* [1/s] ascending; at least 1, not falling [1] */
-    real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften; the strength is then as above [1] */
+    real onset[RATE_POINTS]; /* factor on the stretch at which bonds begin to soften; the strength is then as above [1]
+                              */
 };
 
 /* A material: constants given by the scene, and constants that material_compute_derived_constants derives from them. */
@@ -50,7 +51,7 @@ struct material {
     struct law law;                  /* by which its material points yield */
     struct strength_surface surface; /* by which its bonds begin to soften; none without one of these strengths */
     real surface_least_strain;       /* smallest strain at which `surface` is reached [1] */
-    int surface_means;               /* `surface`: how many times the strain is averaged over the family of each particle */
+    int surface_means; /* `surface`: how many times the strain is averaged over the family of each particle */
     /* values derived by material_compute_derived_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */

@@ -63,7 +63,8 @@ struct mesh_slits {
     int32_t *home;   /* [divided cells][2^dim] cell of the point at each place */
     int32_t *group;  /* [groups of partial cells] number in `lane`, -1: corners of the grid */
     int32_t *lane;   /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
-    int64_t links;   /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, one of the nodes at their positions */
+    int64_t links;   /* number of pairs of blocks of eight nodes: one block of extra nodes or cells, one of the nodes at
+                        their positions */
     struct mesh_link {
         int32_t extra, base;
     } * link;        /* [links] */

@@ -27,9 +27,10 @@ struct softening_strength softening_model_normalised_strengths(const struct soft
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
 
 /* Computes how much later bonds of material m soften at each strain rate of the table m->rate: stores in
- * m->rate.onset[k] the factor on m->onset_stretch, the stretch at which bonds begin to soften in slow loading, with which
- * the material has its strength at rate k. model: peridynamic model of the bonds. Returns the smallest ratio (critical
- * stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the strength. */
+ * m->rate.onset[k] the factor on m->onset_stretch, the stretch at which bonds begin to soften in slow loading, with
+ * which the material has its strength at rate k. model: peridynamic model of the bonds. Returns the smallest ratio
+ * (critical stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the
+ * strength. */
 real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
                                                   const struct softening_model *model);
 

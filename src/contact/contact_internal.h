@@ -11,9 +11,10 @@
 #define CONTACT_REACH 2.0 /* range within which a particle contributes to the density of a face [mean spacings] */
 #define CONTACT_SKIN 0.3  /* margin of the list of pairs beyond the contact distance [spacings] */
 #define STATIC_SKIN 1.5   /* the same margin in equilibrium solutions [spacings] */
-#define FAR_LAMMPS 1.35   /* rule of LAMMPS: contact distance of a pair is the smaller of this [mean spacings] and ... \
-                           */
-#define NEAR_LAMMPS 0.9   /* ... this times the distance of the pair in the reference configuration [1] */
+#define FAR_LAMMPS                                                                                                     \
+    1.35                /* rule of LAMMPS: contact distance of a pair is the smaller of this [mean spacings] and ...   \
+                         */
+#define NEAR_LAMMPS 0.9 /* ... this times the distance of the pair in the reference configuration [1] */
 /* Largest ratio of the reduction of a gap to the largest displacement of a particle [1]: 2 because both faces move,
  * plus a margin for the curvature of the density field. */
 #define CONTACT_FLATNESS 3
