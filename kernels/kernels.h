@@ -129,14 +129,14 @@ KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Starts the softening of all bonds that are stretched beyond their onset and that the stress across the bond allows to
- * soften (pd/bond_begin.c). Examines the row blocks (the bonds of eight particles) in which the last force computation
- * has found such a bond. Both rows of a bond decide alike. A bond beyond its onset already loses some energy at once,
- * which is added to the fracture energy. Called by bond_forces. */
+/* Starts the softening of all bonds whose stretch exceeds their onset (the stretch at which softening begins), if the
+ * stress across the bond allows it (pd/bond_begin.c). Examines the row blocks (the bonds of eight particles) in which
+ * the last force computation has found such a bond. The result is the same for both particles of a bond. A bond beyond
+ * its onset already loses some energy at once, which is added to the fracture energy. Called by bond_forces. */
 KERNEL(void, bonds_begin_to_soften, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
-/* Starts the softening of all bonds that are stretched beyond their onset at the present positions and that the stress
- * across the bond allows to soften. Needs no preceding force computation. For load steps. */
+/* Starts the softening of all bonds whose stretch at the present positions exceeds their onset (the stretch at which
+ * softening begins), if the stress across the bond allows it. Needs no preceding force computation. For load steps. */
 KERNEL(void, bonds_open_beyond_onset, (struct bonds *b, struct particles *p, const struct bond_limit *limit));
 
 /* Increases the damage of bonds that have begun to soften to that of the present positions, where this sets energy free
@@ -292,13 +292,15 @@ KERNEL_TABLE(rotating_remap_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_to_nodes_fn, spread_table, [SHAPES]);
 
-/* Computes mass, centre, inertia and angular velocity (spin) of each group from its points on the grid, before a step,
- * and stores in t->turn, for each point, the angular velocity of its group [1/s]. spacing: of the particles [m]. */
+/* Computes mass, centre, inertia and angular velocity (spin) of each group of neighbouring points that rotate together
+ * (data/turning.h) from its points on the grid, before a step, and stores in t->turn, for each point, the angular
+ * velocity of its group [1/s]. spacing: of the particles [m]. */
 KERNEL(void, rotation_groups_compute_spins, (struct rotation_groups *t, struct particles *p, real spacing));
 
-/* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
- * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
- * the new angular velocity of its group [1/s]. Positions must be those of rotation_groups_compute_spins. */
+/* Gives each group of points that rotate together (data/turning.h) the angular momentum that its points have lost in
+ * the transfer from the grid (t->turn [kg m^2/s]), as a rotation about its centre of mass: adds it to the velocities of
+ * the points. Then stores in t->turn, for each point, the new angular velocity of its group [1/s]. Positions must be
+ * those of rotation_groups_compute_spins. */
 KERNEL(void, rotation_groups_restore_angular_momentum, (struct rotation_groups *t, struct particles *p));
 
 /* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
@@ -405,10 +407,12 @@ KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
  * corrects the kinetic energy, because velocities are half a step behind the positions. dt: time step [s]. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
 /* Returns the elastic energy of all cells of the mesh [J], including their contribution to the families of bonded
- * points. m: elastic constants by material; finite: true for finite strain, false for small strain. */
+ * points (material points with state-based bonds). m: elastic constants by material; finite: true for finite strain,
+ * false for small strain. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
-/* Computes end_strain and end_rotation of the bonded material points in p (state-based models) from the deformation of
- * their cells. finite: true for finite strain, false for small strain. */
+/* Computes p->end_strain and p->end_rotation, strain and rotation of the material points with state-based bonds to
+ * peridynamic particles, from the deformation of their cells. finite: true for finite strain, false for small
+ * strain. */
 KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

@@ -9,9 +9,10 @@
  * (getloadavg); 0 if it is not known. */
 double machine_load_average(void);
 
-/* Writes to text[capacity] a sentence on the factor by which wall time exceeds processor time, as `other_process_load`
- * processes of other programs (machine_load_average) and `threads` threads of this one share `cores` cores. Returns
- * false, and writes nothing, if there are enough cores for all of them. */
+/* Writes a warning that other programs slow this one down to text[capacity]: the factor by which wall time exceeds
+ * processor time. other_process_load: mean number of processes of other programs (machine_load_average); cores: cores
+ * of the machine; threads: threads of this program. Returns false, and writes nothing, if there are enough cores for
+ * all of them. */
 bool machine_describe_overload_if_any(char *text, size_t capacity, double other_process_load, int cores, int threads);
 
 #endif

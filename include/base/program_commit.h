@@ -3,7 +3,7 @@
 #ifndef CLEAVE_PROGRAM_COMMIT
 #define CLEAVE_PROGRAM_COMMIT
 
-/* Sets the commit of the source tree. commit_id: kept by reference. */
+/* Sets the commit of the source tree, which program_commit returns. commit_id: commit hash, kept by reference. */
 void program_commit_set(const char *commit_id);
 
 /* Returns the commit of the source tree, "" if it is unknown. */

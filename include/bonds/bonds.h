@@ -114,8 +114,9 @@ const char *bonds_describe_first_inconsistency(const struct bonds *b);
 /* Returns the energy that bonds which still exist have dissipated by softening [J]. */
 real bonds_dissipated_softening_energy(const struct bonds *b);
 
-/* Returns the energy released by the broken bonds of row `row` since the start, plus half of the energy that its intact
- * bonds have dissipated by softening [J]. The sum over all rows is bonds_fracture_energy. */
+/* Returns the energy released by the broken bonds of row `row` (all bonds of one particle) since the start, plus half
+ * of the energy that its intact bonds have dissipated by softening [J]. The sum over all rows is
+ * bonds_fracture_energy. */
 real bonds_row_fracture_energy(const struct bonds *b, int64_t row);
 
 /* Returns true if an intact bond of row `row` (all bonds of one particle) has begun to soften, by its stretch or
@@ -180,8 +181,8 @@ static inline int64_t bond_row_block_column_count(const struct bonds *b, int64_t
     return b->column_count[row_block];
 }
 
-/* Returns the neighbour in lane 0 of column `column` of a row block (the `column`-th bonds of eight particles), if the
- * eight neighbours of the column are consecutive particles; else -1. */
+/* Returns the first neighbour of column `column` of a row block, i.e. the neighbour to which bond number `column` of
+ * the first of eight particles leads, if the eight neighbours are consecutive particles; else -1. */
 static inline int64_t column_first_consecutive_neighbour(const struct bonds *b, int64_t row_block, int64_t column)
 {
     const struct stencil *stencil = b->stencil[row_block];

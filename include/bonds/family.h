@@ -67,8 +67,8 @@ struct bond_limit {
  * that no step follows. */
 extern const struct bond_limit bond_limit_never;
 
-/* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: critical stretch of its
- * materials times its strength factor. A bond that softens instead dissipates the same energy. */
+/* Returns the stretch at which the bond between particles i and j breaks if it is brittle [1]: the critical stretch of
+ * its two materials, from `limit`, times its random strength factor. A bond that softens dissipates the same energy. */
 static inline real bond_breaking_stretch(const struct particles *p, const struct bond_limit *limit, int64_t i,
                                          int64_t j)
 {
@@ -78,7 +78,7 @@ static inline real bond_breaking_stretch(const struct particles *p, const struct
 }
 
 /* Returns the stretches [1] at which the bond between particles i and j begins to soften and breaks; both are the
- * critical stretch if the bond is brittle. */
+ * critical stretch if the bond is brittle. limit: critical stretches and softening by pair of materials. */
 static inline struct softening_range bond_softening_range(const struct particles *p, const struct bond_limit *limit,
                                                           int64_t i, int64_t j)
 {

@@ -43,7 +43,7 @@ struct surface_weights {
 status surface_weights_fit_bond_weight_factors(struct surface_weights *weights, const struct particles *p,
                                                const struct bond_source *source, bool with_rotations);
 
-/* Releases the arrays of the weights w. */
+/* Releases the arrays of w, the factors on the weights of bonds near faces. */
 void surface_weights_free(struct surface_weights *w);
 
 /* Returns the integer nearest to a number of spacings; quicker than nearbyint. */

@@ -48,10 +48,10 @@ void interface_zone_rebuild_after_bond_change(struct coupling_state *c, const st
 void bonded_points_update_strain(const struct partial_stress *partial, const struct reference_frame *frame,
                                  struct particles *p, const struct material *material);
 
-/* Decides whether each pre-crack becomes a slit of the mesh or cuts bonds along its length, and makes peridynamic the
- * particles that are so from the start: those near the ends of slits, those with bonds cut by a pre-crack, those beside
- * narrow voids, and those in the region that the scene gives. Returns REFUSED, with a message, if the scene requires
- * slits where they are impossible. */
+/* Decides whether each pre-crack becomes a slit, i.e. a free surface of the mesh, or cuts bonds along its length, and
+ * makes peridynamic the particles that are so from the start: those near the ends of slits, those with bonds cut by a
+ * pre-crack, those beside narrow voids, and those in the region that the scene gives. Returns REFUSED, with a message,
+ * if the scene requires slits where they are impossible. */
 status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 
 /* Writes how pre-crack number `crack_number` is represented, in words, to `text` (`capacity` bytes): as a slit of the
@@ -60,9 +60,9 @@ status precracks_apply_as_slits_or_cut_bonds(struct run *e);
 void notch_describe_as_slit_or_cut_bonds(const struct notches *n, int crack_number, real spacing, char *text,
                                          size_t capacity);
 
-/* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
- * before the faces touch. spacing: of the particles [m]; time_ahead: time until the next call [s]. Returns true if
- * there are such faces, whether or not points were marked. */
+/* Marks (FLAG_NEAR) material points beside slits (pre-cracks as free surfaces of the mesh) and narrow voids whose faces
+ * approach each other, so that they convert before the faces touch. spacing: of the particles [m]; time_ahead: time
+ * until the next call [s]. Returns true if there are such faces, whether or not points were marked. */
 bool flag_points_at_closing_slits(const struct notches *n, struct reference_frame *frame, struct particles *p,
                                   const struct loads *loads, real spacing, real time_ahead);
 
@@ -71,8 +71,8 @@ bool flag_points_at_closing_slits(const struct notches *n, struct reference_fram
  * needed if this mesh has no free surfaces at voids (mesh_cannot_double_nodes_at_voids). */
 void convert_to_peridynamic_beside_voids(struct particles *p, const struct voids *v, bool include_meshed);
 
-/* Returns true if a mesh with the nodes of grid g has no free surfaces at voids: in 1D, and if a mirror plane of scene
- * s does not pass through nodes of g, because doubled nodes are not possible then. */
+/* Returns true if a mesh with the nodes of grid g has no free surfaces at voids (narrow gaps of a body): in 1D, and if
+ * a mirror plane of scene s does not pass through nodes of g, because doubled nodes are not possible then. */
 bool mesh_cannot_double_nodes_at_voids(const struct grid *g, const struct scene *s);
 
 /* Adds warnings to `warning_list` for voids that are too narrow, so that the run treats them as closed: voids whose two

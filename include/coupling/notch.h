@@ -42,8 +42,8 @@ struct notches {
 void notches_choose_slits_or_cut_bonds(struct notches *n, const struct particles *p, const struct bond_source *source,
                                        real tip_radius, const char *reason_against_slits);
 
-/* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit if the slit separates them from
- * a part of their family. source: inputs of the bonds. */
+/* Makes peridynamic, before step 0, the particles within n->radius of an end of a slit (a pre-crack as free surface of
+ * the mesh) if the slit separates them from some of their neighbours. source: inputs of the bonds. */
 void notches_make_slit_ends_peridynamic(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays of n; cracks and voids stay with their owners. */

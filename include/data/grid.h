@@ -123,7 +123,8 @@ void grid_clear_constraints(struct grid *g);
  * rest, they would support the body: a cantilever of 15 times its depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
-/* Returns coordinate `axis` of the `node`-th node along direction `axis` of the box of g [m]. */
+/* Returns the coordinate along direction `axis` [m] of node number `node`, counted in this direction from the lowest
+ * node of the box of g. */
 static inline real grid_node_position(const struct grid *g, int axis, int64_t node)
 {
     return g->anchor[axis] + g->h * (real)(g->first[axis] + node);
@@ -146,9 +147,9 @@ static ALWAYS_INLINE int64_t grid_cell_index_at(const struct grid *g, int axis, 
     return k - (place < (real)k);
 }
 
-/* Returns coordinate `axis` of one of the 2^dim particles of cell `cell`, which are at a quarter and three quarters of
- * each edge [m]. corner: corner of the cell nearest to the particle; bit `axis` is set on the upper side in direction
- * `axis`. */
+/* Returns the coordinate along direction `axis` [m] of one of the 2^dim particles of cell `cell`, which are at a
+ * quarter and three quarters of each edge. corner: number of the corner of the cell nearest to the particle; bit `axis`
+ * is set on the upper side in direction `axis`. */
 static inline real grid_cell_particle_coordinate(const struct grid *g, int64_t cell, int corner, int axis)
 {
     return grid_node_position(g, axis, cell / g->stride[axis] % g->count[axis]) +

@@ -68,9 +68,9 @@ real hull_signed_distance(const struct hull *s, const real *X, real *normal);
  * examined. */
 bool hull_point_is_within_distance(const struct hull *s, const real *X, real max_distance);
 
-/* Returns true if the closed surface is convex near the point X (s->dim components [m]): of all faces at most `reach`
- * [m] away none is in front of another one. A straight line from X, if X is inside, to a point at most that far away
- * that is inside, too, is then inside. Returns false for an open surface or one with holes, and where more than 100
+/* Returns true if the closed surface is convex near the point X (s->dim components [m]): no face at most `reach` [m]
+ * away is in front of another such face. A straight line from X, if X is inside, to another inside point at most
+ * `reach` away is then completely inside. Returns false for an open surface or one with holes, and where more than 100
  * faces are that near. */
 bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach);
 

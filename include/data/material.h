@@ -60,13 +60,15 @@ struct material {
     real bulk;                        /* E in 1D, in-plane k2 = (c11 + c12)/2 in 2D, K in 3D [Pa] */
 };
 
-/* Returns true if the bonds of the material soften (softening.h). */
+/* Returns true if the bonds of the material soften, i.e. lose their force gradually (softening.h), because a tensile
+ * strength is given; false if they are brittle. */
 static inline bool material_has_softening_bonds(const struct material *m) { return m->tensile_strength > 0; }
 
-/* Returns true if a strength surface starts the softening of the material's bonds. */
+/* Returns true if the bonds of the material begin to soften where its stress reaches a strength surface
+ * (strength_surface.h), not at a stretch. */
 static inline bool material_has_strength_surface(const struct material *m) { return m->surface.g0 > 0; }
 
-/* Returns true if the material yields. */
+/* Returns true if the material yields: it has a finite yield stress or a flow law. */
 static inline bool material_yields(const struct material *m)
 {
     return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;

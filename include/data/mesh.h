@@ -123,16 +123,18 @@ struct mesh {
     real match;        /* alpha, share of consistent inertia in matched cells [1] */
 };
 
-/* Returns the array of the 2^dim nodes at the corners of cell `cell` if one of them is an extra node (a node that a
- * slit doubles); NULL otherwise: the corners are then the nodes `cell` + mesh->corner[c] of the grid. */
+/* Returns the array of the 2^dim nodes at the corners of cell `cell` if one of them is an extra node, i.e. a second
+ * node at the position of a grid node, where a slit (a pre-crack) divides the mesh. Returns NULL otherwise: the corners
+ * are then the nodes `cell` + mesh->corner[c] of the grid. */
 static inline const int32_t *mesh_cell_corner_nodes_at_slit(const struct mesh *mesh, int64_t cell)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[cell] >= 0 ? s->corner + ((int64_t)s->cell[cell] << mesh->grid.dim) : NULL;
 }
 
-/* Returns the index of the node at corner `corner` of cell `cell`, also if it is an extra node at a slit. corner: 0 ..
- * 2^dim - 1, bit d is set on the upper side in direction d. */
+/* Returns the index of the node at corner `corner` of cell `cell`, which may be an extra node (second node at the
+ * position of a grid node, where a pre-crack divides the mesh). corner: 0 .. 2^dim - 1, bit d is set on the upper side
+ * in direction d. */
 static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cell, int corner)
 {
     const int32_t *own = mesh_cell_corner_nodes_at_slit(mesh, cell);
@@ -140,16 +142,16 @@ static inline int64_t mesh_cell_corner_node(const struct mesh *mesh, int64_t cel
 }
 
 /* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of group number `group` of partial
- * cells (cells with missing or bonded points), if one of the corners is an extra node at a slit; NULL otherwise: all
- * corners are then nodes of the grid. */
+ * cells (cells with missing or bonded points), if one of the corners is an extra node (second node where a pre-crack
+ * divides the mesh); NULL otherwise: all corners are then nodes of the grid. */
 static inline const int32_t *mesh_group_corner_nodes_at_slit(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
 }
 
-/* Returns the node of the regular grid at the position of `node`: for an extra node at a slit the node that it doubles,
- * for all other nodes `node` itself. */
+/* Returns the node of the regular grid at the position of `node`. For an extra node, a second node where a pre-crack
+ * divides the mesh, this is the grid node at the same position; for all other nodes it is `node` itself. */
 static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh, int64_t node)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -157,16 +159,16 @@ static inline int64_t mesh_regular_node_of_doubled_node(const struct mesh *mesh,
 }
 
 /* Returns the cell of the regular grid whose corner `corner` is at the position of node `node`; -1 if there is none.
- * Where slits divide this cell, mesh_cell_next_slit_part lists its further parts, and mesh_cell_corner_node shows which
- * of the parts has node `node` itself. */
+ * Where slits (pre-cracks) divide this cell, mesh_cell_next_slit_part lists its further parts, and
+ * mesh_cell_corner_node shows which of the parts has node `node` itself. */
 static inline int64_t mesh_cell_with_corner_at_node(const struct mesh *mesh, int64_t node, int corner)
 {
     const int64_t cell = mesh_regular_node_of_doubled_node(mesh, node) - mesh->corner[corner];
     return cell >= 0 ? cell : -1;
 }
 
-/* Returns the next one of the cells into which slits divide one cell of the regular grid; -1 after the last one, and
- * for a cell that is not divided. */
+/* Returns the next one of the cells into which slits (pre-cracks as free surfaces) divide one cell of the regular grid,
+ * starting from the cell of the grid itself; -1 after the last one, and for a cell that is not divided. */
 static inline int64_t mesh_cell_next_slit_part(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;

@@ -279,8 +279,9 @@ real particles_largest_speed_of_all(const struct particles *p);
  * images. */
 real particles_bounding_box_longest_edge(const struct particles *p);
 
-/* Returns the volume of a lattice particle [m^3]. section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One function, so
- * that a quotient of two such volumes is exactly 1. */
+/* Returns the volume of a particle of a lattice, section spacing^dim [m^3]. section: cross-section in 1D [m^2],
+ * thickness in 2D [m], 1 in 3D; spacing: lattice spacing [m]. All callers use this function, so that the quotient of
+ * two such volumes is exactly 1. */
 static inline real lattice_particle_volume(real section, real spacing, int dim)
 {
     real volume = section;
@@ -289,7 +290,7 @@ static inline real lattice_particle_volume(real section, real spacing, int dim)
 }
 
 /* Returns true if `coordinate` is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site receives
- * the nearest whole number in any case. `coordinate`, origin, spacing in one unit. */
+ * the nearest whole number in any case. coordinate, origin, spacing: in the same unit. */
 static inline bool lattice_contains_coordinate(real coordinate, real origin, real spacing, real *site)
 {
     const real k = (coordinate - origin) / spacing;

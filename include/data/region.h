@@ -73,11 +73,11 @@ struct time_function {
 /* Returns the value of the time function f at time t [s], a dimensionless factor. */
 real time_function_value(const struct time_function *f, real t);
 
-/* Returns the integral of the time function f, a dimensionless factor, from time 0 to t >= 0 [s]. */
+/* Returns the integral over time of the time function f, a dimensionless factor, from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
-/* Returns the largest magnitude of the slope of the time function f between the times 0 and `t_end` [1/s], INFINITY if
- * f jumps there. */
+/* Returns the largest magnitude of the slope [1/s] of the time function f between the times 0 and `t_end` [s]; INFINITY
+ * if f jumps there. */
 real time_function_largest_slope_until(const struct time_function *f, real t_end);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */

@@ -86,8 +86,9 @@ static inline real softening_curve_value(const struct softening_curve *c, real x
     return level;
 }
 
-/* Returns the share of its stiffness that a softening bond keeps in tension [1]. onset, breaking_stretch: stretches at
- * which it begins to soften and breaks; largest_stretch: its largest stretch so far, at least the onset [1]. */
+/* Returns the fraction of its initial stiffness that a softening bond has left in tension [1]. c: its softening curve;
+ * onset, breaking_stretch: stretches at which it begins to soften and breaks [1]; largest_stretch: its largest stretch
+ * so far, at least `onset` [1]. */
 static inline real softening_remaining_stiffness_fraction(const struct softening_curve *c, real onset,
                                                           real breaking_stretch, real largest_stretch)
 {
@@ -108,8 +109,8 @@ struct softening_strength softening_curve_normalised_strengths(const struct soft
 
 /* Returns the stretch s_0 from which on bonds must soften for the tensile strength m->tensile_strength [1], by
  * fixed-point iteration of s_0 = strength/(E' tension(kappa)) with kappa = (critical stretch/s_0)^2
- * (softening_curve_normalised_strengths). m->critical_stretch must be set. The result exceeds it if the horizon is too
- * large for this strength. */
+ * (softening_curve_normalised_strengths). m->critical_stretch must be set; if the horizon is too large for this
+ * strength, the result exceeds it. space: of the body. */
 real softening_onset_stretch_from_strength(const struct material *m, enum space space);
 
 /* Strain rates are measured from this share of the stretch on at which bonds soften in slow loading [1]. */
@@ -123,7 +124,8 @@ real softening_onset_stretch_from_strength(const struct material *m, enum space 
  * linear in the logarithm of the rate, constant beyond the table. */
 real strength_rate_interpolate_table(const struct strength_rate *r, const real *table_values, real rate);
 
-/* Returns E', the modulus of uniaxial tension: E, in plane strain E/(1 - nu^2) [Pa]. */
+/* Returns E', the elastic stress divided by the strain in uniaxial tension [Pa]: Young's modulus E, in plane strain
+ * E/(1 - nu^2) with Poisson's ratio nu. */
 static inline real material_uniaxial_tension_modulus(const struct material *m, enum space space)
 {
     return space == SPACE_PLANE_STRAIN ? m->young / (1 - square(m->poisson)) : m->young;

@@ -26,11 +26,10 @@ struct softening_strength softening_model_normalised_strengths(const struct soft
  * the horizon is too large for this strength, the result exceeds m->critical_stretch. */
 real softening_model_onset_stretch(const struct material *m, enum space space, const struct softening_model *model);
 
-/* Computes how much later bonds of material m soften at each strain rate of the table m->rate: stores in
- * m->rate.onset[k] the factor on m->onset_stretch, the stretch at which bonds begin to soften in slow loading, with
- * which the material has its strength at rate k. model: peridynamic model of the bonds. Returns the smallest ratio
- * (critical stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the
- * strength. */
+/* Computes, for each strain rate of the table m->rate, by which factor the stretch at which bonds of material m begin
+ * to soften exceeds that in slow loading, m->onset_stretch, so that the material has its strength at this rate. Stores
+ * the factors in m->rate.onset. model: peridynamic model of the bonds. Returns the smallest ratio (critical
+ * stretch/onset)^2 over all rates [1]; below RATE_LEAST_RATIO bonds would break before they reach the strength. */
 real strength_rate_compute_onsets_and_least_ratio(struct material *m, enum space space,
                                                   const struct softening_model *model);
 

@@ -17,16 +17,16 @@ struct strength_surface {
     real g0, g1; /* [Pa] [1] */
 };
 
-/* Returns the surface through the strengths in uniaxial tension and compression [Pa]; compressive_strength >=
- * tensile_strength. */
+/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial tension and compression [Pa];
+ * compressive_strength >= tensile_strength. */
 struct strength_surface strength_surface_from_compression(real tensile_strength, real compressive_strength);
 
-/* Returns the surface through the strengths in uniaxial and hydrostatic tension [Pa]; hydrostatic_strength >
- * tensile_strength/3. */
+/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial and hydrostatic tension [Pa];
+ * hydrostatic_strength > tensile_strength/3. */
 struct strength_surface strength_surface_from_hydrostatic(real tensile_strength, real hydrostatic_strength);
 
-/* Returns the surface through the strengths in uniaxial and equal biaxial tension [Pa]; tensile_strength/2 <
- * biaxial_strength <= tensile_strength. */
+/* Returns the strength surface of Drucker and Prager with the given strengths in uniaxial and equal biaxial tension
+ * [Pa]; tensile_strength/2 < biaxial_strength <= tensile_strength. */
 struct strength_surface strength_surface_from_biaxial(real tensile_strength, real biaxial_strength);
 
 /* Returns the value U of a stress on the strength surface s, its ratio to the strength [1]: 1 on the surface, below 1

@@ -28,13 +28,13 @@ struct voids {
  * such a solid is only known to about a voxel. */
 bool region_has_voxel_image(const struct region *r);
 
-/* Returns true if a void may be between two points of the shape; false for a single convex solid, an image, or no
- * shape. */
+/* Returns true if a void (a slot, a slit or a gap) may be between two points of the shape r; false for a single convex
+ * solid, an image, or no shape. */
 bool region_may_have_voids(const struct region *r);
 
-/* Computes v->near, which marks the particles that a void separates from others, by testing all pairs of particles at
- * most `max_distance` apart [m]. The other members of v must be set before. cells: search over reference positions;
- * images: sources of the mirror images. Release with voids_free. */
+/* Computes v->near, which marks the particles that a void (a slot, a slit or a gap of the shape) separates from others,
+ * by testing all pairs of particles at most `max_distance` apart [m]. The other members of v must be set before. cells:
+ * search over reference positions; images: sources of the mirror images. Release with voids_free. */
 void voids_mark_separated_particles(struct voids *v, const struct particles *p, const struct cells *cells,
                                     const struct image *images, real max_distance);
 
@@ -44,8 +44,8 @@ void voids_mark_separated_particles(struct voids *v, const struct particles *p, 
 bool void_separates_points(const struct voids *v, int body_number, const real *point, const real *other_point,
                            bool *facing);
 
-/* Returns true if a void separates the particles `particle` and `other_particle` of one body. v: NULL if no body has
- * voids; the result is then false. Fast for particles without a void nearby. */
+/* Returns true if a void (a slot, a slit or a gap of the shape) separates the particles `particle` and `other_particle`
+ * of one body. v: NULL if no body has voids; the result is then false. Fast for particles without a void nearby. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 
@@ -53,8 +53,9 @@ bool void_separates_particles(const struct voids *v, const struct particles *p, 
  * body, in which it is [m]. */
 real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
-/* Returns true if a void separates particle i from at least one particle of its body within the distance for which
- * voids_mark_separated_particles has marked particles. v: NULL if no body has voids; the result is then false. */
+/* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its
+ * body within the distance for which voids_mark_separated_particles has marked particles. v: NULL if no body has voids;
+ * the result is then false. */
 static inline bool particle_is_beside_void(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases the arrays of v that it owns; shapes and mirrors stay with their owners. */

@@ -56,8 +56,8 @@ struct crack_tips {
 };
 
 /* Excludes from all cracks the particles that pre-cracks damage by more than TIP_DAMAGE, so that crack tips do not grow
- * through them. Needed for pre-cracks that are slits of the mesh. cut_fraction: for each particle, the share of its
- * bonds that pre-cracks cut once the particle has bonds [1]. */
+ * through them. Needed for pre-cracks that are slits (free surfaces) of the mesh. cut_fraction: for each particle, the
+ * share of its bonds that pre-cracks cut once the particle has bonds [1]. */
 void tips_ignore_particles_damaged_by_precracks(struct crack_tips *t, const real *cut_fraction);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already

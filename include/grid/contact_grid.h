@@ -51,8 +51,8 @@ struct grid_contact {
  * c. Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int body_count);
 
-/* Initialises *side with the background grid g of one body, the cell order of its points, and the range of nodes that
- * the points reach. g and order are kept by reference. */
+/* Initialises *side, one of the bodies in contact: its background grid g, its points sorted by cell, `order`, and the
+ * range of nodes that these points reach, which is computed. g and order are kept by reference. */
 void grid_contact_side_make_for_body(struct grid_contact_side *side, struct grid *g, const struct transfer_order *order,
                                      const struct particles *p);
 

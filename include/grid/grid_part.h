@@ -59,8 +59,8 @@ void grid_choose_reference_node_position(const struct scene *s, const real *body
  * groups. */
 int joined_bodies_first_body_of_group(const struct scene *s, int group);
 
-/* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
- * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
+/* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits (pre-cracks) and
+ * voids (narrow gaps) then cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
 bool grid_has_mirror_plane_between_nodes(const struct grid *g, const struct scene *s);
 
 /* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the

@@ -115,7 +115,7 @@ static inline bool boundary_applies_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
-/* Returns true if boundary b holds its components at rest. */
+/* Returns true if boundary b prescribes zero velocity or displacement for its components, i.e. is a fixed support. */
 static inline bool boundary_holds_at_rest(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
@@ -246,7 +246,7 @@ void pressure_visit_faces(const struct boundary *boundary, int boundaries, int n
 status load_prepare_varying_particle_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
- * FAILED, with a message that contains boundary, position and time, if one has not. */
+ * FAILED, with a message that contains boundary, position and time, if a value is not finite. */
 status loads_check_formulas_are_finite(const struct loads *l, const struct particles *p, real t);
 
 /* Recomputes l->share, the factors by which the value of a load is multiplied at each particle (its area, volume or

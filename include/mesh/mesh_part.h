@@ -181,13 +181,13 @@ void mesh_levels_find_highest_allowed_by_thickness(struct reference_frame *r, co
 struct levels_choice mesh_levels_choose_level_count(const struct reference_frame *r, const struct particles *p,
                                                     const struct scene *s, real dt_critical);
 
-/* Writes the number of coarsening levels and its reason in words to `text` (`capacity` bytes). c: number and reason,
- * from mesh_levels_choose_level_count. */
+/* Writes the number of levels of coarse cells and the reason for it in words to `text` (`capacity` bytes). c: number
+ * and reason, from mesh_levels_choose_level_count; s: scene. */
 void mesh_levels_describe_level_count(const struct levels_choice *c, const struct scene *s, char *text,
                                       size_t capacity);
 
-/* Returns true if the scene gives more coarsening levels than its loads or the thickness of the body allow, and writes
- * why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
+/* Returns true if the scene gives more levels of coarse cells than its loads or the thickness of the body allow, and
+ * writes why to `reason` (`capacity` bytes). Returns false otherwise. c: number of levels with its reason, from
  * mesh_levels_choose_level_count. */
 bool mesh_levels_of_scene_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
                                        const struct scene *s, char *reason, size_t capacity);

@@ -87,15 +87,16 @@ void rigid_move_to_prescribed_position(struct rigid_body *r, real t);
  * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real dt_velocity);
 
-/* Adds the work that a driven body's drive has done since the last call to r->work: minus its displacement since that
- * call times the mean of the contact forces at that call and now. Does nothing for other bodies. */
+/* Adds to r->work the work done since the last call by the drive of a driven body, i.e. by the force that enforces its
+ * prescribed motion: minus the displacement since then times the mean of the contact forces then and now. Does nothing
+ * for other bodies. */
 void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
 /* Raises r->force_most, the largest magnitude of the contact force on the body so far [N], to that of r->force. */
 void rigid_update_largest_force(struct rigid_body *r);
 
-/* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
- * [J]. */
+/* Returns the work done on the body since t = 0 [J] by its drive, the force that enforces a prescribed motion, and by
+ * its weight, up to the present position. */
 real rigid_work_of_drive_and_weight(const struct rigid_body *r);
 
 /* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */

@@ -14,9 +14,9 @@ void conversion_stress_reduce_to_weakest_particle(struct elastic *elastic, const
  * has no absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_boundary_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists in tables->voids the shapes of bodies that may contain voids, and in tables->void_mirror the planes of the
- * mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary conditions. Returns true
- * if at least one shape was listed. */
+/* Lists in tables->voids the shapes of bodies that may contain voids (narrow slots or gaps), and in tables->void_mirror
+ * the planes of the mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary
+ * conditions. Returns true if at least one shape was listed. */
 bool run_list_shapes_with_voids(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the largest distance across which particles interact [m], through bonds, which are shorter than `cutoff` [m],

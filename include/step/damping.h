@@ -30,9 +30,9 @@ real damping_apply_first_half_return_energy_loss(struct particles *p, const stru
 /* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
-/* Returns the energy that bulk damping has taken since the previous time step [J], computed from the velocities that
- * damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes. rate_times_dt: c
- * dt [1], c being the damping rate and dt the time step. Valid from the second step on. */
+/* Returns the energy that bulk damping has dissipated since the previous time step [J], computed from the velocities
+ * that damping_store_velocities stored in *s in this step and the present ones of particles and mesh nodes.
+ * rate_times_dt: c dt [1], c being the damping rate and dt the time step. Valid from the second step on. */
 real damping_energy_loss_since_previous_step(const struct damping_state *s, const struct particles *p,
                                              const struct mesh *mesh, real rate_times_dt);
 
@@ -41,10 +41,10 @@ real damping_energy_loss_since_previous_step(const struct damping_state *s, cons
  * and the time step dt. */
 void damping_apply_full_step(struct particles *p, const struct mesh *mesh, struct loads *loads, real rate_times_dt);
 
-/* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. rate_times_dt:
- * c dt [1], with the damping rate c and the time step dt. kinetic_energy_before: kinetic energy before that update [J];
- * leapfrog_kinetic_energy: sum of 1/2 m v- . v+ over all particles, with the mass m and the velocities v- and v+ before
- * and after it [J]. */
+/* Returns the energy that bulk damping dissipates in the velocity update that follows the last time step [J].
+ * rate_times_dt: c dt [1], with the damping rate c and the time step dt. kinetic_energy_before: kinetic energy before
+ * that update [J]; leapfrog_kinetic_energy: sum of 1/2 m v- . v+ over all particles, with the mass m and the velocities
+ * v- and v+ before and after it [J]. */
 real damping_last_update_energy_loss(real rate_times_dt, real kinetic_energy_before, real leapfrog_kinetic_energy);
 
 #endif

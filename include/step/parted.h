@@ -7,10 +7,11 @@
 #include "scene/scene.h"
 
 /* A shape function of the material point method with which points transmit too little force in stretched metal, and the
- * limits from which the run warns. Force error, measured with a specimen with heads of 100 + 500 a MPa
- * (tests/scenes/claims/pulled_metal.yaml), beside (sigma_y + H log l)/l at the stretch l: linear shapes -12 % at 1.1,
- * -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5; cpgimp -3, -4, -4 %.
- * In bars that hit a wall up to 0.06 of the pairs of neighbours are pulled so far for a moment, as the foot spreads. */
+ * limits from which the run warns. Errors of the force of a stretched specimen (tests/scenes/claims/pulled_metal.yaml;
+ * yield stress 100 MPa + 500 MPa times plastic strain), relative to (sigma_y + H log l)/l at the stretch l: linear
+ * shapes -12 % at 1.1, -30 % at 1.2; gimp, whose domains do not grow with the stretch, -4, -6, -10 % at 1.3, 1.4, 1.5;
+ * cpgimp -3, -4, -4 %. In bars that hit a wall up to 0.06 of the pairs of neighbours are pulled so far for a moment, as
+ * the foot spreads. */
 struct weak_shape {
     enum shape shape;
     real stretch;       /* stretch of a bar (length divided by initial length) above which the force is too small [1] */

@@ -69,8 +69,9 @@ static ALWAYS_INLINE void mesh_partial_add_bond_forces(const struct mesh *mesh, 
     }
 }
 
-/* Adds the moments of bonds about the material points of a group of partial cells, per volume of the cell, to
- * moment[axis] [Pa]; in 2D moment[2] only. */
+/* Adds the moments of bonds about the material points of group number `group` of eight partial cells (cells with
+ * missing points, partial stresses, several materials or doubled nodes), per volume of the cell, to moment[axis] [Pa];
+ * in 2D moment[2] only. */
 static ALWAYS_INLINE void mesh_partial_add_bond_moments(const struct mesh *mesh, const struct particles *p,
                                                         int64_t group, lanes *moment, const int dim)
 {

@@ -10,8 +10,8 @@
 
 /* Data of the lattice benchmark: the bond law with contiguous loads, no bond data, positions in cache. */
 struct microbench_lattice;
-/* Creates about 80,000 particles in `dim` dimensions with neighbours within 3.015 spacings. Release with
- * microbench_lattice_free. */
+/* Creates the data of the lattice benchmark: about 80,000 particles on a lattice in `dim` dimensions, with bonds to all
+ * neighbours within 3.015 spacings. Release with microbench_lattice_free. */
 KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
 /* Computes once the forces of all bonds of the lattice s, at each of the two particles of a bond. Returns the time per
  * bond and particle [s]. */
@@ -38,7 +38,8 @@ KERNEL(void, microbench_triad_free, (struct microbench_triad *t));
 /* Data of a plain material point method: 2D linear MUSL FLIP, 80,000 points sorted by cell, four per cell. */
 struct microbench_points;
 
-/* Creates the data of the material point method, with points in motion. Release with microbench_points_free. */
+/* Creates the data of the benchmark of a plain material point method: 80,000 points in 2D, which are in motion. Release
+ * with microbench_points_free. */
 KERNEL(struct microbench_points *, microbench_points_make, (void));
 
 /* Runs one step of the plain material point method on the data m. Returns the time per point [s]. */

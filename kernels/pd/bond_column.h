@@ -103,7 +103,7 @@ static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, 
 }
 
 /* Returns component `axis` of the reference bond vectors X_j - X_i of the eight bonds of `column` [m]. X: component
- * `axis` of the reference positions X_i of the particles of the row block [m]. */
+ * `axis` of the reference positions X_i of the eight particles to which these bonds belong [m]. */
 static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, const struct particles *p, int axis,
                                                     lanes X)
 {

@@ -89,16 +89,17 @@ static ALWAYS_INLINE lanes bonds_elastic_stretch(const enum pd_model model, cons
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + first_bond) : stretch;
 }
 
-/* Returns the elastic part of the stretch `stretch` of bond number `bond` of a row block [1]: less its plastic stretch
- * where bonds yield, times its remaining stiffness fraction where they soften. */
+/* Returns the elastic part of the stretch `stretch` of the bond with index `bond` [1]: `stretch` less the plastic
+ * stretch where bonds yield, times the remaining stiffness fraction where they soften. row_block: row block (the bonds
+ * of eight particles) that contains the bond. */
 static inline real bond_entry_elastic_stretch(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     if (b->soft.curve) return stretch * bond_remaining_stiffness_fraction(b, row_block, bond, stretch);
     return b->plastic_stretch ? stretch - b->plastic_stretch[bond] : stretch;
 }
 
-/* Returns the elastic energy of the bond with index `bond` in a row block, at the given stretch, divided by stiffness,
- * weight and reference length [1]. */
+/* Returns the elastic energy of the bond with index `bond` at the stretch `stretch` [1], divided by stiffness, weight
+ * and reference length of the bond [1]. row_block: row block (the bonds of eight particles) that contains it. */
 static inline real bond_entry_normalised_energy(const struct bonds *b, int64_t row_block, int64_t bond, real stretch)
 {
     const real elastic = bond_entry_elastic_stretch(b, row_block, bond, stretch);

@@ -42,8 +42,8 @@ struct state_bond {
 /* Returns true if the peridynamic model has rotations of the particles (PD_MOSPD, the modified model). */
 static ALWAYS_INLINE bool state_model_has_rotations(const enum pd_model model) { return model == PD_MOSPD; }
 
-/* Computes vectors and lengths of the eight bonds of a column into *s. x, X: [dim] present and reference positions of
- * the particles of the row block [m]; X is read only in models with rotations. */
+/* Computes vectors and lengths of the eight bonds of `column` (one bond of each of eight particles) into *s. x, X:
+ * [dim] present and reference positions of these particles [m]; X is read only in models with rotations. */
 static ALWAYS_INLINE void state_bond_compute_vectors(struct state_bond *s, const struct particles *p,
                                                      const struct column column, const lanes *x, const lanes *X,
                                                      const int dim, const enum pd_model model)

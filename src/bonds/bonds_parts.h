@@ -57,9 +57,9 @@ struct row_maker {
 void bonds_allocate_softening_state(struct bonds *b, const struct bonds *previous, const struct bond_source *source,
                                     const struct particles *p);
 
-/* Sets the softening state of the bonds in `row`, the row of the particle with index `particle`, whose neighbours have
- * been found: copied from the previous row of this particle in maker->old, or, for bonds that are not in it, that of
- * bonds that have not begun to soften. */
+/* Sets the softening state of all bonds in `row`, the bonds of the particle with index `particle`. Bonds that exist in
+ * maker->old, the previous bonds, keep their state; new bonds have not begun to soften. The neighbours row->nbr must be
+ * set. */
 void bond_row_set_softening_state(struct row *row, const struct row_maker *maker, int32_t particle);
 
 /* Stretches above this share of the smallest stretch on a strength surface count as near the surface [1]
@@ -100,8 +100,9 @@ void bond_row_compute_lengths_and_weights(struct row *row, const struct row_make
  * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
 int64_t bond_row_block_find_equal_previous(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `previous_row_block` of the bonds `previous_bonds` to row block `row_block` of b: stencil, flags,
- * limits and volumes, and the columns unless b has taken over the column arrays of `previous_bonds`. */
+/* Copies row block `previous_row_block` (the bonds of eight particles) of the bonds `previous_bonds` to row block
+ * `row_block` of b: stencil, flags, limits and volumes, and the columns unless b has taken over the column arrays of
+ * `previous_bonds`. */
 void bond_row_block_copy_from_previous_bonds(struct bonds *b, const struct bonds *previous_bonds, int64_t row_block,
                                              int64_t previous_row_block);
 
@@ -112,8 +113,8 @@ struct row_block_found {
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
 };
 
-/* Returns a newly allocated copy of the neighbours of the first `row_count` rows in the array `row`. Release with
- * memory_free. */
+/* Returns a newly allocated copy of the neighbours in row[0] to row[row_count - 1], each with the bonds of one
+ * particle, for bond_rows_restore_found_neighbours. Release with memory_free. */
 struct row_block_found *bond_rows_save_found_neighbours(const struct row *row, int row_count);
 
 /* Copies the neighbours saved in `saved` back to the first `row_count` rows of the array `row`. */
@@ -157,16 +158,17 @@ struct regular_bonds {
     struct stencil_cache *stencil_cache;
 };
 
-/* Allocates `bonds` for the largest number of index distances that bonds on the lattice of the map can have. Release
- * with regular_bonds_free. */
+/* Allocates the arrays of `bonds`, which list the bonds of eight lattice particles by index distance (index of the
+ * neighbour less index of the particle), for the largest possible number of distances. map: sites of the lattice.
+ * Release with regular_bonds_free. */
 void regular_bonds_allocate_for_lattice(struct regular_bonds *bonds, const struct site_map *map);
 
 /* Releases the arrays of `bonds`. */
 void regular_bonds_free(struct regular_bonds *bonds);
 
-/* Lists the neighbours of the eight particles from `first_particle` on in `found_bonds`, by index distance, from the
- * map `map` of lattice sites. Returns false if the map does not contain all sites needed, so that the neighbours must
- * be searched for. */
+/* Lists the neighbours of the eight particles from `first_particle` on in `found_bonds`, by index distance (index of
+ * the neighbour less index of the particle), from the map `map` of lattice sites. Returns false if the map does not
+ * contain all sites needed, so that the neighbours must be searched for. */
 bool regular_bonds_find_for_eight_particles(const struct site_map *map, const struct particles *p,
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
@@ -217,7 +219,8 @@ int regular_bonds_count_directed_bonds(const struct regular_bonds *bonds);
  * `ratio` with memory_free. */
 struct pair_table material_pair_table_make_of_micro_moduli(const struct bond_source *s);
 
-/* Returns the number of rows in row block `row_block`: eight, except for the last row block. */
+/* Returns the number of rows in row block `row_block`, i.e. of particles whose bonds it stores: eight, fewer in the
+ * last row block. */
 static inline int bond_row_block_row_count(const struct bonds *b, int64_t row_block)
 {
     return count_of_eight_indices_below(row_block * LANES, b->rows);
@@ -235,27 +238,29 @@ struct row_block_buffer {
     int32_t reach;                /* largest index distance so far */
 };
 
-/* Allocates the working memory `buffer` in which one thread makes row blocks. capacity: largest number of bonds of a
- * row; map: map of lattice sites. Release with bond_row_block_buffer_free. */
+/* Allocates the working memory `buffer` in which one thread makes row blocks (the bonds of eight particles each).
+ * capacity: largest number of bonds of a particle; map: from lattice sites to particles. Release with
+ * bond_row_block_buffer_free. */
 void bond_row_block_buffer_make(struct row_block_buffer *buffer, int capacity, const struct site_map *map);
 
 /* Releases the working memory `buffer`. */
 void bond_row_block_buffer_free(struct row_block_buffer *buffer);
 
-/* Returns the number of columns that the bonds in buffer->row[0] to buffer->row[row_count - 1] need. particle: the
- * particles of these rows. *one_offset_per_column: set to true if each column has one index distance, to false if rows
- * are packed without gaps. */
+/* Returns the number of columns (one bond of each of eight particles) that the bonds in buffer->row[0] to
+ * buffer->row[row_count - 1] need. particle: indices of the particles of these rows. *one_offset_per_column: set to
+ * true if the neighbours in a column shall all have one index distance from their particles, to false if rows are
+ * packed without gaps. */
 int bond_row_block_count_columns(struct row_block_buffer *buffer, const int32_t *particle, int row_count,
                                  bool *one_offset_per_column);
 
-/* Fills the columns of row block `row_block` of b from the first `row_count` rows of bonds in `buffer`, and sets
- * breaking limits, family volumes and alignment of the row block. one_offset_per_column: result of
- * bond_row_block_count_columns. */
+/* Fills the columns of row block `row_block` of b, which stores the bonds of eight particles, from the first
+ * `row_count` rows in `buffer`, each with the bonds of one particle, and sets breaking limits, family volumes and
+ * alignment of the row block. one_offset_per_column: result of bond_row_block_count_columns. */
 void bond_row_block_fill_columns_from_rows(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                            int row_count, bool one_offset_per_column, const struct particles *p);
 
-/* Fills row block `row_block` of b from the bonds in buffer->regular, which were found without a search, because its
- * eight particles are consecutive on one lattice. maker: parameters of the bonds. */
+/* Fills row block `row_block` of b (the bonds of eight particles) from the bonds in buffer->regular, which were found
+ * without a search, because its eight particles are consecutive on one lattice. maker: parameters of the bonds. */
 void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                             const struct row_maker *maker);
 
@@ -265,8 +270,8 @@ void bond_row_block_fill_from_lattice_bonds(struct bonds *b, struct row_block_bu
 void bond_row_block_store_columns_or_stencil(struct bonds *b, struct row_block_buffer *buffer, int64_t row_block,
                                              const struct particles *p);
 
-/* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
- * [m]. */
+/* Allocates b->shell_length and computes in it the possible bond lengths of a lattice, spacing sqrt(k) for k = 1 to
+ * BOND_SHELLS - 1. spacing: lattice spacing [m]. */
 void lattice_shell_lengths_make(struct bonds *b, real spacing);
 
 /* Finds the lattice shell, i.e. the whole number k > 0 with bond lengths spacing sqrt(k), of eight bonds with the
@@ -283,7 +288,8 @@ struct stencils *stencils_share_or_make_table(struct stencils *existing);
  * releases it. */
 void stencils_release_table(struct stencils *stencils);
 
-/* Allocates `stencil` for up to `max_columns` columns. Release with stencil_free. */
+/* Allocates `stencil`, a bond pattern that row blocks of a lattice share, for up to `max_columns` columns. Release with
+ * stencil_free. */
 void stencil_allocate_columns(struct stencil *stencil, int max_columns);
 
 /* Releases the arrays of `stencil`, a bond pattern for row blocks of a lattice. */
@@ -296,8 +302,9 @@ void stencil_free(struct stencil *stencil);
 bool stencil_add_column(struct stencil *stencil, const struct bonds *b, const struct particles *p,
                         int64_t first_particle, const struct column_copy *added_column);
 
-/* Returns the stencil in the table `table` that is equal to `stencil`, after comparing with `first_guess` first; adds a
- * copy to the table if there is none. Returns NULL if the table is full. */
+/* Returns the stencil (a bond pattern that row blocks of a lattice share) in the table `table` that is equal to
+ * `stencil`; adds a copy to the table if there is none. first_guess: stencil of the table that is compared first, NULL
+ * for none. Returns NULL if the table is full. */
 const struct stencil *stencil_find_or_add(struct stencils *table, const struct stencil *stencil,
                                           const struct stencil *first_guess);
 
@@ -307,7 +314,7 @@ const struct stencil *stencil_find_or_add(struct stencils *table, const struct s
  * lattice share. Returns false, and changes nothing, if there is no stencil. */
 bool bond_row_block_use_stencil_of_particle(struct bonds *b, int64_t row_block, int64_t particle);
 
-/* Writes the eight bonds `bonds` to column number `column_number` of the bond arrays. */
+/* Writes `bonds`, one bond of each of eight particles, to column number `column_number` of the bond arrays of b. */
 void bond_column_write_eight_bonds(const struct bonds *b, int64_t column_number, const struct column_copy *bonds);
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled

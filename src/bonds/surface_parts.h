@@ -40,12 +40,12 @@ struct seen {
     int mirrors;
 };
 
-/* Returns the particle of the body of which image `entry` of the particle arrays is an image, and the mirrors in
- * between as one bit per reversed axis. */
+/* Returns the particle of the body that mirror image `entry` (an index of the particle arrays) shows, possibly through
+ * several mirrors, and the axes that these mirrors reverse (bit d: axis d). */
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
-/* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
- * an image), and the mirrors in between as one bit per reversed axis. */
+/* Returns the particle of the body that entry `entry` of the particle arrays is or, if it is a mirror image, shows, and
+ * the axes that the mirrors in between reverse (bit d: axis d). */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);
@@ -83,9 +83,9 @@ static inline bool particle_family_is_complete(const struct near_faces *b, int64
     return b->whole[j < b->p->n ? j : image_source_particle(b->p, b->source->image, j)];
 }
 
-/* Returns the number of the offset (relative position of a neighbour) of a bond as seen from its other particle.
- * offset: offset number of the bond at its first particle; other_particle: other particle of the bond, at which the
- * reverse offset is listed; if it is seen through mirrors, the reverse offset is reflected in them. */
+/* Returns the offset number (index of the relative position of a neighbour) that a bond has at its other particle: that
+ * of the opposite relative position. offset: offset number of the bond at its first particle; other_particle: the other
+ * particle; if it is a mirror image, the relative position is reflected as well. */
 int near_faces_offset_seen_from_neighbour(const struct near_faces *b, const struct seen *other_particle, int offset);
 
 /* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a

@@ -41,8 +41,8 @@ static inline void contact_found_add_overlap(struct contact_found *found, real o
     found->touching++;
 }
 
-/* Computes vector[dim], the vector between the present positions of two particles of the contact list, from that of
- * entry `other_entry` to that of entry `entry` [m]. Returns its square [m^2]. */
+/* Computes vector[dim], the vector between the present positions of two particles of the contact list (particles that
+ * may come into contact), from that of entry `other_entry` to that of entry `entry` [m]. Returns its square [m^2]. */
 static inline real contact_pair_vector(const struct contact *c, const struct particles *p, int64_t entry,
                                        int64_t other_entry, real *vector)
 {
@@ -55,8 +55,8 @@ static inline real contact_pair_vector(const struct contact *c, const struct par
     return r2;
 }
 
-/* Returns the contact stiffness k of the pair of entries `entry` and `other_entry` of the contact list c->particle
- * [N/m], from their materials and volumes. */
+/* Returns the contact stiffness k [N/m] of the pair of entries `entry` and `other_entry` of the contact list
+ * c->particle (particles that may come into contact), from the materials and volumes of both particles. */
 static inline real contact_pair_stiffness(const struct contact *c, const struct particles *p, int64_t entry,
                                           int64_t other_entry)
 {
@@ -70,22 +70,23 @@ static inline bool contact_is_possible(const struct contact *c)
     return c->law.between != CONTACT_NONE || c->rigids > 0;
 }
 
-/* Returns true if contact forces may act on the particle of row `row` of the contact list in this step.
- * contact_activate_newly_moving_particles and contact_activate_particles_after_restart determine on which they may:
- * particles at rest, or far from all faces, are left out. */
+/* Returns true if contact forces may act on the particle of row `row` of the contact list (particles that may come into
+ * contact) in this step. contact_activate_newly_moving_particles and contact_activate_particles_after_restart determine
+ * on which they may: particles at rest, or far from all faces, are left out. */
 static inline bool contact_may_act_on_row(const struct contact *c, int64_t row)
 {
     return c->followed[row] >= ROW_SOURCE;
 }
 
-/* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
- * as loaded in `loads` and their bonds as active in b. To be called in steps without a search for pairs. */
+/* Activates further particles of the contact list (particles that may come into contact), after neighbours that were at
+ * rest have started to move: marks them as loaded in `loads` and their bonds as active in b. To be called in steps
+ * without a search for pairs. */
 void contact_activate_newly_moving_particles(struct contact *c, const struct particles *p, struct bonds *b,
                                              struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium
- * (contact_select_active_and_count_changes): one per particle of the contact list for the form `surface`, one per pair
- * for the form `pair`. Returns NULL if overlapping contacts act. */
+ * (contact_select_active_and_count_changes): one per particle of the contact list (particles that may come into
+ * contact) for the form `surface`, one per pair for the form `pair`. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_selection_marks(const struct contact *c)
 {
     return c->by_overlap ? NULL : c->touch;
@@ -123,14 +124,15 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
 real contact_rigid_gap_of_particle(const struct contact *c, const struct particles *p, int body_number, int64_t entry,
                                    real *normal);
 
-/* Describes the contact of the particle of row `row` of the contact list with the faces beside it as a linear spring:
- * stiffness, and derivatives of the gap by the positions of the particles, in *term. Its arrays must have a capacity of
- * one element more than the row has pairs. Only for laws of the form `surface`. */
+/* Describes the contact of the particle of row `row` of the contact list (particles that may come into contact) with
+ * the faces beside it as a linear spring: stiffness, and derivatives of the gap by the positions of the particles, in
+ * *term. Its arrays must have a capacity of one element more than the row has pairs. Only for laws of the form
+ * `surface` (forces of smooth faces). */
 void contact_face_linearise_as_spring(const struct contact *c, const struct particles *p, int64_t row,
                                       struct contact_term *term);
 
-/* Enables contact forces on all particles of the contact list, also on particles at rest, which time steps leave out
- * but equilibrium solutions require. */
+/* Enables contact forces on all particles of the contact list (particles that may come into contact), also on particles
+ * at rest, which time steps leave out but equilibrium solutions require. */
 void contact_activate_all_listed_particles(struct contact *c);
 
 /* Saves the selection of contacts for equilibria (contact_select_active_and_count_changes) to the archive if a->saving,
@@ -148,28 +150,31 @@ static inline real contact_list_margin(const struct contact *c)
  * is not in it. */
 int64_t contact_list_entry_of_particle(const struct contact *c, int64_t i);
 
-/* Returns the width of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other` of
- * the contact list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
+/* Returns the width [m] of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other`
+ * of the contact list (particles that may come into contact) in the reference configuration; 0 if there is none or if
+ * they belong to different bodies. */
 real contact_notch_width_between_entries(const struct contact *c, const struct particles *p, int64_t entry,
                                          int64_t other);
 
-/* Computes three arrays for all entries of the contact list: c->root, the entry of the particle that a mirror image
- * mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise, the height of the surface of the
- * body above the particle, minus 1/2 [spacings]. */
+/* Computes three arrays for all entries of the contact list (particles that may come into contact): c->root, the entry
+ * of the particle that a mirror image mirrors (for other entries the entry itself); c->size, the spacing [m]; c->rise,
+ * the height of the surface of the body above the particle, minus 1/2 [spacings]. */
 void contact_list_compute_entry_data(struct contact *c, const struct particles *p);
 
-/* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
- * contact law of form `pair`. found: receives largest overlap and number of contacts. */
+/* Adds the contact forces of all pairs of particle number `row` of the contact list (particles that may come into
+ * contact) to p->f of this particle, by the contact law of form `pair` (forces between two particles each). found:
+ * receives largest overlap and number of contacts. */
 void contact_pair_add_forces_on_particle(const struct contact *c, struct particles *p, int64_t row,
                                          struct contact_found *found);
 
-/* Returns half the elastic energy of all pairs of particle number `row` of the contact list [J], by the contact law of
- * form `pair`; each pair belongs to two particles. */
+/* Returns half the elastic energy [J] of all pairs of particle number `row` of the contact list (particles that may
+ * come into contact), by the contact law of form `pair` (forces between two particles each); each pair belongs to two
+ * particles. */
 real contact_pair_half_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance at which contact of the entries `entry` and `other` of the contact list begins [m]: the contact
- * distance, reduced if they are closer in the reference configuration or at present. previous_distance: contact
- * distance on the previous list of pairs [m], NAN if the pair was not on it. */
+/* Returns the distance [m] at which contact of the entries `entry` and `other` of the contact list (particles that may
+ * come into contact) begins: the contact distance, reduced if they are closer in the reference configuration or at
+ * present. previous_distance: contact distance on the previous list of pairs [m], NAN if the pair was not on it. */
 real contact_pair_onset_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other,
                                  real previous_distance);
 
@@ -178,32 +183,33 @@ real contact_pair_onset_distance(const struct contact *c, const struct particles
  * space. */
 void contact_density_profile_make(struct contact_profile *table, int dim);
 
-/* Computes the gap between the particle of row `row` of the contact list and the faces beside it, and the derivatives
- * of its contact energy, into c->face[row]. It is the first of two passes over the rows;
- * contact_face_add_force_on_particle adds the forces. Only for laws of the form `surface`. dt: time since the last call
- * [s]; found: receives largest overlap and number of contacts. */
+/* Computes the gap between the particle of row `row` of the contact list (particles that may come into contact) and the
+ * faces beside it, and the derivatives of its contact energy, into c->face[row]. It is the first of two passes over the
+ * rows; contact_face_add_force_on_particle adds the forces. Only for laws of the form `surface` (forces of smooth
+ * faces). dt: time since the last call [s]; found: receives largest overlap and number of contacts. */
 void contact_face_compute_gap_of_particle(struct contact *c, const struct particles *p, int64_t row, real dt,
                                           struct contact_found *found);
 
-/* Adds the contact force on particle number `row` of the contact list to p->f, by the contact law of form `surface`.
- * Second of two passes: contact_face_compute_gap_of_particle must have been called for all particles of the list. */
+/* Adds the contact force on particle number `row` of the contact list (particles that may come into contact) to p->f,
+ * by the contact law of form `surface` (forces of smooth faces). Second of two passes:
+ * contact_face_compute_gap_of_particle must have been called for all particles of the list. */
 void contact_face_add_force_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the elastic contact energy of particle number `row` of the contact list [J], by the contact law of form
- * `surface`. */
+/* Returns the elastic contact energy [J] of particle number `row` of the contact list (particles that may come into
+ * contact), by the contact law of form `surface` (forces of smooth faces). */
 real contact_face_energy_of_particle(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Computes the height above the face at which contact of particle number `row` of the contact list begins, after a
- * search, by the contact law of form `surface`. previous_entry: entry of the particle on the previous list `previous`,
- * -1 if it was not listed. If the particle was in contact on that list, the height is chosen so that its contact energy
- * does not change. */
+/* Computes the height above the face at which contact of particle number `row` of the contact list (particles that may
+ * come into contact) begins, after a search, by the contact law of form `surface` (forces of smooth faces).
+ * previous_entry: entry of the particle on the previous list `previous`, -1 if it was not listed. If the particle was
+ * in contact on that list, the height is chosen so that its contact energy does not change. */
 void contact_face_set_onset_height(struct contact *c, const struct contact *previous, int64_t previous_entry,
                                    const struct particles *p, int64_t row);
 
-/* Returns a force on the gap of a contact that removes the energy which leap-frog integration adds when contact begins
- * or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy 1/4 stiffness
- * gap^2. balance: account of this contact, updated if `step_was_made` is true, i.e. if a time step was made since the
- * last call; if it is false, the last force is returned again. */
+/* Returns a correcting force of a contact, the derivative of an energy by the gap [unit of stiffness times gap], which
+ * removes the energy that leap-frog integration adds when contact begins or ends; 0 if no energy is to be removed. The
+ * contact has the energy 1/4 stiffness gap^2. balance: account of this contact, updated if `step_was_made` is true,
+ * i.e. if a time step was made since the last call; if it is false, the last force is returned again. */
 real contact_energy_correction_force(struct contact_balance *balance, real stiffness, real gap, bool step_was_made);
 
 /* Returns the initial account of a contact on a new list of pairs, i.e. the sum of the energy errors of leap-frog from
@@ -217,9 +223,9 @@ struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Computes the contribution of entry `other` of the contact list to the density of the face at entry `entry`, at the
- * positions x - v t, where x and v are the present positions and velocities and t is `time_before_present` [s]. The
- * energy derivative in the result is that at the present positions. */
+/* Computes the contribution of entry `other` of the contact list (particles that may come into contact) to the density
+ * of the face at entry `entry`, at the positions x - v t, where x and v are the present positions and velocities and t
+ * is `time_before_present` [s]. The energy derivative in the result is that at the present positions. */
 struct contact_weight contact_face_density_contribution(const struct contact *c, const struct particles *p,
                                                         int64_t entry, int64_t other, real time_before_present);
 
@@ -229,19 +235,21 @@ struct contact_weight contact_face_density_contribution(const struct contact *c,
 void contact_friction_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slip,
                                      real stiffness, real slip_force);
 
-/* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
- * of form `surface`. First of two passes over the particles; contact_face_add_friction_on_particle adds the forces. */
+/* Advances the friction spring of particle number `row` of the contact list (particles that may come into contact) by a
+ * time step dt [s], by the contact law of form `surface` (forces of smooth faces). First of two passes over the
+ * particles; contact_face_add_friction_on_particle adds the forces. */
 void contact_face_advance_friction_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
-/* Adds friction forces on particle number `row` of the contact list to p->f: the force of its own spring, and the
- * reactions to springs of particles that slide on a face to which it belongs. Second of two passes, after
- * contact_face_advance_friction_spring for all particles. */
+/* Adds friction forces on particle number `row` of the contact list (particles that may come into contact) to p->f: the
+ * force of its own spring, and the reactions to springs of particles that slide on a face to which it belongs. Second
+ * of two passes, after contact_face_advance_friction_spring for all particles. */
 void contact_face_add_friction_on_particle(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
 real contact_friction_stored_energy(const struct contact *c);
 
-/* Allocates the reactions to friction springs, one for each particle of the contact list. Their values are computed
+/* Allocates c->reaction, by which the forces of friction springs are distributed over the particles of the opposite
+ * face, one entry for each particle of the contact list (particles that may come into contact). The values are computed
  * with the next contact forces. */
 void contact_friction_reactions_make(struct contact *c);
 

@@ -57,10 +57,10 @@ void partial_tensor_add_bond_contribution(real *tensor, const real *point_positi
 bool partial_tensor_limit_for_state_based_bonds(real *tensor, real *mean_strain_derivative, const struct particles *p,
                                                 const struct bonds *b, const struct bond_source *source, int64_t point);
 
-/* Reduces the tensor `tensor` of the material point `point` [J], by which bond-based PD-MPM bonds reduce the stiffness
- * of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and elastic tensor of the
- * point. A cell with a negative eigenvalue would be unstable with any time step. This has an effect only if particles
- * are not on a lattice or bonds are stiffer than the material. */
+/* Reduces the tensor `tensor` of the material point `point` [J], by which bond-based bonds to peridynamic particles
+ * reduce the stiffness of its cell, as far as needed for V C - `tensor` without negative eigenvalues. V, C: volume and
+ * elastic tensor of the point. A cell with a negative eigenvalue would be unstable with any time step. This has an
+ * effect only if particles are not on a lattice or bonds are stiffer than the material. */
 void partial_tensor_limit_for_bond_based_model(real *tensor, const struct particles *p,
                                                const struct bond_source *source, int64_t point);
 

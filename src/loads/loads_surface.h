@@ -25,8 +25,8 @@ struct surface_faces {
 status load_surface_make(struct load *l, const struct surface_faces *free_faces, const struct boundary *all_boundaries,
                          int boundary_count, struct particles *p, real spacing);
 
-/* Computes the area vectors, pointing into the body, that belong to the particles of the load, from the present
- * particle positions. area: [dim][number of particles of the load] [m^2]. */
+/* Computes, for each particle of the load to which the surface s belongs, the area vector that its forces act on,
+ * pointing into the body, from the present particle positions. area: [dim][number of particles of the load] [m^2]. */
 void load_surface_compute_area_vectors(struct surface *s, const struct particles *p, real *const *area);
 
 /* Releases all arrays of the surface s and s itself. */

@@ -42,13 +42,14 @@ void mesh_partial_compute_stiffness(struct mesh *mesh, const struct particles *p
 void mesh_partial_recompute_marked_cells(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                          const uint8_t *cell_is_marked);
 
-/* Frees the list of partial cells of the mesh and their stiffness. */
+/* Frees the list of partial cells of the mesh (cells with missing points, several materials or doubled nodes) and their
+ * stiffness. */
 void mesh_partial_free(struct mesh *mesh);
 
-/* Finds the nodes that slits or voids of `source` divide, because the points around them are separated, and gives them
- * second nodes. The box of nodes, which covers the range between the corners `lower_corner` and `upper_corner` [m], is
- * extended by rows for these. Returns FAILED, with a message, if there are too many nodes. Release with
- * mesh_slits_free. */
+/* Finds the nodes at which slits (pre-cracks) or voids (narrow gaps of a body) of `source` separate the points around
+ * them, and adds second nodes there. The box of nodes, which covers the range between the corners `lower_corner` and
+ * `upper_corner` [m], is extended by rows for these. Returns FAILED, with a message, if there are too many nodes.
+ * Release with mesh_slits_free. */
 status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                const real *lower_corner, const real *upper_corner);
 
@@ -57,9 +58,9 @@ status mesh_slits_double_nodes(struct mesh *mesh, const struct particles *p, con
  * after the blocks are made. */
 void mesh_slits_link_blocks_of_doubled_nodes(struct mesh *mesh);
 
-/* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Slits
- * divide nodes, so the corners of such cells are not at fixed index distances from the cell. To be called after the
- * groups are made. */
+/* Stores the node indices of the corners of those groups of eight partial cells (cells with missing points, several
+ * materials or doubled nodes) in which a cell touches a slit, a pre-crack as free surface. Slits double nodes, so the
+ * corners of such cells are not at fixed index distances from the cell. To be called after the groups are made. */
 void mesh_slits_store_corner_nodes_of_cells(struct mesh *mesh);
 
 /* Frees the arrays of s, the slits (pre-cracks as free surfaces) of a mesh. */
@@ -80,7 +81,7 @@ void mesh_fit_values_of_listed_nodes(const struct mesh *mesh, const struct parti
  * -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_packed_cell_and_point_of_particle(const struct mesh *mesh, const struct particles *p, int64_t particle);
 
-/* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
+/* Recomputes mass and inverse mass of node `node` from the points around it; points in coarse cells are left out. */
 void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
 /* Recomputes kinds of cells, runs (rows of consecutive whole cells), partial cells and nodal masses of the mesh after
