@@ -5,8 +5,8 @@
 
 #include "base/base.h"
 
-/* Dashpots on a node of an absorbing face. rate: force over velocity by component [kg/s]; 0 if there is no dashpot or
- * if the component is prescribed. */
+/* Dashpots on a node of an absorbing face. rate: force divided by velocity, for each component [kg/s]; 0 if there is no
+ * dashpot or if the component is prescribed. */
 struct dashpot {
     int32_t node;
     real rate[DIM_MAX];

@@ -116,7 +116,7 @@ struct mesh {
     struct mesh_slits slits;
 
     /* Only of a mesh of coarse cells (mesh/levels.h), which has no points; else NULL. Its grid.momentum is the momentum
-     * of a node over its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */
+     * of a node divided by its mass, from which its velocity follows (kernels/mesh/mesh_inertia.c) [m/s]. */
     uint8_t *material; /* [grid.n] material of the cell */
     real *cell_mass;   /* [materials] mass of a cell [kg] */
     uint8_t *matched;  /* [grid.n] bit c: the cell of which the node is corner c is matched */

@@ -269,7 +269,7 @@ void particles_coordinate_range(const struct particles *p, int64_t count, int ax
  * several; mirror images are not considered. */
 int64_t particles_index_nearest_to_position(const struct particles *p, const real *X);
 
-/* Returns the largest speed of the particles particle_list[particle_count] [m/s], 0 for an empty list. */
+/* Returns the largest speed [m/s] of the particles in particle_list[particle_count] (indices), 0 for an empty list. */
 real particles_largest_speed_of_list(const struct particles *p, const int32_t *particle_list, int64_t particle_count);
 
 /* Returns the largest speed of all particles, peridynamic and material points [m/s]. */

@@ -15,8 +15,8 @@
  * grown by `tolerance` [m] (shrunk if negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
-/* Returns by how much the region must grow to contain the point X (dim components [m]) [m]: negative inside the region,
- * 0 on its surface, positive outside. It is the least tolerance at which region_contains returns true. */
+/* Returns the length [m] by which the region must grow to contain the point X (dim components [m]): negative inside the
+ * region, 0 on its surface, positive outside. It is the least tolerance at which region_contains returns true. */
 real region_level_set_value(const struct region *r, const real *X, int dim);
 
 /* Computes a box between the corners `lower` and `upper` [m] that contains the region. It may be too large, because
@@ -132,8 +132,8 @@ void cracks_make_mirror_images(struct crack_list *list, const struct crack *crac
 /* Releases the cracks of the list l. */
 void crack_list_free(struct crack_list *l);
 
-/* Returns the distance of the point `point` from the segment between the points `segment_start` and `segment_end` (dim
- * components each [m]) [m]. */
+/* Returns the distance [m] of the point `point` from the segment between the points `segment_start` and `segment_end`
+ * (dim components each [m]). */
 real segment_distance_from_point(const real *segment_start, const real *segment_end, const real *point, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */

@@ -22,7 +22,7 @@ struct strength_scatter {
     enum scatter_of of; /* quantity with this distribution; G_c is proportional to the square of the others */
     enum scatter_form form;
     real modulus;   /* m of Weibull's distribution [1] */
-    real variation; /* lognormal: standard deviation over mean [1] */
+    real variation; /* lognormal: standard deviation divided by mean [1] */
     real length;    /* correlation length, 0: independent particles [m] */
     uint64_t seed;
 };

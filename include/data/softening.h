@@ -1,7 +1,7 @@
 /* Softening of bonds: how the force of a bond falls from its peak to 0, by damage that depends on its largest stretch
  * (Coskun, Damircheli & Lipton 2025); a bilinear curve as of concrete (Petersson 1981).
  *
- * With the largest stretch k so far, the onset s_0 and the end s_f, the force over stiffness and weight is
+ * With the largest stretch k so far, the onset s_0 and the end s_f, the force divided by stiffness and weight is
  *
  *     s (1 - d(k)) for s > 0,   s for s <= 0,     1 - d(k) = f(k)/k,   f(k) = s_0 G((k - s_0)/(s_f - s_0))
  *

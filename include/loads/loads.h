@@ -62,7 +62,7 @@ struct boundary {
     int side;                          /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
     real depth;                        /* VELOCITY: depth of the layer behind its face [m] */
     real section; /* with a face: section of all bodies, in 1D [m^2], in 2D [m], 1 in 3D; 0: a particle's area is its
-                     volume over the spacing */
+                     volume divided by the spacing */
     int axis;     /* MIRROR: axis of the plane's normal */
     real at;      /* MIRROR: position of the plane [m] */
     bool hold_tangential; /* MIRROR: displacement odd in all components, not only the normal one */
@@ -358,7 +358,7 @@ struct prescribed_displacement {
  * by reference. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
-/* Returns component `component` of the prescribed displacement at the reference position X (dim components [m]) [m].
+/* Returns component `component` of the prescribed displacement [m] at the reference position X (dim components [m]).
  * The boundary must prescribe this component. */
 real prescribed_displacement_at(const struct prescribed_displacement *prescribed, const real *X, int component);
 
@@ -388,7 +388,7 @@ struct prescribed_motion prescribed_motion_make(const struct boundary *b, int di
  * so that a change of motion beyond the end enters no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
-/* Returns component `component` of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for
+/* Returns component `component` of the prescribed velocity [m/s] at the reference position X (dim components [m]); for
  * a prescribed displacement its difference over the step divided by dt. at_present_position: true if X is the position
  * of the material at the start of the step, false if it is its reference position. */
 real prescribed_velocity_at(const struct prescribed_motion *motion, const real *X, int component,

@@ -18,9 +18,10 @@ real particles_kinetic_energy(const struct particles *p);
  * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
-/* Returns the elastic strain energy of those material points that are among the particles point_list[point_count] [J],
- * 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V of each point, without the part of
- * the stress that bonds carry. m: array of the materials; partial: partial stresses of the points, NULL for none. */
+/* Returns the elastic strain energy [J] of those material points that are among the particles point_list[point_count]
+ * (indices): 1/2 sum sigma : C^-1 : sigma V with stress sigma, elastic stiffness C and volume V of each point, without
+ * the part of the stress that bonds carry. m: array of the materials; partial: partial stresses of the points, NULL for
+ * none. */
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
                                   const struct partial_stress *partial, const int32_t *point_list, int64_t point_count);
 
