@@ -78,10 +78,11 @@ struct timers {
     double last, spent[TIMERS];
 };
 
-/* Sets the time spent in each section of *timers to 0 and starts timing the first one. */
+/* Sets the time spent in each section of a time step, timers->spent, to 0 and starts timing the first section. */
 void timers_start(struct timers *timers);
 
-/* Adds the time since the last call of timer_add_elapsed_to_section (or timers_start) to section `section`. */
+/* Adds the time since the last call of this function (or of timers_start) to timers->spent[section]: call it at the end
+ * of a section of a time step. */
 void timer_add_elapsed_to_section(struct timers *timers, enum timer section);
 
 #endif

@@ -94,7 +94,7 @@ static inline real material_initial_yield_stress(const struct material *m)
     return m->law.given ? m->law.yield : m->yield_stress;
 }
 
-/* Returns true if the material has bulk viscosity. */
+/* Returns true if the material has bulk viscosity, a pressure against rapid compression (step/viscosity.h). */
 static inline bool material_has_viscosity(const struct material *m)
 {
     return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;

@@ -162,10 +162,10 @@ void levels_mark_cells_near_marked_cells(const struct mesh_levels *l, uint8_t *c
 void levels_change_refinement(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                               const uint8_t *new_cell_level);
 
-/* Changes the velocities of all nodes by the nodal forces of half a time step. Between steps, velocities of level L are
- * half of its step 2^L dt behind its displacements: dt > 0 brings both to the same time, dt < 0 reverts this. elastic:
- * array of the elastic constants of all materials; finite_strain: true if strains are finite, false if small; |dt|:
- * time step of level 0 [s]. */
+/* Changes the velocities of all nodes by the nodal forces of half a time step. Between steps, the velocities of level L
+ * (0: finest) are half a time step of this level, 2^L dt/2, behind the displacements: dt > 0 brings both to the same
+ * time, dt < 0 reverts this. elastic: array of the elastic constants of all materials; finite_strain: true if strains
+ * are finite, false if small; |dt|: time step of level 0 [s]. */
 void levels_shift_velocities_half_step(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
                                        bool finite_strain, real dt);
 

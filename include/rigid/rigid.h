@@ -92,7 +92,8 @@ void rigid_advance_one_step(struct rigid_body *r, real t_middle, real dt, real d
  * for other bodies. */
 void rigid_add_work_of_prescribed_motion(struct rigid_body *r);
 
-/* Raises r->force_most, the largest magnitude of the contact force on the body so far [N], to that of r->force. */
+/* Sets r->force_most, the largest magnitude of the contact force on the body so far [N], to the magnitude of r->force
+ * if this is larger. */
 void rigid_update_largest_force(struct rigid_body *r);
 
 /* Returns the work done on the body since t = 0 [J] by its drive, the force that enforces a prescribed motion, and by

@@ -31,9 +31,10 @@ bool rigid_compute_shown_box(const struct region *shape, int dim, real *low, rea
 /* Releases the arrays of *s. */
 void rigid_surface_free(struct rigid_surface *s);
 
-/* Writes the surfaces of all rigid bodies at their present positions, and their motion, for the last frame of the whole
- * body that was begun, and the index of all these files. part: particles, whose box limits what is written of unbounded
- * bodies. Does nothing without rigid bodies and in one dimension. Returns FAILED if a file cannot be written. */
+/* Writes the surfaces of all rigid bodies at their present positions, and their motion, to a file beside the latest
+ * frame of the whole body of o, and writes the index of all such files anew. part: particles of the run; an unbounded
+ * body is cut to the box of the particles. Does nothing without rigid bodies and in one dimension. Returns FAILED if a
+ * file cannot be written. */
 status rigids_write_surfaces_of_frame(struct rigid_set *rigid, const struct output *o, const struct particles *part);
 
 /* Position and rotation of a rigid body: a point that was at X at t = 0 is at x + turn (X - centre) [m]. */

@@ -25,11 +25,11 @@ static ALWAYS_INLINE real mesh_consistent_mass_entry(int dim, int corner, int ot
     return share;
 }
 
-/* Returns a . alpha (L - C) a for cell `cell` [N^2/kg], summed over components, where a = f/m are the accelerations of
- * its corners from nodal forces f and masses m. L, C: lumped and consistent mass matrix of the cell; alpha =
- * mesh->match: weight with which coarse cells blend both. Times dt^2/4 it is the part of the cell in the correction of
- * the kinetic energy (mesh_kick). Sums s and differences d along the axes diagonalise both matrices: along one axis a .
- * L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
+/* Returns the contribution of cell `cell` to the correction of the kinetic energy of coarse cells (mesh_kick), divided
+ * by dt^2/4 [N^2/kg]: a . alpha (L - C) a, summed over components, with the accelerations a = f/m of the corners by
+ * nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and their blending factor
+ * alpha = mesh->match. Sums s and differences d along the axes diagonalise both matrices: along one axis a . L a = (s^2
+ * + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_blended_mass_quadratic_form(const struct mesh *mesh, int64_t cell)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */

@@ -155,8 +155,8 @@ static ALWAYS_INLINE void stress_add_skew_part(lanes stress[3][3], const lanes s
 
 /* ---- constitutive law -------------------------------------------------------------------------------------------- */
 
-/* Computes the stress of a symmetric strain by Hooke's law, for eight cells at a time [Pa]. strain, stress: dim x dim;
- * m: elastic constants of the material. */
+/* Computes the stress `stress` [Pa] of the symmetric strain `strain` [1] by Hooke's law, for eight cells at a time;
+ * both are dim x dim matrices. m: elastic constants of the material. */
 static ALWAYS_INLINE void hooke_stress(const struct elastic *m, const lanes strain[3][3], lanes stress[3][3],
                                        const int dim)
 {

@@ -95,15 +95,17 @@ static ALWAYS_INLINE struct column column_from_stencil(const struct bonds *b, in
             FOR_COLUMNS(B, ROW_BLOCK, VISIT_BRITTLE);                                                                  \
     } while (0)
 
-/* Returns the values of the particle array `from` at the neighbours of the eight bonds of `column`. */
+/* Returns the values of the particle array `from` at the eight neighbours to which the bonds of `column` (one bond of
+ * each of eight particles) lead. */
 static ALWAYS_INLINE lanes column_gather_neighbours(const struct column column, const real *from)
 {
     return column.kind ? lanes_load(from + column.first)
                        : lanes_load_or_gather(from, (int32_t)column.first, column.b->nbr + column.number * LANES);
 }
 
-/* Returns component `axis` of the reference bond vectors X_j - X_i of the eight bonds of `column` [m]. X: component
- * `axis` of the reference positions X_i of the eight particles to which these bonds belong [m]. */
+/* Returns component `axis` of the reference bond vectors X_j - X_i [m] of the eight bonds of `column` (one bond of each
+ * of eight particles). X: component `axis` of the reference positions X_i of the eight particles to which these bonds
+ * belong [m]. */
 static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, const struct particles *p, int axis,
                                                     lanes X)
 {
@@ -111,8 +113,9 @@ static ALWAYS_INLINE lanes column_reference_vectors(const struct column column, 
                           : column_gather_neighbours(column, p->X[axis]) - X;
 }
 
-/* Returns component `axis` of weight times reference bond vector of the eight bonds of `column` [m]. w: their weights
- * [1]; reference_vector: component `axis` of their reference vectors [m]. */
+/* Returns, for the eight bonds of `column` (one bond of each of eight particles), component `axis` of the reference
+ * bond vector times the weight of the bond [m]. w: weights of the bonds [1]; reference_vector: component `axis` of
+ * their reference vectors [m]. */
 static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, int axis, lanes w,
                                                    lanes reference_vector)
 {
@@ -121,8 +124,8 @@ static ALWAYS_INLINE lanes column_weighted_vectors(const struct column column, i
                                         : w * reference_vector;
 }
 
-/* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of `column` [1/m]; those of broken bonds may
- * be negative. */
+/* Returns the inverse reference lengths 1/|X_j - X_i| [1/m] of the eight bonds of `column` (one bond of each of eight
+ * particles); negative for some broken bonds. */
 static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
 {
     if (column.stencil) return lanes_broadcast(column.stencil->inverse_length);
@@ -131,13 +134,14 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column column)
                        : lanes_load(column.b->inverse_length + column.number * LANES);
 }
 
-/* Returns eight bits: bit l is set if the l-th bond of `column` is intact. */
+/* Returns eight bits: bit l is set if bond l of the eight bonds of `column` (one bond of each of eight particles) is
+ * intact. */
 static ALWAYS_INLINE uint8_t column_intact_bits(const struct column column)
 {
     return column.stencil ? column.stencil->intact : column.b->common[column.number].intact;
 }
 
-/* Returns the weights of the eight bonds of `column` [1], 0 for broken bonds. */
+/* Returns the weights [1] of the eight bonds of `column` (one bond of each of eight particles), 0 for broken bonds. */
 static ALWAYS_INLINE lanes column_weight(const struct column column)
 {
     if (column.kind == COLUMN_UNIT) return lanes_broadcast(1);
@@ -156,9 +160,9 @@ static ALWAYS_INLINE lanes column_weight(const struct column column)
  * -|y|/|xi| - 1. */
 #define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
-/* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a. In columns
- * of the kind COLUMN_FREE no mask is needed: their broken bonds have negative lengths, which make `other` smaller than
- * a. */
+/* Returns in each lane the larger of a and `other` if the bond of `column` in that lane is intact, else a; a column
+ * holds one bond of each of eight particles, one particle per lane. In columns of the kind COLUMN_FREE no mask is
+ * needed: their broken bonds have negative lengths, which make `other` smaller than a. */
 static ALWAYS_INLINE lanes column_max_of_intact_bonds(const struct column column, lanes a, lanes other)
 {
     return column.kind == COLUMN_FREE || column.kind >= COLUMN_WHOLE
@@ -166,7 +170,8 @@ static ALWAYS_INLINE lanes column_max_of_intact_bonds(const struct column column
                : lanes_max_selected(column_intact_bits(column), a, other);
 }
 
-/* Returns in each lane the smaller of a and `other` if the bond of `column` in that lane is intact, else a. */
+/* Returns in each lane the smaller of a and `other` if the bond of `column` in that lane is intact, else a; a column
+ * holds one bond of each of eight particles, one particle per lane. */
 static ALWAYS_INLINE lanes column_min_of_intact_bonds(const struct column column, lanes a, lanes other)
 {
     return column.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_selected(column_intact_bits(column), a, other);

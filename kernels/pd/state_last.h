@@ -70,9 +70,10 @@ static inline void rotation_blend(struct state *t, int32_t i, const struct famil
         blend_with_value_without_breaking(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Replaces pressure, spring stiffness and rotation of the particle of row `row` by S a + (1 - S) a', where a is the
- * value with its breaking bonds, a' that without them, and S the mean share of their force that acts in this step. Does
- * nothing if none of its bonds breaks, nor for material points, to whose state their cells contribute. */
+/* Replaces pressure, spring stiffness and rotation of the particle of row `row` (all bonds of one particle) by S a + (1
+ * - S) a', if bonds of the particle break in this step: a is the value with these bonds, a' the value without them, and
+ * S the mean share of their force that acts in this step. Does nothing for material points, to whose state their cells
+ * contribute. */
 static inline void state_blend_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                    int64_t row)
 {

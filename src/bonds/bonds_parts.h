@@ -173,8 +173,8 @@ bool regular_bonds_find_for_eight_particles(const struct site_map *map, const st
                                             int64_t first_particle, struct regular_bonds *found_bonds);
 
 /* Lists the neighbours of the eight particles from `first_particle` on as regular_bonds_find_for_eight_particles does,
- * without regard to pre-cracks. Returns false also if they are not all particles of the body, if `map` has no sites, or
- * if a void is near one of them. */
+ * without regard to pre-cracks. Returns false also if one of the eight is a mirror image or near a void, or if `map`
+ * has no sites. */
 bool regular_bonds_find_ignoring_cracks(const struct site_map *map, const struct bond_source *source,
                                         const struct particles *p, int64_t first_particle,
                                         struct regular_bonds *found_bonds);
@@ -187,11 +187,11 @@ struct stencil_cache *stencil_cache_make_for_thread(const struct site_map *map);
 /* Releases the cache t of row blocks. Does nothing if t is NULL. */
 void stencil_cache_free(struct stencil_cache *t);
 
-/* Searches the cache for a row block whose bonds equal `bonds`, those of the eight particles from `first_particle` on,
- * bit by bit (lengths, weights and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of
- * the row block found; -1 if there is none, or if the lattice is not uniform. Bonds of a uniform lattice that were not
- * found are added to the cache. weight_inputs: inputs besides lattice sites on which weights depend; NULL if there are
- * none. */
+/* Searches the cache bonds->stencil_cache for eight consecutive particles whose bonds are bitwise equal (lengths,
+ * weights and sums of weights) to `bonds`, the bonds of the eight particles from `first_particle` on. No bond may be
+ * cut by a pre-crack. Returns the first of the particles found; -1 if there are none, or if the lattice is not uniform.
+ * Bonds of a uniform lattice that were not found are added to the cache. weight_inputs: inputs besides lattice sites on
+ * which weights depend; NULL if there are none. */
 int64_t stencil_cache_particle_with_equal_bonds(const struct regular_bonds *bonds,
                                                 const struct bond_source *weight_inputs, int64_t first_particle);
 
