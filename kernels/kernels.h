@@ -158,8 +158,8 @@ KERNEL(void, bond_end, (struct bonds *b, struct particles *p, int64_t row, int64
  * broken, each counted once for each of its particles. */
 KERNEL(int64_t, bonds_end_softened, (struct bonds *b, struct particles *p));
 
-/* Updates the largest stretches of all bonds that soften to the present positions, as a force computation does. Call it
- * before energies are read without a force computation. */
+/* Raises the stored largest stretches of all bonds that soften to their stretches at the present positions, as a force
+ * computation does. Call it before energies are read without a force computation. */
 KERNEL(void, bonds_update_softening, (struct bonds *b, const struct particles *p));
 
 /* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)

@@ -100,9 +100,9 @@ struct contact_near {
     uint8_t *touch;
 };
 
-/* A contact that acts as a linear spring between n particles. Its energy is 1/2 stiffness gap^2, with the gap in m,
- * form `surface`: in spacings. Its gap changes at the rate sum_k along[k] . v[k] with the velocities v[k] of the
- * particles. */
+/* A contact between n particles that acts as a linear spring of energy 1/2 stiffness gap^2. The gap is in m, but in
+ * spacings for contact laws of the form `surface` (smooth faces). It changes at the rate sum_k along[k] . v[k], where
+ * v[k] is the velocity of particle k. */
 struct contact_term {
     int n;
     int32_t *particle;      /* [n] images included */
@@ -205,8 +205,8 @@ void contact_allocate_force_record(struct contact *c, const struct particles *p)
  * contact_compute_forces, c->ended becomes t [s], and c->began, too, if it is still NAN. */
 void contact_record_first_and_last_contact_time(struct contact *c, real t);
 
-/* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
- * springs included [J]. A pair with a mirror image of a particle counts half. */
+/* Returns the elastic energy of all contacts at the present positions [J], including contacts with rigid bodies and
+ * friction springs. A pair with a mirror image of a particle counts half. */
 real contact_elastic_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles that touch rigid body number `rigid_body` at present [m],

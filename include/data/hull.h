@@ -74,8 +74,8 @@ bool hull_point_is_within_distance(const struct hull *s, const real *X, real max
  * faces are that near. */
 bool hull_is_convex_within_distance(const struct hull *s, const real *X, real reach);
 
-/* Returns the maximum of the scalar product X . direction over the corners X of the hull [m] (support function).
- * direction: unit vector. */
+/* Returns the maximum [m] of the scalar product X . direction for the corners X of the hull (support function): how far
+ * it extends in this direction. direction: unit vector. */
 real hull_support_function(const struct hull *s, const real *direction);
 
 /* Findings at about 4000 sample points in the bounding box of a surface. unclear: share of the points at which inside

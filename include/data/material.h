@@ -158,11 +158,11 @@ void material_set_strength_surface(struct material *m, enum space space, struct 
  * space: determines the stress normal to a plane. */
 real material_stress_to_strength_ratio(const struct material *m, enum space space, const real *stress);
 
-/* Computes the elastic stiffness as a row-major n x n matrix over the n = symmetric_component_count(dim) components of
- * stress and strain [Pa]. Strains are tensor components, so that shear rows contain 2G. */
+/* Computes the elastic stiffness [Pa] as a row-major n x n matrix for the n = symmetric_component_count(dim) components
+ * of stress and strain. Strains are tensor components, so that shear rows contain 2G. */
 void material_stiffness_matrix(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of the elastic stiffness [1/Pa], as a row-major n x n matrix over the n =
+/* Computes the inverse of the elastic stiffness [1/Pa], as a row-major n x n matrix for the n =
  * symmetric_component_count(dim) components of stress and strain. Strains are tensor components, so that shear rows
  * contain 1/(2G). */
 void material_compliance_matrix(const struct material *m, int dim, real *matrix);

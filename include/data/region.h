@@ -32,8 +32,8 @@ real region_signed_distance(const struct region *r, const real *X, int dim, real
  * defined. */
 bool region_contains_infinite_box_solid(const struct region *r, int dim);
 
-/* Returns an upper bound of the scalar product X . direction over all points X of the region [m]. direction: unit
- * vector, dim components. */
+/* Returns an upper bound [m] of the scalar product X . direction for all points X of the region: how far the region
+ * extends in this direction. direction: unit vector, dim components. */
 real region_support_function_bound(const struct region *r, const real *direction, int dim);
 
 /* Returns the volume of the part of the region within the box between the corners `lower` and `upper` [m^dim], by

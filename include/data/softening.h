@@ -58,17 +58,17 @@ struct softening_strength {
  * begins. x grows in proportion to the stretch, from 0 where softening begins to 1 where the bond breaks. */
 struct softening_curve softening_curve_of_law(enum softening law);
 
-/* Returns the stretch s_f at which a softening bond breaks that dissipates the same energy as a brittle bond of
- * critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at most `critical`
- * [1]. */
+/* Returns the stretch s_f [1] at which a softening bond breaks, such that it dissipates the same energy as a brittle
+ * bond of critical stretch `critical` [1]. c: softening curve; onset: stretch s_0 at which softening begins, at most
+ * `critical` [1]. */
 static inline real softening_end_stretch(const struct softening_curve *c, real onset, real critical)
 {
     return onset + (square(critical) - square(onset)) / (2 * onset * c->area);
 }
 
-/* Returns the stretches at which a bond begins to soften and breaks [1], such that it dissipates the same energy as a
- * brittle bond of critical stretch `critical`. onset: stretch at which it begins to soften; if this is not below
- * `critical`, the bond is brittle and both are `critical`. */
+/* Returns the stretches [1] at which a bond begins to soften and breaks, such that it dissipates the same energy as a
+ * brittle bond of critical stretch `critical` [1]. c: softening curve; onset: stretch at which it begins to soften [1];
+ * if `onset` is not below `critical`, the bond is brittle and both stretches are `critical`. */
 static inline struct softening_range softening_range_from_onset(const struct softening_curve *c, real onset,
                                                                 real critical)
 {

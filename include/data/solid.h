@@ -127,8 +127,8 @@ bool solid_level_set_is_at_most(const struct solid *s, const real *X, int dim, r
  * which the solid is unbounded are infinite. */
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
-/* Returns the maximum of the scalar product X . direction over the points X of the solid [m] (support function).
- * direction: unit vector, dim components. */
+/* Returns the maximum [m] of the scalar product X . direction for the points X of the solid (support function): how far
+ * it extends in this direction. direction: unit vector, dim components. */
 real solid_support_function(const struct solid *s, const real *direction, int dim);
 
 /* Returns the radius of a ball, cylinder, tube or ring, or the smallest half axis of an ellipsoid [m]; INFINITY for all

@@ -49,8 +49,8 @@ bool void_separates_points(const struct voids *v, int body_number, const real *p
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t particle,
                               int64_t other_particle);
 
-/* Returns a lower bound of the distance of the particle with index `particle` from the surface of the shape of its
- * body, in which it is [m]. */
+/* Returns a lower bound [m] of the distance of a particle, which is inside its body, from the surface of the shape of
+ * this body. particle: index of the particle. */
 real voids_lower_bound_of_surface_distance(const struct voids *v, const struct particles *p, int64_t particle);
 
 /* Returns true if a void (a slot, a slit or a gap of the shape) separates particle i from at least one particle of its

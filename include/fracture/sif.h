@@ -75,8 +75,8 @@ struct contour {
     real inner, outer;
 };
 
-/* A crack tip and options of the integration round it. The second sum is the part of the interaction integral with the
- * inertia terms. */
+/* A crack tip and options of the integration round it. "The second sum" is the part of the interaction integral that
+ * contains the inertia terms, after the part with the stresses. */
 struct sif_tip {
     struct crack_medium medium;
     real place[2], along[2]; /* reference position [m]; unit vector of the direction of growth */

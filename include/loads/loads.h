@@ -384,8 +384,8 @@ struct prescribed_motion {
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
 /* Returns the motion that boundary number `boundary_number` of l prescribes in the step of size dt about t [s], as
- * prescribed_motion_make. After the last step (l->ended) a prescribed displacement continues at its previous velocity,
- * so that a change of motion beyond the end enters no work. */
+ * prescribed_motion_make. After the last step (l->ended) a prescribed displacement is continued at its previous
+ * velocity, so that a change of motion that no step follows adds no work. */
 struct prescribed_motion loads_prescribed_motion(const struct loads *l, int boundary_number, int dim, real t, real dt);
 
 /* Returns component `component` of the prescribed velocity [m/s] at the reference position X (dim components [m]); for

@@ -71,9 +71,10 @@ bool reference_frame_is_in_use(const struct reference_frame *r);
 bool reference_frame_is_possible(const struct reference_frame *r, const struct particles *p, const struct scene *s,
                                  const struct grid_method *mpm);
 
-/* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. source: partial
- * stresses and slits of this mesh, its other members are ignored; caller_sets_motion: true if the caller sets
- * displacement and velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
+/* Makes the mesh of the bodies in the reference frame, and finds exposed points (material points with bonds, loads or
+ * mirror images) and loaded nodes. source: partial stresses and slits of this mesh, its other members are ignored;
+ * caller_sets_motion: true if the caller sets displacement and velocity of the nodes afterwards. Returns REFUSED or
+ * FAILED, with a message, as mesh_make does. */
 status reference_frame_make_mesh(struct run *e, const struct mesh_source *source, bool caller_sets_motion);
 
 /* Returns the critical time step of the cells of the mesh in the reference frame [s], INFINITY if there is none. If

@@ -29,9 +29,9 @@ status rigids_check_start_positions(const struct rigid_set *rigid, const struct 
 /* Moves all driven rigid bodies to their prescribed positions at time t [s]. */
 void rigids_move_to_prescribed_positions(struct rigid_set *rigid, real t);
 
-/* Evaluates the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
- * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
- * the particles (dim components [N s]). */
+/* Updates, from the contact forces on all rigid bodies in the last step, the work of the drives (the forces that
+ * enforce prescribed motion) and the largest forces. Subtracts the impulse of the contact forces, force times
+ * dt_velocity [s], from `impulse`, the impulse on the particles (dim components [N s]). */
 void rigids_subtract_impulse_and_update_work(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
 
 /* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_advance_one_step).

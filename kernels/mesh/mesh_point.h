@@ -102,9 +102,9 @@ static ALWAYS_INLINE void mesh_point_strains(const struct mesh *mesh, int64_t ce
             }
 }
 
-/* Returns true if a cell has a point of a material with mean dilatation, for which the points of a cell have one
- * dilatation. m: elastic constants of all materials; material: number of the material of every particle; point: the
- * 2^dim points of the cell, -1: none. */
+/* Returns true if at least one point of a cell is of a material whose points in a cell have one common dilatation, the
+ * mean (elastic.mean_dilatation). m: elastic constants of all materials; material: number of the material of every
+ * particle; point: the 2^dim points of the cell, -1: none. */
 static ALWAYS_INLINE bool cell_uses_mean_dilatation(const struct elastic *m, const uint8_t *material,
                                                     const int32_t *point, const int dim)
 {

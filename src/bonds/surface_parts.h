@@ -44,8 +44,8 @@ struct seen {
  * several mirrors, and the axes that these mirrors reverse (bit d: axis d). */
 struct seen near_faces_source_particle_of_image(const struct near_faces *b, int64_t entry);
 
-/* Returns the particle of the body that entry `entry` of the particle arrays is or, if it is a mirror image, shows, and
- * the axes that the mirrors in between reverse (bit d: axis d). */
+/* Returns the particle of the body that belongs to entry `entry` of the particle arrays, `entry` itself or, for a
+ * mirror image, the particle that it shows, and the axes that the mirrors in between reverse (bit d: axis d). */
 static inline struct seen near_faces_source_of_entry(const struct near_faces *b, int64_t entry)
 {
     return entry < b->p->n ? (struct seen){entry, 0} : near_faces_source_particle_of_image(b, entry);

@@ -29,8 +29,8 @@ struct axis_place {
  * outward unit normal at the nearest point, two components. */
 real polygon_signed_distance(const struct polygon *p, const real *X, real *normal);
 
-/* Returns the largest scalar product X . direction over the points X of a polygon (support function). direction: two
- * components, of any length. */
+/* Returns the largest scalar product X . direction for the points X of a polygon (support function): how far it extends
+ * in this direction. direction: two components, of any length. */
 real polygon_support_function(const struct polygon *p, const real *direction);
 
 /* Returns the signed distance of the point X from the surface of an ellipsoid, negative inside [m]. dim: 2 for an

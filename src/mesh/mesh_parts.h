@@ -25,7 +25,7 @@ struct mesh_partial {
 struct mesh_partial mesh_partial_remove_and_return_cells(struct mesh *mesh);
 
 /* Appends cell number `cell` to the list of partial cells of the mesh: cells in which points are missing or have
- * different materials, or whose nodes were doubled by a slit. Their stiffness is computed later by
+ * different materials, or whose nodes were doubled by a slit (a pre-crack). Their stiffness is computed later by
  * mesh_partial_compute_stiffness. */
 void mesh_partial_add_cell(struct mesh *mesh, int64_t cell);
 
