@@ -13,9 +13,9 @@ struct dashpot {
     real impulse[DIM_MAX]; /* impulse on the body in this step [N s] */
 };
 
-/* Effect of all dashpots in a step. energy: energy that they dissipate [J]; kick: a quarter of the sum of their impulse
- * times the change of velocity, by which the kinetic energy that leap-frog conserves is corrected [J]; impulse: of the
- * dashpots on the body [N s]. */
+/* Effect of all dashpots in a step. energy: energy that they dissipate [J]; kick: a quarter of the sum of impulse times
+ * change of velocity, which the correction of the kinetic energy of samples leaves out [J]; impulse: of the dashpots on
+ * the body [N s]. */
 struct absorbed {
     real energy, kick, impulse[DIM_MAX];
 };

@@ -26,8 +26,8 @@ struct absorbing {
     const struct impedance *impedance[MOVERS]; /* [materials] borrowed */
     bool idle;                                 /* dashpots are inactive: forces are computed that no motion follows */
     real energy;                               /* energy dissipated since the start [J] */
-    real kick;   /* sum of impulse . change of velocity/4 in the last step, by which the kinetic energy of samples is
-                    corrected [J] */
+    real kick; /* sum of impulse . change of velocity/4 in the last step, which the correction of the kinetic energy of
+                  samples leaves out [J] */
     real *field; /* working memory: rates of the grid's nodes [kg/s] */
 };
 
