@@ -313,6 +313,10 @@ static inline real scene_section_or_thickness(const struct scene *s)
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
+/* Returns the index of the part of body b at the position X (dim components [m]): of the last one that contains X; -1
+ * if none does. */
+int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X);
+
 /* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body
  * that contains X, or `default_material` if no part does. */
 int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material);

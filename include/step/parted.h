@@ -34,7 +34,8 @@ struct point_pair {
  * found; this is done at the first comparison. */
 struct point_pairs {
     bool made;
-    bool pulled; /* the warning that stretched points transmit too little force has been printed */
+    bool pulled;  /* the warning that stretched points transmit too little force has been printed */
+    int compared; /* number, from 1, of the part of the duration at whose beginning they were compared last; 0: never */
     int64_t n;
     struct point_pair *pair; /* [n] owned */
 };
@@ -43,9 +44,8 @@ struct point_pairs {
  * between them are empty, so that they share no nodes and no force acts between them. With linear shapes and gimp, also
  * warns of points that are stretched apart so far that they transmit too little force. Compares them once in each
  * fiftieth of the duration. Does nothing if the scene accepts large strains, and before the plastic strain of a point
- * exceeds 0.02. cells: search cells of the particles p;
- * t: current time [s]; pairs: found at the first call. Returns true if the warning that points have come apart has been
- * printed. */
+ * exceeds 0.02. cells: search cells of the particles p; t: current time [s]; pairs: found at the first call. Returns
+ * true if the warning that points have come apart has been printed. */
 bool parted_points_warn_if_separated(struct point_pairs *pairs, const struct particles *p, const struct cells *cells,
                                      const struct scene *s, real t, struct warnings *warning_list);
 

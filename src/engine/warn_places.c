@@ -77,19 +77,28 @@ void engine_warn_of_overlaps(const struct scene *s, const struct particles *p, s
         }
 }
 
+/* Returns true if at least one particle, of the joined bodies number `body` (-1: of any), is in a region. Also returns
+ * true if the run has cells whose particles are not created, since these may be in the region. */
+static bool region_holds_particle(const struct scene *s, const struct particles *p, const struct region *region,
+                                  int body)
+{
+    bool met = p->n < p->n_body;
+    for (int64_t i = 0; i < p->n && !met; i++) {
+        real X[DIM_MAX];
+        if (body >= 0 && p->body[i] != body) continue;
+        particle_reference_position(p, i, X);
+        met = region->n == 0 || region_contains(region, X, s->dim, 0);
+    }
+    return met;
+}
+
 /* Returns true if the initial state number k of the scene applies to at least one particle. Also returns true for a
- * pulse, and if the run has cells whose particles are not created, since it may apply to these. */
+ * pulse. */
 static bool initial_is_met(const struct scene *s, const struct particles *p, int k)
 {
     const struct scene_initial *initial = &s->initial[k];
-    bool met = initial->sets_pulse || p->n < p->n_body; /* cells without particles may be in the region */
-    for (int64_t i = 0; i < p->n && !met; i++) {
-        real X[DIM_MAX];
-        if (initial->body >= 0 && p->body[i] != s->body[initial->body].joined) continue;
-        particle_reference_position(p, i, X);
-        met = initial->region.n == 0 || region_contains(&initial->region, X, s->dim, 0);
-    }
-    return met;
+    return initial->sets_pulse ||
+           region_holds_particle(s, p, &initial->region, initial->body < 0 ? -1 : s->body[initial->body].joined);
 }
 
 /* Returns the distance of the plane of a mirror from the nearest particle [m]. */
@@ -135,4 +144,7 @@ void engine_warn_of_unused_mirrors_and_states(const struct scene *s, const struc
             warnings_add_if_new(warnings,
                                 "initial[%d]: no particle is in its region; %s: check the region and its unit (mm?)", k,
                                 particles_extent_text(p).text);
+    if (s->has_pd_region && !region_holds_particle(s, p, &s->pd_region, -1))
+        warnings_add_if_new(warnings, "pd.region: no particle is in it; %s: check the region and its unit (mm?)",
+                            particles_extent_text(p).text);
 }

@@ -32,6 +32,7 @@ static void draft_free(struct particle_draft *d)
     memory_free(d->material);
     memory_free(d->body);
     memory_free(d->id);
+    memory_free(d->part_holds);
 }
 
 status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason)
@@ -148,10 +149,11 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts in d->skipped a particle that is inside a body but not created. Extends d->low, d->high, the bounding box
- * of these particles, by its position place[dim] [m]. Returns OK. */
-static status place_skip(struct particle_draft *d, const real *place)
+/* Counts in d->skipped a particle that is inside the body with the index `body` but not created. Extends d->low,
+ * d->high, the bounding box of these particles, by its position place[dim] [m]. Returns OK. */
+static status place_skip(struct particle_draft *d, int body, const real *place)
 {
+    particle_draft_record_material(d, body, place, d->scene->body[body].material);
     for (int a = 0; a < d->scene->dim; a++) {
         d->low[a] = d->skipped > 0 ? real_min(d->low[a], place[a]) : place[a];
         d->high[a] = d->skipped > 0 ? real_max(d->high[a], place[a]) : place[a];
@@ -168,12 +170,12 @@ static status lattice_point(struct particle_draft *d, int body, const real *plac
 {
     const struct scene *s = d->scene;
     real X[DIM_MAX] = {0};
-    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, place);
+    if (cells_without_particles_contain(d->hollow, place)) return place_skip(d, body, place);
     if (!region_contains(&s->body[body].shape, place, s->dim, ON_SURFACE * s->spacing)) return OK;
     for (int a = 0; a < s->dim; a++)
         X[a] = place[a] + s->spacing * s->irregularity * scatter(s->seed, d->n, a); /* Imachi et al. 2019, eq. 49 */
-    return particle_draft_append_particle(
-        d, X, volume, scene_material_at_position(s, &s->body[body], place, s->body[body].material), body);
+    return particle_draft_append_particle(d, X, volume,
+                                          particle_draft_record_material(d, body, place, s->body[body].material), body);
 }
 
 /* Adds the particles of the lattice in the shape of the body with the index `body` to d, the list of particles to be
@@ -208,23 +210,6 @@ status fill_compute_lattice_site_position(const struct scene *s, int body, real 
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED with the message that a body has no particles. body: index in the scene. listed: true if its
- * particles were to come from a list; otherwise the message gives the extents of the body's shape. */
-static status draft_empty(const struct particle_draft *d, int body, bool listed)
-{
-    real from[DIM_MAX], to[DIM_MAX];
-    char why[200] = "holds no particle: its shape is at most ";
-    size_t used = strlen(why);
-    if (listed) return particle_draft_refuse_body(d, body, "its list holds no particle of it: check its column body");
-    region_compute_bounding_box_if_finite(&d->scene->body[body].shape, d->scene->dim, from, to);
-    for (int a = 0; a < d->scene->dim; a++)
-        used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
-    snprintf(why + used, sizeof why - used,
-             " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (mm?)",
-             d->scene->spacing);
-    return particle_draft_refuse_body(d, body, why);
-}
-
 /* Collects the particles of all bodies of d->scene in the draft d: from their lists, or from lattices in their shapes.
  * Returns REFUSED for a body without particles or with an invalid list or shape. */
 static status draft_make(struct particle_draft *d)
@@ -232,10 +217,12 @@ static status draft_make(struct particle_draft *d)
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
+        particle_draft_begin_body(d, body);
         TRY(listed ? particle_draft_append_body_from_file(d, body) : fill_lattice(d, body));
-        if (d->n == before && d->skipped == 0) return draft_empty(d, body, listed);
+        if (d->n == before && d->skipped == 0) return particle_draft_refuse_empty_body(d, body, listed);
+        TRY(particle_draft_check_parts_hold_particles(d, body));
     }
-    return OK;
+    return particle_draft_check_materials_have_particles(d);
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */

@@ -16,11 +16,17 @@ status read_body_parts(struct reader *r, const struct yaml_node *parts_node, con
     return OK;
 }
 
+int scene_part_at_position(const struct scene *s, const struct scene_body *b, const real *X)
+{
+    int part = b->parts - 1;
+    while (part >= 0 && !region_contains(&b->part[part].region, X, s->dim, ON_SURFACE * s->spacing)) part--;
+    return part;
+}
+
 int scene_material_at_position(const struct scene *s, const struct scene_body *b, const real *X, int default_material)
 {
-    for (int k = b->parts - 1; k >= 0; k--)
-        if (region_contains(&b->part[k].region, X, s->dim, ON_SURFACE * s->spacing)) return b->part[k].material;
-    return default_material;
+    const int part = scene_part_at_position(s, b, X);
+    return part < 0 ? default_material : b->part[part].material;
 }
 
 bool scene_body_can_have_material(const struct scene_body *b, int material)
