@@ -35,12 +35,6 @@ static void draft_free(struct particle_draft *d)
     memory_free(d->part_holds);
 }
 
-status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason)
-{
-    const struct scene_body *b = &d->scene->body[body_number];
-    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, reason));
-}
-
 static void draft_grow(struct particle_draft *d)
 {
     d->room = d->room > 0 ? 2 * d->room : 4096;

@@ -6,6 +6,12 @@
 #include "base/memory.h"
 #include "fill_draft.h"
 
+status particle_draft_refuse_body(const struct particle_draft *d, int body_number, const char *reason)
+{
+    const struct scene_body *b = &d->scene->body[body_number];
+    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, reason));
+}
+
 status particle_draft_refuse_empty_body(const struct particle_draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
