@@ -34,7 +34,8 @@ real run_estimate_peak_memory_if_all_peridynamic(const struct scene *s, const st
  * cannot be written. */
 status engine_run_to_end(struct run *e);
 
-/* Adapts the refinement levels of the mesh cells and makes one time step (step). Returns FAILED if either fails. */
+/* Adapts the levels of the mesh cells (0: finest; the edge of a cell doubles with each level) to the present state and
+ * makes one time step. Returns FAILED if either fails. */
 status engine_adapt_refinement_and_step(struct run *e);
 
 /* Saves the complete state of a run between two steps to the archive if a->saving is set, else restores it from the
@@ -47,9 +48,9 @@ status engine_save_or_load_run_state(void *run, struct archive *a);
  * checkpoint belongs to another body or is inconsistent. */
 status engine_load_checkpoint(void *run, struct archive *a);
 
-/* Runs the scene once more with material points alone, if it has a PULSE probe, and stores the final velocities and
- * the energy change with which the probe compares the run. Call it after the run. Returns the status of the second
- * run. */
+/* If the scene of run e has a PULSE probe (wave packet at an interface), runs the scene once more with material points
+ * alone and stores the final velocities and the energy change of that run, with which the probe compares run e. Call
+ * this function at the end of run e. Returns the status of the second run; OK if there is no PULSE probe. */
 status engine_run_mpm_baseline_for_pulse_probe(struct run *e);
 
 /* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,

@@ -4,8 +4,9 @@
 
 #include "base/base.h"
 
+/* Contents of a table with one header line, such as history.csv. */
 struct history {
-    int columns; /* Contents of a table with one header line. */
+    int columns;
     char **name; /* [columns] names without units */
     int64_t rows;
     double *value; /* [rows][columns] in SI units; NAN for an empty or non-numeric entry */
@@ -16,8 +17,8 @@ struct history {
  * columns than the header. Release with history_free. */
 status history_read(struct history *h, const char *folder);
 
-/* Reads the first line of the history.csv of the folder of a run, without its end, into header[capacity]; "" if there
- * is none. */
+/* Reads the header (the first line) of history.csv in `folder`, the folder of a run, into header[capacity], without the
+ * line break. Stores "" if the file is missing or empty. A header that is too long is cut to capacity - 1 bytes. */
 void history_read_header(char *header, size_t capacity, const char *folder);
 
 /* Reads the file `path`, a table with one header line like history.csv (for example a profile of a probe), into *h. An

@@ -8,8 +8,8 @@
 
 enum { JSON_EXACT = 17, JSON_TIMING = 9 }; /* significant digits: 17 restore the same double; 9 for times */
 
-/* Document being written. filled: the innermost object or list has at least one entry, so that the next one needs a
- * comma. */
+/* Document being written. file: its destination; depth: number of open objects and lists; filled: the innermost object
+ * or list has at least one entry, so that the next entry needs a comma. */
 struct json {
     FILE *file;
     int depth;

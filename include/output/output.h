@@ -20,7 +20,8 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment
 
 enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
 
-/* Mark of a frame that is lost (output_remove_lost_frames_from_index), beside the fields of struct frame_entry. */
+/* Bit of the member `fields` of struct frame_entry: the file of the frame is missing or damaged, so that the index
+ * files do not list it (output_remove_lost_frames_from_index). */
 #define FRAME_LOST (1u << 31)
 
 /* A frame that has been written. */
@@ -33,8 +34,8 @@ struct frame_entry {
 
 /* Rows of frames: particles by ascending id, then material points of coarse cells. */
 struct frame_rows {
-    int32_t *index; /* [n] index of a particle, of a material point of a coarse cell */
-    int64_t n, own; /* number of rows; of them particles */
+    int32_t *index; /* [n] index in the particles or, for the last rows, in the material points of coarse cells */
+    int64_t n, own; /* number of rows; number of the first rows, which are particles */
 };
 
 /* Frames of the whole body or of one region, with their own folder and indices. */
@@ -118,8 +119,8 @@ status output_write_text(const struct output *o, const char *file_name, const ch
 
 /* Writes the index files of all series of frames again, without frames that are missing or incomplete. A frame that was
  * lost at an earlier restart and exists again is listed again. To be called after a restart. Stores the number of lost
- * frames in *lost_frame_count and a message about the first of them in message[capacity]. Returns FAILED if an index
- * file cannot be written. */
+ * frames in *lost_frame_count and, unless it is 0, a message about the first lost frame in message[capacity]. Returns
+ * FAILED if an index file cannot be written. */
 status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
 /* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
@@ -148,9 +149,9 @@ struct frame_state {
     real *plastic_strain;              /* plastic strain of material points, mean over the bonds of PD particles;
                                         * NULL: use the particles' own [1] */
     real *damage;                      /* damage with that of softening bonds; NULL: use the particles' own [1] */
-    real *share;                       /* share of the strength surface [1] */
-    uint8_t *level;                    /* refinement level of the coarse cell that holds the material point; 0 if
-                                        * none */
+    real *share;                       /* stress divided by the strength by the strength surface, 1 on it [1] */
+    uint8_t *level;                    /* coarsening level of the mesh cell that contains the particle: each level
+                                        * doubles the edge of the cell; 0: finest cell, or none */
 };
 
 /* Quantities in frames besides the particles' own arrays, each [n]. NULL: the frames of this run do not have them. */

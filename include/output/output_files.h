@@ -16,7 +16,8 @@ struct path {
  * call refuses an empty path. */
 struct path path_join(const char *folder, const char *name);
 
-/* Writes the last part of a path, without slashes behind it, to name[capacity]. Returns name. */
+/* Writes the last part of `path` (the name of the file or folder, without trailing slashes) to name[capacity], cut to
+ * capacity - 1 bytes. Returns name. */
 char *path_last_name(char *name, size_t capacity, const char *path);
 
 /* Returns the path frames/NNNNNN.hdf, in the folder of a run, of the frame with the number NNNNNN = number; an empty
@@ -75,8 +76,9 @@ status file_check_is_from_cleave(const char *path, const char *const *beginning,
 /* Type of a function that acts on the file `path`. */
 typedef status file_visit_fn(const char *path);
 
-/* Calls visit(path) for every file in `folder` for whose name chosen(name, ending) returns true. Links are skipped.
- * Stops at the first call that does not return OK, and returns its status. */
+/* Calls visit(path) for every file in `folder` for whose name name_is_chosen(name, ending) returns true. ending: passed
+ * on to name_is_chosen. Links are skipped. Stops at the first call of `visit` that does not return OK, and returns its
+ * status; otherwise returns OK. */
 status files_visit(const char *folder, bool (*name_is_chosen)(const char *name, const char *ending), const char *ending,
                    file_visit_fn *visit);
 

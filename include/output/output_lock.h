@@ -7,7 +7,7 @@
 /* Lock of a folder: the descriptor `fd` of its open lock file, -1 if the folder is not locked. */
 struct folder_lock {
     int fd;
-}; /* -1: not locked */
+};
 
 /* Locks `folder` for this process, until folder_unlock or the end of the process, and stores the lock in *l. Returns
  * REFUSED, with the number of the process that holds the lock, while another process has locked the folder. Returns

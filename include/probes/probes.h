@@ -20,12 +20,14 @@
 /* Results of a probe of kind EXACT, which compares a bar with a closed-form solution. All but the last three are
  * computed from the stress by bond flux (probes_parts.h); results with `_strain` compare E x strain with E x exact
  * strain, with strain by central differences over neighbours in the bar:
- *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
- *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
- *   plateau                 mean stress behind the last front, away from fronts and ends
- * (exact_find_constant_stress_range) [Pa] strain_elastic, strain_plastic     mean strain ahead of and behind the
- * plastic front [1] end_displacement        of the outermost particle at the loaded end, half a spacing from the end
- * [m] L1_velocity, L2_velocity, L2_displacement    as L1 and L2, at the time of the velocities */
+ *
+ *   L1, L2                           mean |error| and root mean square of the error over the particles [Pa]
+ *   front, front_plastic             where the stress passes the middle of the jump of the (plastic) front [m]
+ *   plateau                          mean stress in the range EXACT_PLATEAU of exact_find_constant_stress_range [Pa]
+ *   strain_elastic, strain_plastic   mean strain ahead of the plastic front, and behind it [1]
+ *   end_displacement                 of the outermost particle at the loaded end, half a spacing from the end [m]
+ *   L1_velocity, L2_velocity         as L1 and L2, at the time of the velocities [m/s]
+ *   L2_displacement                  as L2 [m] */
 
 /* Final state of the run on material points alone with which PULSE probes are compared
  * (engine_run_mpm_baseline_for_pulse_probe). */
@@ -138,7 +140,8 @@ typedef status probe_file_fn(void *context, const char *name, const char *text, 
 status probes_write_profiles(const struct probes *s, const struct observed_run *o, probe_file_fn *write_file,
                              void *context, int frame_number);
 
-/* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */
+/* Returns the number of profiles (tables of values along a line, one for each LINE and EXACT probe) that are written
+ * with each frame. */
 int64_t probes_count_profiles(const struct probes *s);
 
 /* Longest name of a profile, with its terminator. */
@@ -148,12 +151,13 @@ enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
  * Returns false, without a name, if there are at most `profile` profiles. */
 bool probes_compose_profile_file_name(const struct probes *s, int profile, int frame_number, char *file_name);
 
-/* Copies the stress-intensity factors that the SIF probe called `probe_name` had at its last sample, and the direction
- * of its crack tip, to *control. Returns false if the probe has no values yet. */
+/* Copies the stress-intensity factors at the last sample of the SIF probe called `probe_name`, and the direction of the
+ * crack tip, to *control, by which a growing crack is controlled. Returns false if the probe has no values yet. */
 bool probes_copy_sif_of_probe(const struct probes *s, const char *probe_name, struct growth_control *control);
 
-/* Computes the current position of the crack tip of probe number `probe`, two components [m], and the outer radius of
- * its contours, *outer_radius [m]. Returns false if the probe is not a SIF probe. */
+/* Stores the current position of the crack tip that the SIF probe number `probe` observes in tip_position[2] [m], and
+ * the outer radius of the integration contours around the tip in *outer_radius [m]. o: view of the run. Returns false,
+ * and stores nothing, if the probe is not a SIF probe. */
 bool probes_locate_sif_contour(const struct probes *s, int probe, const struct observed_run *o, real tip_position[2],
                                real *outer_radius);
 

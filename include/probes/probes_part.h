@@ -29,14 +29,15 @@ void scene_list_wave_pulses(const struct scene *s, struct probing *probing);
  * the number of directed bonds cut. */
 int64_t cracks_grow_one_step_and_count_cut_bonds(struct run *e);
 
-/* Stores in q->residual_step0 the largest force component on nodes of the grids and on peridynamic particles in the
- * regions of PATCH probes [N]. Must be called in the first step, after the forces have been computed and before
- * particles are moved. */
+/* Stores in q->residual_step0 the largest force component on grid nodes and on peridynamic particles in the regions of
+ * PATCH probes [N]. Under uniform strain these forces should be 0 (patch test). Must be called in the first step, after
+ * the forces have been computed and before particles are moved. */
 void patch_test_store_largest_residual_force(struct probing *q, const struct scene *s, const struct particles *p,
                                              const struct grid_method *grid);
 
-/* Raises q->residual_step0 [N] to the largest force component on nodes of a mesh of the reference frame in the regions
- * of PATCH probes. Must be called in the first step, after the forces have been computed and before nodes are moved. */
+/* Raises q->residual_step0 [N] to the largest force component on those nodes of `mesh`, a mesh in the reference frame,
+ * that are in the regions of PATCH probes, if that component is larger. Must be called in the first step, after the
+ * forces have been computed and before nodes are moved. */
 void patch_test_include_mesh_residual_force(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
 /* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, with the number of the last frame

@@ -36,7 +36,7 @@ status engine_find_equilibrium_for_cost_estimate(struct run *e, real t);
  * Returns FAILED, with a message, if one of them is not found. */
 status engine_predict_largest_stretch_ratio(struct run *e, real first_load_time, real *load_time, real *ratio);
 
-/* Returns a measure of the size of the loads at pseudo-time t [s], to which it is proportional: the root of the sum of
+/* Returns the load size at pseudo-time t [s], a measure that is proportional to the loads: the root of the sum of
  * squares of all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied
  * forces [N]. */
 real statics_norm_of_prescribed_loads(const struct run *e, real t);

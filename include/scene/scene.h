@@ -134,7 +134,7 @@ struct scene {
     real section;          /* 1D: cross-section A [m^2]; key `section`, default 1 */
     real duration;         /* [s] */
     real gravity[DIM_MAX]; /* acceleration of particles and of free rigid bodies [m/s^2] */
-    real damping;          /* damping force of a particle over its momentum [1/s] */
+    real damping;          /* damping force of a particle divided by its momentum [1/s] */
     enum method method;
     enum model model;
     enum solver_kind solver;  /* other than explicit: static equilibrium (solver.h) */
@@ -169,7 +169,7 @@ struct scene {
     enum contact_distance contact_distance;
     bool contact_convert;
     real contact_friction;  /* coefficient [1] */
-    real contact_stiffness; /* over the stiffness of a cell [1] */
+    real contact_stiffness; /* divided by the stiffness of a cell [1] */
     bool has_pd_region;
     struct region pd_region; /* region that is peridynamic from the start (adaptive) */
 
@@ -298,7 +298,8 @@ static inline bool scene_can_crack(const struct scene *s)
     return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
 }
 
-/* Returns true if there are rigid bodies, or several deformable ones that interfaces do not join to one. */
+/* Returns true if bodies of the scene can come into contact: there are rigid bodies, or several deformable bodies that
+ * interfaces do not join to a single one. */
 static inline bool scene_bodies_can_meet(const struct scene *s)
 {
     bool several = s->rigids > 0;
@@ -333,9 +334,9 @@ void scene_free(struct scene *s);
  * the path of the scene file. Does nothing unless `result` is REFUSED. Returns `result`. */
 status scene_prepend_location(const struct scene *s, status result);
 
-/* Writes the location in the scene file of the key, group of keys or named item with which the warning `text` begins,
- * as `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if there is none. scene: a struct scene. It is a
- * function for struct warnings. */
+/* Finds the key, group of keys or named item with which the warning `text` begins, and writes its location in the scene
+ * file, as `file:line:column` or `-s key=value`, to place[PLACE_LENGTH]; "" if the warning begins with none. scene: a
+ * struct scene. Callback of struct warnings. */
 void scene_find_location_of_message(const void *scene, const char *text, char *place);
 
 /* Returns the reason why shape functions of the body with the index `body` cannot be evaluated at the reference
@@ -351,9 +352,9 @@ bool scene_has_yielding_body_on_mesh(const struct scene *s);
  * that is, the evaluation of shape functions at reference positions. Returns NULL if it does. The text is static. */
 const char *scene_why_reference_frame_not_chosen_by_auto(const struct scene *s, int body);
 
-/* Returns the reason why a message about bodies whose shape functions follow the present positions must not recommend
- * `mpm.frame: reference`: that which prevents `mpm.frame: auto` from choosing it, for the first body for which there is
- * one. Returns NULL if there is none for any body. The text is static. */
+/* Returns the reason why messages must not recommend the key `mpm.frame: reference` (shape functions evaluated at
+ * reference positions) as a remedy: the reason why `mpm.frame: auto` does not choose it, for the first body for which
+ * there is such a reason. Returns NULL if there is none for any body. The text is static. */
 const char *scene_why_reference_frame_is_no_remedy(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`. key: NULL for all keys, a prefix for the keys below it, or one key.

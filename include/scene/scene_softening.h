@@ -6,11 +6,12 @@
 #include "data/softening_states.h"
 #include "scene/scene.h"
 
-/* Returns the complete family of a particle on the lattice of the scene s, with its horizon and weights of bonds. */
+/* Returns the complete family of a particle (all neighbours within the horizon) on the lattice of the scene s, with the
+ * horizon and the weights of bonds. */
 struct family scene_family(const struct scene *s);
 
 /* Returns the peridynamic model of the bonds of material m in the scene: bond-based, or state-based with its moduli
- * over the modulus E' of uniaxial tension. */
+ * divided by the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
 
 /* Returns the critical stretch of bonds between the materials a and b of the scene [1]. A crack along their joint
@@ -19,10 +20,11 @@ struct softening_model scene_softening_model_of_bonds(const struct scene *s, con
 real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a,
                                               const struct material *b);
 
-#define FREE_OF_TRAPPING 2 /* kappa above which the lattice hardly impedes cracks; measured */
+#define FREE_OF_TRAPPING 2 /* squared stretch ratio (below) above which the lattice hardly impedes cracks; measured */
 
-/* Returns the horizon [m] at which bonds of material m have the ratio squared_stretch_ratio = (critical stretch/stretch
- * at which softening begins)^2 [1]. The material must have an energy release rate. */
+/* Returns the horizon with which bonds of material m have the given squared_stretch_ratio = (critical stretch/stretch
+ * at which softening begins)^2 [m]. With smaller horizons the ratio is larger. The material must have an energy release
+ * rate and a tensile strength. */
 real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
                                                real squared_stretch_ratio);
 

@@ -49,30 +49,31 @@ struct static_body {
     int bodies;
 };
 
-/* Initialises a static solution: sets the displacements of driven particles and the applied forces to the values of the
- * loads after `ramp_time` [s], and the velocities of all particles to 0. Relaxation on the background grid needs no
- * more; other iterations also need static_solver_make_iteration_vectors. Returns REFUSED, with a message, if applied
- * forces or moments are neither balanced nor carried by supports. Release with static_solver_free. */
+/* Initialises the static solver *s: sets the displacements of driven particles (those with prescribed motion) and the
+ * applied forces to the values of the loads at the end of the scene, and the velocities of all particles to 0. body:
+ * particles, bonds and loads. ramp_time: for relaxation on the background grid, time in which the supports move [s].
+ * Other iterations also need static_solver_make_iteration_vectors. Returns REFUSED, with a message, if applied forces
+ * or moments are neither balanced nor carried by supports. Release with static_solver_free. */
 status static_solver_make(struct static_solver *s, const struct static_body *body, real ramp_time);
 
-/* Allocates and computes the vectors that the steps of an iteration need, after static_solver_make: weights of
- * particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true if the steps are
- * those of cg_step, false if those of relaxation_step. */
+/* Allocates and computes the vectors in *s that cg_step and relaxation_step need: weights of particles on mirror
+ * planes, diagonal stiffness, round-off of the forces. static_solver_make must have been called. conjugate_gradients:
+ * true to prepare for cg_step, false for relaxation_step. */
 void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
                                           bool conjugate_gradients);
 
 /* Frees the vectors of s and sets all members to 0. */
 void static_solver_free(struct static_solver *s);
 
-/* Does step number `step`, from 0, of an iteration for static equilibrium: relaxation_step one of dynamic relaxation,
- * cg_step one of conjugate gradients. body: particles, bonds and loads; *done: false on entry, receives true if the
- * equilibrium is reached, with a residual of at most body->tolerance. Returns FAILED, with a message, if the iteration
- * stalls or a part of the body moves without resistance. */
+/* Type of a function that does step number `step`, from 0, of an iteration for static equilibrium: relaxation_step by
+ * dynamic relaxation, cg_step by conjugate gradients. body: particles, bonds and loads; *done: false on entry, receives
+ * true if the equilibrium is reached, with a residual of at most body->tolerance. Returns FAILED, with a message, if
+ * the iteration stalls or a part of the body moves without resistance. */
 typedef status static_solver_step_fn(struct static_solver *s, const struct static_body *body, int64_t step, bool *done);
 static_solver_step_fn relaxation_step, cg_step;
 
-/* Returns the largest magnitude of a component of the vectors in `vectors`, in their unit. dim: number of components of
- * a vector; vector_count: number of vectors. */
+/* Returns the largest absolute value of all components of the vectors in `vectors`, in the unit of the vectors. dim:
+ * number of components of a vector; vector_count: number of vectors. */
 real field_largest_component(const struct field *vectors, int dim, int64_t vector_count);
 
 /* Sets the scale of forces s->scale = max(s->applied, reaction_norm) [N] and the residual s->residual =
@@ -81,8 +82,8 @@ real field_largest_component(const struct field *vectors, int dim, int64_t vecto
  * `unbalanced_norm` so far. The residual is 0 if the unbalanced forces are 0 or, without loads, round-off. */
 void static_solver_set_residual(struct static_solver *s, real reaction_norm, real unbalanced_norm);
 
-/* Saves the state of a static iteration to the archive `a` if a->saving, else restores it from it. Returns FAILED if
- * the archive cannot be read or written or a stored size differs. */
+/* Saves the state of the static iteration *s to the archive `a` if a->saving is set, else restores *s from `a`. Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
 status static_solver_save_or_load(struct static_solver *s, struct archive *a);
 
 #endif

@@ -20,15 +20,15 @@ struct predecessor {
 
 /* Creates the run e of the scene s without the particles of the cells listed in `omitted_cells`: cells inside a body
  * that coarse cells replace. output: output of the run. predecessor: NULL, or a run from which particles, bonds and
- * time are transferred. In the latter case the caller sets all other state that time steps have changed, and the
- * refinement levels of cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
+ * time are transferred. In the latter case the caller sets all other state that time steps have changed, and the levels
+ * of the mesh cells. Returns REFUSED or FAILED, with a message, if the scene cannot be set up. */
 status engine_create_run_from_predecessor(struct run *e, const struct scene *s, struct output *output,
                                           struct cells_without_particles omitted_cells,
                                           struct predecessor *predecessor);
 
-/* Replaces run e by a run with the same state, in which the particles are those that the refinement levels of the mesh
- * cells require. cell_level: refinement level of each mesh cell. Returns FAILED if this fails, or if the frame that is
- * being written cannot be written. */
+/* Replaces run e by a run with the same state, in which the particles are those that the levels of the mesh cells
+ * require. cell_level: level of each mesh cell (0: finest; the edge doubles with each level, and coarse cells inside a
+ * body have no particles). Returns FAILED if this fails, or if the frame that is being written cannot be written. */
 status engine_replace_particles(struct run *e, const uint8_t *cell_level);
 
 /* Transfers the particles of predecessor->run to the run e, which is being created, and stores the new indices of these
@@ -58,7 +58,7 @@ void engine_warn_of_useless_cracks(const struct scene *s, const struct particles
                                    real longest_bond, struct warnings *warnings);
 
 /* Adds warnings to *warnings about values that look like mistakes of units, unless the key `accept` of the scene
- * excepts them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
+ * silences them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_mistaken_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                                    const struct run_clock *clock, real wave_speed, struct warnings *warnings);
 
@@ -76,14 +76,15 @@ void engine_warn_of_particles_faster_than_waves(const struct particles *p, real 
 void engine_warn_of_conflicting_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                                          struct warnings *warnings);
 
-/* Adds warnings to *warnings about supports at an end of a body that is in the middle of a cell of two spacings, with
- * the error of the body's stiffness. grid: any grid of the run, whose `anchor` and `h` give the positions of all nodes.
- */
+/* Adds warnings to *warnings about supports at an end of a body that is in the middle of a grid cell with an edge of
+ * two particle spacings, which falsifies the stiffness of the body; states the error. grid: any grid of the run, whose
+ * members `anchor` and `h` give the positions of all nodes. */
 void engine_warn_of_supports_within_cells(const struct scene *s, const struct loads *loads, const struct particles *p,
                                           const struct grid *grid, struct warnings *warnings);
 
-/* Adds warnings to *warnings about bodies of a few rows of particles, whose stiffness the correction pd.surface:
- * moments cannot correct. Also warns if the solver for `weights`, the weights of bonds near faces, has given up. */
+/* Adds warnings to *warnings about bodies only a few particles thick, whose stiffness the correction of bonds near
+ * faces (key `pd.surface: moments`) cannot correct. weights: weights of bonds near faces; also warns if the solver that
+ * computes them has given up. */
 void engine_warn_of_uncorrected_faces(const struct scene *s, const struct particles *p,
                                       const struct surface_weights *weights, struct warnings *warnings);
 
@@ -99,7 +100,8 @@ real engine_particle_count_between_positions(const struct scene *s, real low, re
 /* Adds warnings to *warnings about solids of the shape of a body that add nothing to it or remove nothing from it. */
 void engine_warn_of_useless_solids(const struct scene *s, struct warnings *warnings);
 
-/* Adds warnings to *warnings about surfaces of files whose shells enclose a part of the body twice. */
+/* Adds warnings to *warnings about surfaces read from files whose closed shells overlap or lie inside one another, so
+ * that they enclose a part of the body twice. */
 void engine_warn_of_shells_in_shells(const struct scene *s, struct warnings *warnings);
 
 /* Adds warnings to *warnings about bodies that move at the start and meet no other body within the duration. */

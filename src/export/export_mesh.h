@@ -25,24 +25,25 @@ struct set_name {
     char text[NAME_MAX_LENGTH];
 };
 
-/* Returns the name of the node set of load load_number: the name of its boundary condition, or nodelist_N with N = k +
- * 1 if it has no name or an earlier load has the same one. */
+/* Returns the name of the node set of load number load_number, from 0: the name of its boundary condition, or
+ * nodelist_N with N = load_number + 1 if the boundary condition has no name or an earlier load has the same name. */
 struct set_name export_node_set_name_of_load(const struct export_mesh *m, int load_number);
 
-/* Returns a new array with the numbers of the particles of load load_number: positions in the order of m, counted from
- * 1, ascending. Its length is the number of particles of the load. The caller releases it with memory_free. */
+/* Returns a new array with the numbers of the particles on which load number load_number acts: positions in the list m,
+ * counted from 1, in ascending order. The length of the array is the number of particles of the load. The caller
+ * releases the array with memory_free. */
 int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load_number);
 
 /* Releases the memory of *m. */
 void export_mesh_free(struct export_mesh *m);
 
-/* Checks that the file `path` may be written. It may be new, or an export of Cleave if `overwrite` is true.
- * format_signature: text in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED
- * otherwise. */
+/* Checks that the file `path` may be written: it must not exist or, if `overwrite` is true, be an export of Cleave.
+ * format_signature: text in the first bytes of exports of this kind, by which they are recognised. Returns REFUSED if
+ * the file may not be written. */
 status export_check_file_may_be_written(const char *path, const char *format_signature, bool overwrite);
 
-/* Writes the file `path`: calls `write_contents` with a file `to` of a temporary name and with `context`, synchronises
- * the file with the disk and renames it. Returns FAILED, and leaves no file, if it cannot be written. */
+/* Writes the file `path`: calls write_contents(to, context) with an open file `to` under a temporary name, synchronises
+ * this file with the disk and renames it to `path`. Returns FAILED, and leaves no new file, if it cannot be written. */
 status export_write_file_and_rename(const char *path, status (*write_contents)(FILE *to, void *context), void *context);
 
 #endif

@@ -107,8 +107,8 @@ struct lammps_types {
 };
 
 /* Assigns a LAMMPS type to each particle. Particles of one type have the same material and loads. Where bonds must be
- * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Returns REFUSED if too
- * many types are needed. Release `types` with lammps_types_free. */
+ * cut, further types distinguish particles, so that pairs of types can be excluded from bonding. Stores the types in
+ * *types. Returns REFUSED if too many types are needed. Release *types with lammps_types_free. */
 status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
 /* Releases the arrays of *types. */
@@ -116,13 +116,14 @@ void lammps_types_free(struct lammps_types *types);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
-/* Finds which loads act on each particle and stores them as bits in x->loads, which it allocates. Lists in x->column
- * the per-particle columns of plate.data that the loads need. Returns REFUSED if LAMMPS has no command for a load, or
- * not enough groups for all loads. */
+/* Finds which loads act on each particle and stores them as bits in exported->loads, which it allocates. Lists in
+ * exported->column the per-particle columns of plate.data that the loads need. Returns REFUSED if LAMMPS has no command
+ * for a load, or not enough groups of particles for all loads. */
 status lammps_find_loads_of_particles(struct exported *exported);
 
-/* Computes the velocity velocity[] with which `particle` starts in LAMMPS [m/s]. In components that a boundary drives
- * it is the prescribed velocity at half a time step, in others the initial velocity of the scene. */
+/* Computes the velocity with which the particle with the index `particle` starts in LAMMPS, and stores it in velocity[]
+ * [m/s]. Components that a boundary condition prescribes are those at half a time step, others are those of the initial
+ * velocity in the scene. */
 void lammps_initial_velocity(const struct exported *exported, int64_t particle, real velocity[DIM_MAX]);
 
 /* Writes the names of all per-particle columns exported->column to the file `file`, as arguments of the LAMMPS command
@@ -133,9 +134,9 @@ void lammps_write_column_names(FILE *file, const struct exported *exported);
  * Variables of the script read the columns through these commands. */
 void lammps_write_compute_commands(FILE *file, const struct exported *exported);
 
-/* Returns the value of the per-particle column number `column` at particle particle: a component of its initial
- * displacement [m], or of the force of a load on it, 0 if the load does not act on it. For pair styles the force is per
- * volume [N/m^3], for bond styles it is in [N]. */
+/* Returns the value of the per-particle column number `column` of plate.data for the particle with the index
+ * `particle`: a component of the initial displacement [m], or of the force of a load on the particle, 0 if the load
+ * does not act on it. The force is per volume [N/m^3] for pair styles, else in [N]. */
 real lammps_column_value(const struct exported *exported, int column, int64_t particle);
 
 /* Writes the LAMMPS commands of all loads and supports to the file `file`. types: types of the particles. */
@@ -146,11 +147,13 @@ void lammps_loads_write(FILE *file, const struct exported *exported, const struc
 /* Writes the contents of plate.data, the particles with their types, to the file `file` (export_data.c). types: types
  * of the particles. */
 void lammps_data_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
+
 /* Writes the contents of the input script in.lammps to the file `file` (export_script.c). types: types of the
  * particles. */
 void lammps_script_write(FILE *file, const struct exported *exported, const struct lammps_types *types);
-/* Writes the estimated duration of the run in LAMMPS and in Cleave, and what the export lacks, to the file `file`
- * (export_cost.c). */
+
+/* Writes the estimated duration of the run in LAMMPS and in Cleave, and which results of Cleave LAMMPS does not
+ * compute, to the file `file` (export_cost.c). */
 void lammps_write_run_time_estimate(FILE *file, const struct exported *exported);
 
 /* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps

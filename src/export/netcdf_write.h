@@ -1,7 +1,7 @@
 /* Writes netCDF files of the classic format with 64-bit offsets (CDF-2; NetCDF User's Guide, "File format
  * specifications"): first dimensions, arrays and attributes are defined, then netcdf_write_header writes the header,
- * then the numbers of all arrays follow in the order of their definition: those of one length, then for each record
- * those over records. Dimensions, arrays and attributes are few; faults of writing are found by ferror. */
+ * then the numbers of all arrays follow in the order of their definition: first of the arrays of fixed length, then for
+ * each record of the arrays with a dimension of records. Failed writes are found by ferror(w->to). */
 #ifndef CLEAVE_NETCDF_WRITE
 #define CLEAVE_NETCDF_WRITE
 
@@ -45,14 +45,14 @@ struct netcdf_writer {
     int64_t pending; /* bytes of the array that is written */
 };
 
-/* Defines a dimension with `length` entries; `length` 0 defines the dimension of records, which grows while the file is
- * written. It is called `name` followed by `name_suffix`, or only `name` if `name_suffix` is 0. Returns its index, for
- * netcdf_define_array. */
+/* Defines a dimension with `length` entries in the file of w; `length` 0 defines the dimension of records, which grows
+ * while the file is written. The name is `name` followed by the number `name_suffix`, or only `name` if `name_suffix`
+ * is 0. Returns the index of the dimension, for netcdf_define_array. */
 int netcdf_define_dimension(struct netcdf_writer *w, const char *name, int name_suffix, int64_t length);
 
-/* Defines an array of numbers of type `type`. It is called `name` followed by `name_suffix`, or only `name` if
- * `name_suffix` is 0. dimension[dimension_count]: indices of its dimensions; attribute_name, attribute_text: name and
- * text of its only attribute, kept by reference, or NULL for none. */
+/* Defines an array of numbers of type `type` in the file of w. The name is `name` followed by the number `name_suffix`,
+ * or only `name` if `name_suffix` is 0. dimension[dimension_count]: indices of the dimensions of the array;
+ * attribute_name, attribute_text: name and text of the only attribute of the array, kept by reference, or NULL. */
 void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suffix, enum netcdf_type type,
                          int dimension_count, const int *dimension, const char *attribute_name,
                          const char *attribute_text);
@@ -61,9 +61,10 @@ void netcdf_define_array(struct netcdf_writer *w, const char *name, int name_suf
  * before the arrays are written. */
 void netcdf_write_header(struct netcdf_writer *w);
 
-/* Writes the next n numbers value[n] of the array that is being written; netcdf_write_reals is for arrays of reals,
- * netcdf_write_integers for arrays of whole numbers. */
+/* Writes value[n] as the next n numbers of the array of reals that is being written. */
 void netcdf_write_reals(struct netcdf_writer *w, int64_t n, const real *value);
+
+/* Writes value[n] as the next n numbers of the array of whole numbers that is being written. */
 void netcdf_write_integers(struct netcdf_writer *w, int64_t n, const int32_t *value);
 
 /* Writes `text` as the next row of the array that is being written, an array of letters with rows of `row_bytes` bytes.

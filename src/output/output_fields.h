@@ -44,9 +44,9 @@ extern const struct frame_field frame_cells[CELL_LISTS];
  * break, and those that the scene requests. */
 unsigned frame_field_bits_of_source(const struct frame_source *source);
 
-/* Copies the stored numbers of a field to `rows`, which has frame_field_bytes_per_row bytes per row. row_order: which
- * particle each row shows. Rows of material points of coarse cells (source->extra.more) are 0 in fields that such
- * points lack. */
+/* Copies the numbers of a field that a frame stores from the particles in *source to `rows`, an array of
+ * row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which particle each row shows. Rows of
+ * material points of coarse cells (source->extra.more) are 0 in fields that such points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *row_order, char *rows);
 
@@ -54,11 +54,11 @@ void frame_field_copy_rows(const struct frame_field *field, const struct frame_s
  * frame_field_copy_rows makes them; dim: dimension of the space. A failure is recorded in file->failed. */
 void frame_field_write(struct hdf *file, const struct frame_field *field, int64_t row_count, int dim, const char *rows);
 
-/* Writes one line `field [unit]` for every field with a unit to text[capacity]. field_bits: set of fields, one bit per
- * entry of the table frame_fields. */
+/* Writes one line `field [unit]` for every field with a unit to text[capacity]; a longer text is cut. field_bits: set
+ * of fields, one bit per entry of the table frame_fields. */
 void frame_units_write_text(unsigned field_bits, char *text, size_t capacity);
 
-/* Returns the size of the stored numbers in one row of a field [byte]. dim: dimension of the space. */
+/* Returns how many bytes a frame stores of a field per row (particle). dim: dimension of the space. */
 size_t frame_field_bytes_per_row(const struct frame_field *field, int dim);
 
 #endif

@@ -1,4 +1,4 @@
-/* Texts of the indices of a series of frames. */
+/* Index files of a series of frames, which list the frames with their times for ParaView. */
 #ifndef CLEAVE_OUTPUT_INDEX
 #define CLEAVE_OUTPUT_INDEX
 
@@ -6,14 +6,15 @@
 
 enum { INDICES = 2 }; /* frames.hdf.series, frames.xdmf */
 
+/* Texts of the index files of one series of frames. */
 struct frame_indices {
     char *text[INDICES];
     size_t length[INDICES]; /* [byte] */
 };
 
-/* Composes the texts of both index files of a series of frames, frames.hdf.series and frames.xdmf, in memory. index:
- * must be set to zero before; folder: of the run, for messages. Returns FAILED if memory is exhausted. Release index
- * with frame_index_files_free_texts in any case. */
+/* Composes the texts of both index files of a series of frames, frames.hdf.series and frames.xdmf, in memory and stores
+ * them in *index, which the caller has set to zero. folder: folder of the run, for messages. Returns FAILED if memory
+ * is exhausted. Release *index with frame_index_files_free_texts in any case. */
 status frame_index_files_compose(struct frame_indices *index, const char *folder, const struct frame_series *series);
 
 /* Writes the composed texts in *index as the index files of `series` to `folder`, the folder of the run. Returns FAILED

@@ -41,8 +41,8 @@ status particles_file_write(const struct particles_file *f, bool *hdf5_failed);
 /* Releases the contents of *f. */
 void particles_file_free(struct particles_file *f);
 
-/* Creates in the file `frame` the links to the data in the particles file f. field_bits: fields of the frame, one bit
- * per entry of the table frame_fields. */
+/* Creates in the file `frame` a link to each of its fields that is stored in the particles file f. field_bits: fields
+ * of the frame, one bit per entry of the table frame_fields. A failure is stored in frame->failed. */
 void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned field_bits);
 
 /* Reads the hash of the contents of the particles file `path` into *content_hash. If the file is a frame or another

@@ -63,7 +63,7 @@ struct probe {
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 3 };
 
 /* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
- * and stress, the damage, and what yielding adds. The number depends on the dimension and the arrays of p. */
+ * and stress, the damage, and plastic strain and temperature if p has these arrays. */
 int particle_probe_value_count(const struct particles *p);
 
 /* Returns the name and unit of value `value_number` of those that a POINT or LINE probe reports of a particle, 0 <=
@@ -84,16 +84,16 @@ void particle_compute_probe_values(const struct observed_run *o, int64_t particl
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
-/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion,
- * before the time step. */
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion.
+ * Must be called before the time step. */
 void probe_motion_store_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes the velocities of a probe's particles at the time of the sample, after the time step: interpolated between
- * the velocities copied by probe_motion_store_before_step and the present ones; after the last step extrapolated, with
- * the present positions. present_velocity_time: time of the present velocities, and a factor on the result that removes
- * half a step of damping. Does nothing if probe_motion_store_before_step was not called, as for equilibria:
- * probe_particle_velocity_component then returns the present velocities.
- */
+/* Computes the velocities of a probe's particles at the time of the sample by interpolation between the velocities that
+ * probe_motion_store_before_step copied and the present ones; after the last step they are extrapolated, and the
+ * present positions are used. Must be called after the time step. present_velocity_time: time of the present
+ * velocities, and a factor on the result that removes half a step of damping. Does nothing if
+ * probe_motion_store_before_step was not called, as for equilibria: probe_particle_velocity_component then returns the
+ * present velocities. */
 void probe_motion_interpolate_to_sample_time(struct probe *q, const struct observed_run *o,
                                              const struct velocity_time *present_velocity_time);
 
@@ -104,16 +104,18 @@ void probe_motion_discard_interpolation(struct probe *q);
 /* Frees the copies of positions and velocities of a probe. */
 void probe_motion_free(struct probe *q);
 
-/* Returns component d of the position of the k-th particle of a probe [m]: at the time of the sample between
- * probe_motion_interpolate_to_sample_time and probe_motion_discard_interpolation, else the present position. */
+/* Returns component `axis` of the position of particle q->list[list_index] of a probe [m]. After
+ * probe_motion_interpolate_to_sample_time it is the position at the time of the sample, until
+ * probe_motion_discard_interpolation; otherwise it is the present position. */
 static inline real probe_particle_position_component(const struct probe *q, const struct particles *p, int axis,
                                                      int64_t list_index)
 {
     return q->motion.complete ? q->motion.x[axis][list_index] : p->x[axis][q->list[list_index]];
 }
 
-/* Returns component d of the velocity of the k-th particle of a probe [m/s]: at the time of the sample between
- * probe_motion_interpolate_to_sample_time and probe_motion_discard_interpolation, else the present velocity. */
+/* Returns component `axis` of the velocity of particle q->list[list_index] of a probe [m/s]. After
+ * probe_motion_interpolate_to_sample_time it is the velocity at the time of the sample, until
+ * probe_motion_discard_interpolation; otherwise it is the present velocity. */
 static inline real probe_particle_velocity_component(const struct probe *q, const struct particles *p, int axis,
                                                      int64_t list_index)
 {
@@ -124,8 +126,8 @@ static inline real probe_particle_velocity_component(const struct probe *q, cons
 
 extern const char *const axis_name[DIM_MAX];
 
-/* Returns the number of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
- * `position` is outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
+/* Returns the index of the particle nearest to the reference position `position`, dim components [m]. Returns -1 if
+ * `position` is outside the bodies, i.e. if no particle is within 3/4 of the diagonal of a lattice cell. */
 int32_t probe_find_nearest_particle(const struct observed_run *o, const real *position);
 
 /* Computes the reference position of station number `station` of a LINE probe, position[dim] [m]. Stations 0 ..
@@ -155,8 +157,9 @@ real probe_kinetic_energy(const struct probe *q, const struct particles *p);
  * probe_particle_velocity_component. */
 void probe_compute_momentum_of_particles(const struct probe *q, const struct particles *p, real *momentum);
 
-/* Amplitudes of a PULSE probe over the incident amplitude: reflected, as the difference from the baseline, and
- * transmitted; and the energy change beyond that of the baseline [1]. */
+/* Results of a PULSE probe [1]: amplitudes of the reflected packet (difference from the baseline, a run on material
+ * points alone) and of the transmitted packet, both divided by the incident amplitude; relative energy change in excess
+ * of that of the baseline. */
 struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
@@ -169,8 +172,8 @@ status pulse_probe_store_incident_amplitude(struct probe *q, const struct observ
  * energy change of the present state relative to that of the run on material points alone. */
 struct pulse_shares pulse_compute_amplitudes(const struct probe *q, const struct observed_run *o);
 
-/* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
- * separation and the time in q->memory; else changes nothing. */
+/* Tests whether broken bonds separate the bar of a SPALL probe into two parts along x. If so, stores the position of
+ * the plane of separation and the time in q->memory; else changes nothing. */
 void spall_probe_detect_separation(struct probe *q, const struct observed_run *o);
 
 /* Computes the mean velocity along x of the lighter part of a separated bar, *lighter_part_speed, and of the remaining
@@ -204,8 +207,8 @@ void sif_probe_free(struct sif_tracked *w);
  * time step. */
 void sif_probe_store_motion_before_step(struct probe *q, const struct observed_run *o);
 
-/* Computes K_I, K_II, J and the spread between contours of a SIF probe at the time of the sample, and stores them in
- * q->memory.factors. velocity_time: time of the present velocities [s]. */
+/* Computes K_I, K_II, J and their spread between the integration contours of a SIF probe at the time of the sample, and
+ * stores them in q->memory.factors. velocity_time: time of the present velocities [s]. */
 void sif_probe_compute_intensity_factors(struct probe *q, const struct observed_run *o, real velocity_time);
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
@@ -216,12 +219,14 @@ extern const struct column rigid_figure[RIGID_FIGURES];
  * if the scene is not plane. */
 status rigid_probe_store_initial_motion(struct probe *q, const struct observed_run *o);
 
-/* Computes the angle of rotation and the largest stresses of a RIGID probe at the present positions, stores them in
- * value[], and updates q->memory.rigid. */
+/* Computes the rotation angle value[0] of the body of a RIGID probe [rad], its largest absolute principal stress
+ * value[1] and its largest in-plane shear stress value[2] [Pa] at the present positions, and updates q->memory.rigid.
+ */
 void rigid_probe_compute_angle_and_stresses(struct probe *q, const struct observed_run *o, real *value);
 
-/* Computes the errors of angular momentum and kinetic energy of a RIGID probe and stores them in value[]. Call this
- * function when the velocities at the time of the sample are known. */
+/* Computes the change of the angular momentum, value[3], and of the kinetic energy, value[4], of the body of a RIGID
+ * probe relative to the values at the start [1]; both should be conserved. NAN if the value at the start is 0. Call
+ * this function when the velocities at the time of the sample are known. */
 void rigid_probe_compute_conservation_errors(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */

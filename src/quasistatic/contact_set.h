@@ -12,7 +12,7 @@ struct rigid_set;
  * present. */
 bool crack_faces_are_in_contact(const struct contact *c);
 
-/* Returns true if anything was in contact before the present solution or is in contact now. */
+/* Returns true if any particles or rigid bodies were in contact before the present solution or are in contact now. */
 bool statics_is_or_was_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
@@ -36,19 +36,20 @@ bool statics_contact_update_and_is_set_unchanged(void *run);
  * if `set_is_fixed` is true, else all pairs that overlap. run: a struct run. */
 void statics_contact_select_acting_contacts(void *run, bool set_is_fixed);
 
-/* Completes a solution: adds the work done on rigid bodies in this solution to their total work and, if anything is or
- * was in contact, computes the energy that the solution has lost. load_work: work of loads and supports in this
- * solution [J]; solver_loss: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid
- * bodies [J]: the difference between the work with the mean of the initial and final contact force and the work with
- * one of these forces. */
+/* Completes the solution for an equilibrium: adds the work done on rigid bodies in this solution to their total work
+ * and, if anything is or was in contact, computes the energy that the solution has lost. load_work: work of loads and
+ * supports in this solution [J]; solver_loss: energy lost in earlier solutions [J]. Returns the uncertainty of the work
+ * of the rigid bodies [J]: the difference between the work with the mean of the initial and final contact force and the
+ * work with one of these forces. */
 real statics_contact_end_and_estimate_work_error(struct run *e, real load_work, real solver_loss);
 
 /* Updates the largest contact force so far of each of the `rigid_body_count` rigid bodies by that of the present
  * equilibrium. */
 void rigid_forces_update_largest(struct rigid_set *rigid, int rigid_body_count);
 
-/* Warns of those of the `rigid_body_count` rigid bodies that are driven and whose largest contact force is at most
- * `least_force` [N]: they miss the body, or push a body that nothing constrains. */
+/* Adds a warning to *warnings for each of the `rigid_body_count` rigid bodies that is driven (has a prescribed motion)
+ * and whose largest contact force was at most `least_force` [N]: it misses the body, or pushes a body that nothing
+ * constrains. */
 void rigid_bodies_warn_of_no_contact(struct warnings *warnings, const struct rigid_set *rigid, int rigid_body_count,
                                      real least_force);
 

@@ -5,9 +5,9 @@
 #include "fracture/tips.h"
 #include "run/run.h"
 
-/* Returns the share of a crack area whose energy belongs to the body [1]: 1/2 if all cracks lie on planes of symmetry,
- * else 1. tips: tips of the cracks; bond_source: planes of symmetry; plane_axis: only planes perpendicular to axis d
- * are considered, -1 for all planes. */
+/* Returns the fraction of a crack area whose energy belongs to the modelled body: 1/2 if all cracks lie on planes of
+ * symmetry, so that the mirror image has the other half, else 1. tips: tips of the cracks; bond_source: planes of
+ * symmetry; plane_axis: only planes of symmetry perpendicular to this axis are considered, -1 for all planes. */
 real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
                                     int plane_axis);
 

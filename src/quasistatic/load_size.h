@@ -12,25 +12,26 @@
  * pseudo-time. */
 real statics_time_of_load_size(const struct run *e, real load_size);
 
-/* Returns the load size at which the crack increments `increment` and `other_increment` together release as much energy
- * as they cost [m or N]: the square root of the ratio of the sum of their costs to the sum of their releases. The
- * release of an increment is the energy over the square of the load size. Returns INFINITY if `increment` has no cost
- * or the two release no energy. */
+/* Returns the load size (a measure proportional to the loads) at which the crack increments `increment` and
+ * `other_increment` together release as much energy as they cost [m or N]: the square root of the sum of both costs
+ * divided by the sum of both releases. The release of an increment is its released energy divided by the square of the
+ * load size. Returns INFINITY if `increment` has no cost or the two release no energy. */
 real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
                                                const struct crack_increment *other_increment);
 
-/* Returns the load size at which the crack increment `increment` releases as much energy as it costs [m or N]; INFINITY
- * if it has no cost or releases no energy. */
+/* Returns the load size (a measure proportional to the loads) at which the crack increment `increment` releases as much
+ * energy as it costs [m or N]; INFINITY if it has no cost or releases no energy. */
 real increment_energy_balance_load_size(const struct crack_increment *increment);
 
-/* Returns a fictitious crack increment before the first one, as if the pre-crack had grown to its length by increments.
- * Its cost equals that of *first. Its release is extrapolated linearly from the first two increments, *first and
- * *second, and is at least 0. */
+/* Returns a fictitious crack increment before the first one, as if the pre-crack had reached its length by increments.
+ * The cost is that of *first; the release is extrapolated linearly from the first two increments, *first and *second,
+ * and is at least 0. */
 struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
                                                           const struct crack_increment *second);
 
-/* Returns the energy released since the start [J]: the fracture energy of broken bonds plus s->balance.lost, the energy
- * lost in solutions. */
+/* Returns the energy that the body has released since the start [J]: the fracture energy of broken bonds plus
+ * s->balance.lost, the energy that the jumps between equilibria would have turned into motion and that is lost, since
+ * load steps have no inertia. */
 real statics_energy_released(const struct statics *s, const struct bonds *b);
 
 #endif

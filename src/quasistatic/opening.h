@@ -13,12 +13,12 @@ status gauge_check_positions(const struct scene *scene, const struct particles *
 /* Returns the opening: the increase of the distance between the two gauge particles since the start [m]. */
 real gauge_opening(const struct particles *part, const struct statics *statics);
 
-/* Returns true if points or bonds may yield. */
+/* Returns true if material points or bonds of the body may yield (have plastic strain). */
 bool body_may_yield(const struct particles *part, const struct bonds *bonds);
 
-/* Finds the equilibrium at which the opening between the gauge particles equals `wanted` [m]. t: first pseudo-time
- * tried [s]. Returns FAILED, with a message, if an equilibrium is not found, or if its opening differs from the wanted
- * one by more than a hundredth. */
+/* Finds the equilibrium at which the opening between the two gauge particles equals `wanted` [m], by varying the
+ * pseudo-time. t: first pseudo-time tried [s]. Returns FAILED, with a message, if an equilibrium is not found, or if
+ * the opening that is reached differs from `wanted` by more than a hundredth. */
 status opening_go_to(struct run *e, real wanted, real t);
 
 #endif

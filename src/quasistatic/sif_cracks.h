@@ -22,8 +22,8 @@ const char *sif_plane_find_or_return_reason(struct sif_plane *plane, const struc
  * the plane in projection[2] [m]. */
 void sif_plane_project(const struct sif_plane *plane, const real *point, real projection[2]);
 
-/* Projects the reference position of `particle` onto the plane and stores its two coordinates in the plane in
- * projection[] [m]. */
+/* Projects the reference position of the particle with the index `particle` onto the plane and stores the two
+ * coordinates of the projection in the plane in projection[2] [m]. */
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t particle,
                                 real projection[2]);
 
@@ -61,10 +61,9 @@ static inline real sif_plane_point_distance(const real *point, const real *other
     return hypot(point[0] - other_point[0], point[1] - other_point[1]);
 }
 
-/* ---- tips (sif_cracks.c)
- * ------------------------------------------------------------------------------------------------ */
+/* ---- tips (sif_cracks.c) ----------------------------------------------------------------------------------------- */
 
-/* Returns true if the crack segment that ends at the tip lies on a plane of symmetry. */
+/* Returns true if the straight crack segment that ends at the tip `tip` lies on a plane of symmetry of the body. */
 bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
@@ -74,9 +73,9 @@ bool sif_tip_segment_is_on_mirror(const struct sif_plane *plane, const struct si
 bool sif_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                        const struct sif_crack_tip *tip, bool faces_in_contact, real K[2]);
 
-/* Computes the position at which the next increment of a tip ends, two coordinates in the plane [m]. The increment is
- * 2 particle spacings long or, if the key steps.energy is set, as long as that energy suffices for; it ends at the
- * first other crack that it meets. */
+/* Computes the end of the next increment of a tip and stores its two coordinates in the plane of the tips in
+ * position[2] [m]. The increment has the direction tip->heading. It is 2 particle spacings long or, if the key
+ * steps.energy is set, as long as that energy suffices for; it ends at the first other crack that it meets. */
 void sif_tip_compute_end_of_next_increment(const struct sif_cracks *l, const struct particles *p,
                                            const struct sif_crack_tip *tip, real position[2]);
 
@@ -99,8 +98,8 @@ void sif_tip_move_to_end_of_increment(struct sif_cracks *cracks, const struct pa
 void sif_leading_tip_compute_intensity_factors(const struct sif_cracks *cracks, const struct particles *p,
                                                bool faces_in_contact, real K[2]);
 
-/* Stores the reference position of the tip that has grown most in position[] [m]; in three dimensions that of the
- * middle of its front. Stores NAN if there is no tip. */
+/* Stores the reference position of the tip that has grown most in position[], dim components [m]; in three dimensions
+ * that of the middle of the crack front. Stores NAN if there is no tip. */
 void sif_leading_tip_compute_position(const struct sif_cracks *cracks, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,

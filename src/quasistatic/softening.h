@@ -21,8 +21,9 @@ struct softening_list {
     const struct softening_curve *curve;
 };
 
-/* Lists in l the intact bonds that soften, in the order of rows, with their stretches at the present displacements
- * divided by `stretch_divisor` [1]. Replaces the former contents of *l; free l->bond with memory_free. */
+/* Lists in *l the intact bonds that soften or may begin to, in the order of rows, with their stretches at the present
+ * displacements divided by `stretch_divisor` [1]: the load factor of these displacements, so that stretches at another
+ * factor follow by multiplication. Replaces the former contents of *l; free l->bond with memory_free. */
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
                          real stretch_divisor);
 
@@ -40,18 +41,19 @@ real softening_list_factor_for_energy(const struct softening_list *l, real energ
 void softening_list_store_largest_stretches(const struct softening_list *l, struct bonds *b, real stretch_factor);
 
 /* Stores the present largest stretches of bonds as those of the last equilibrium, from which later solutions start.
- * Bonds that have not exceeded their onset of softening are marked as not begun again, so that the stress across them
- * is examined again. limit: critical stretches and softening of bonds. The first call allocates storage in b->soft;
- * from then on forces are computed from the stored largest stretches. */
+ * Bonds whose stretch has not exceeded their onset of softening are marked as not yet softening, so that the stress
+ * across them is examined again. limit: critical stretches and softening of bonds. The first call allocates storage in
+ * b->soft; from then on forces are computed from the stored largest stretches. */
 void softening_store_equilibrium_stretches(struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Adds to the fracture energy of each row what its family has lost since the last equilibrium as its bonds softened, in
- * state-based models. p: particles midway between the positions of both equilibria; the balance of energy over the step
- * then closes to the second order of its size, with the work of the mean forces of both. */
+/* For state-based models, computes the energy that the family of each particle (all its neighbours) has lost since the
+ * last equilibrium because bonds softened, and adds it to the fracture energy of the row of the particle (its bonds).
+ * p: particles midway between the positions of both equilibria, so that the error of the energy balance over the load
+ * step is of second order in the size of the step. */
 void softening_add_family_losses(struct bonds *b, const struct particles *p);
 
-/* Resets the largest stretches of all softening bonds to those of the last equilibrium
- * (softening_store_equilibrium_stretches). */
+/* Resets the largest stretches of all softening bonds to those of the last equilibrium, which
+ * softening_store_equilibrium_stretches has stored, so that another solution can start from there. */
 void softening_restore_equilibrium_stretches(struct bonds *b);
 
 #endif

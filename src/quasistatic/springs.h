@@ -5,18 +5,19 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
- * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. run: a struct
- * run; residual: residual forces [N]; result: result. */
+/* Computes result = M^-1 residual with the preconditioner M (callback `precondition` of solver/equilibrium.h), and
+ * removes from the result the free rigid motions of unconstrained fragments (parts of the body that nothing holds).
+ * Makes the preconditioner if there is none. run: a struct run; residual: residual forces [N]; result: displacements
+ * [m]. */
 void statics_preconditioner_apply(void *run, const struct field *residual, struct field *result);
 
 /* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
  * e->statics. */
 void statics_preconditioner_make(struct run *e);
 
-/* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. search_directions:
- * number of search directions of the last solution. The limit is 1.5 times that of the first solution with the
- * preconditioner, plus 8 (empirical). */
+/* Frees the preconditioner, so that the next use makes a new one, if bonds that have broken since it was made have made
+ * it inefficient. search_directions: number of search directions of the last solution; the limit is 1.5 times the
+ * number in the first solution with the preconditioner, plus 8 (empirical). */
 void statics_preconditioner_free_if_costly(struct statics *s, int64_t search_directions);
 
 /* Frees the preconditioner. Does nothing if there is none. */

@@ -13,8 +13,8 @@ void statics_unknowns_make(struct run *e);
 /* Frees the system of equations. Its counters, energy losses and largest force norm stay in *s. */
 void statics_unknowns_free(struct statics *s);
 
-/* Moves particles and nodes to the displacements of the last solution. If the body can yield, also computes the forces
- * there, which updates the plastic state of bonds and points. */
+/* Moves particles and mesh nodes of run e to the displacements of the last solution. If the body can yield, also
+ * computes the forces at these positions, which updates the plastic state of bonds and material points. */
 void plastic_state_update_at_last_solution(struct run *e);
 
 /* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.

@@ -27,8 +27,8 @@ void unknown_compute_reference_position(const struct statics *s, const struct pa
 void unknowns_apply_displacements(const struct statics *s, struct particles *p, struct mesh *mesh,
                                   const struct field *displacement);
 
-/* Stores in sign[] the factors +1 or -1 by which displacement components of the mirror image `image` equal those of the
- * particle that it mirrors. All factors are +1 if `image` is a particle of the body. */
+/* Stores in sign[d] the factor, +1 or -1, between component d of the displacement of the mirror image with the index
+ * `image` and that of the particle that it mirrors. All factors are +1 if `image` is a particle of the body. */
 void image_compute_displacement_signs(const struct particles *p, const struct loads *loads, int64_t image,
                                       real sign[DIM_MAX]);
 

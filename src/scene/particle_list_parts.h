@@ -47,8 +47,8 @@ const char *particle_list_reason_value_is_invalid(int column, real value);
  * writes the fault to message[capacity] as the rest of a sentence. */
 bool unit_find_factor_to_si(real *factor, const char *unit, enum unit expected_kind, char *message, size_t capacity);
 
-/* Returns the factor to SI units of a number in a column without a unit. For coordinates and volumes it follows from
- * the unit that the scene gives for the list l, else it is 1. */
+/* Returns the factor to SI units of a number in the column `column` (COLUMN_*) if the file gives no unit for it. For
+ * coordinates and volumes the factor follows from the unit that the scene gives for the list l, else it is 1. */
 real particle_list_default_factor_to_si(const struct particle_list *l, int column);
 
 /* Appends the text `addition` to the note in *head, which is printed about the list, preceded by `separator` if the
@@ -63,12 +63,13 @@ void particle_list_note_missing_columns(struct particle_list_head *head, const b
  * memory than the machine has. */
 status particle_list_check_memory(const char *path, int64_t particle_count);
 
-/* Reads a particle list from the Exodus II file `path` into *l. Returns REFUSED, with a message, if the file cannot be
- * read or is invalid. */
+/* Reads a particle list from the Exodus II file `path` into *l. l->dim and l->form must be set before. Returns REFUSED,
+ * with a message, if the file cannot be read or is invalid. The caller releases l with particle_list_free. */
 status particle_list_read_exodus(struct particle_list *l, const char *path);
 
-/* Reads a particle list from the CSV file `path` into *l. only_header: true to read only the column names. Returns
- * REFUSED, with a message, if the file cannot be read or is invalid. */
+/* Reads a particle list from the CSV file `path` into *l. l->dim and l->form must be set before. only_header: true to
+ * read only the column names. Returns REFUSED, with a message, if the file cannot be read or is invalid. The caller
+ * releases l with particle_list_free. */
 status particle_list_read_csv(struct particle_list *l, const char *path, bool only_header);
 
 #endif

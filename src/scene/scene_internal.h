@@ -88,8 +88,8 @@ struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 /* Removes the node `child` from the entries of the list or mapping `parent`. */
 void yaml_node_remove(struct yaml_node *parent, struct yaml_node *child);
 
-/* Reads the scene files that the tree `root` includes, and merges the tree over theirs. Returns REFUSED, with a
- * message, for an invalid list of files or an invalid file. */
+/* Reads the scene files that the tree `root` includes and adds their keys to the tree; keys that the tree has itself
+ * keep their values. Returns REFUSED, with a message, for an invalid list of files or an invalid file. */
 status tree_merge_included_files(struct reader *r, struct yaml_node *root);
 
 /* Returns true if the value of the key at `path` ("" for the whole scene) is a mapping that is merged key by key with
@@ -104,8 +104,8 @@ status tree_apply_all_overrides(struct reader *r, struct yaml_node *root);
  * warning. Returns REFUSED if both names of a key are given, and for keys that no longer exist. */
 status tree_rename_old_keys(struct reader *r, struct yaml_node *root);
 
-/* Returns the present name of the key at `path`, which an override gives: `path` itself if it is current. If the name
- * is of an earlier version of Cleave, notes this in the scene for a warning. */
+/* Returns the present name of the key `path` of an override. If `path` is a name of an earlier version of Cleave, notes
+ * this in the scene for a warning; otherwise returns `path` itself. */
 const char *key_path_current_name_of_override(struct reader *r, const char *path);
 
 /* Returns the present name of a key that had the name `former_path` in an earlier version of Cleave; NULL if there was
@@ -128,7 +128,8 @@ status file_read_bytes(const char *path, char **bytes, size_t *length);
  * the key. Returns REFUSED, with a message, for a malformed key, and if a key to be removed is absent. */
 status tree_apply_override(struct reader *r, struct yaml_node *root, const char *key, const char *value);
 
-/* Returns the node at `path`, keys joined by dots that lead through no list; NULL if the scene does not give it. */
+/* Returns the node at `path` (names of keys from the root on, joined by dots, without indices of lists); NULL if the
+ * tree has no such node. */
 const struct yaml_node *tree_find(const struct yaml_node *root, const char *path);
 
 /* Parses the scene text[length], merges the files that it includes, applies overrides, and stores the tree in *root.
@@ -309,8 +310,8 @@ bool key_is_directly_below(const struct key *k, const char *group_path);
 const char *key_group_of_items(const struct key *k);
 
 /* Writes an example of a value of key k for messages to text[capacity], such as [{from: [0.5 mm, 0]}]. dim: number of
- * components of points. wanted: name of the key that the example of a mapping, or of a list of mappings, shows; NULL,
- * or a name that is no such key: a required one. */
+ * components of points. wanted: if k is a mapping or a list of mappings, name of the key below k that the example
+ * shows; if `wanted` is NULL or no key below k, the example shows a required key. */
 void key_write_example(const struct key *k, int dim, const char *wanted, char *text, size_t capacity);
 
 /* Returns the key whose last part is `last_part` directly below the key `group_path` ("" for the top of a scene), or
@@ -367,8 +368,8 @@ void fault_write_location_of_node(const struct reader *r, const struct yaml_node
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
 status fault_report_missing_key(struct reader *r, const struct yaml_node *map, const struct key *k);
 
-/* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
- * that was set last: by an override, else in the scene file. */
+/* Returns REFUSED with the message that the keys of the nodes `one` and `other` exclude each other. The message gives
+ * the location of the key that was set last: by an override, else in the scene file. */
 status fault_report_exclusive_keys(const struct reader *r, const struct yaml_node *one, const struct yaml_node *other);
 
 /* Returns the value of node n as one short, printable line for messages. The text is static or in memory of the reader,

@@ -1,4 +1,5 @@
-/* Rows of the table in scene_keys.c: bodies. */
+/* Rows of the table of keys (scene_keys.c): keys of bodies. KEY(path, type, unit, member that stores the value, range,
+ * default, meaning, ..). */
 KEY("bodies", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or body)",
     "several bodies; each has the keys below"),
     KEY("bodies.name", KEY_NAME, UNIT_NONE, AT(scene_body, name), ANY, "(body0, body1, ..)",

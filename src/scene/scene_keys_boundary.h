@@ -1,4 +1,5 @@
-/* Keys of boundary conditions: rows of the table in scene_keys.c. */
+/* Rows of the table of keys (scene_keys.c): keys of boundary conditions. KEY(path, type, unit, member that stores the
+ * value, range, default, meaning, ..). */
 KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
     "boundary conditions; each has one kind: fixed, velocity, displacement, rotation, traction, pressure, "
     "body_force, mirror or absorbing"),

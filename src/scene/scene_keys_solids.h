@@ -1,4 +1,5 @@
-/* Rows of the table of keys (scene_keys.c): solids, and their motions and patterns. */
+/* Rows of the table of keys (scene_keys.c): keys of solids, their motions and patterns. KEY(path, type, unit, member
+ * that stores the value, range, default, meaning, ..). */
 KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
     "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),

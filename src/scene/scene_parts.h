@@ -35,13 +35,18 @@ bool node_is_motion_key_of_solid(const struct yaml_node *n);
  * Returns REFUSED, with a message, for invalid keys. */
 status read_motions(struct reader *r, const struct yaml_node *solid_node, struct solid *solid);
 
+/* Reads the materials of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
+ * invalid. */
 status read_materials(struct reader *r, const struct yaml_node *root);
 
-/* Reads the flow law, kinematic hardening and heating of `material`. material_node: node of the material. The keys of
- * linear hardening must have been read before. Returns REFUSED, with a message, for invalid constants, contradictions,
- * and if the method or solver does not support flow laws. */
+/* Reads the flow law (yield stress as a function of plastic strain, rate and temperature), kinematic hardening and
+ * heating of `material`. material_node: node of the material. The keys of linear hardening must have been read before.
+ * Returns REFUSED, with a message, for invalid constants, contradictions, and if the method or solver does not support
+ * flow laws. */
 status read_flow_law(struct reader *r, const struct yaml_node *material_node, struct material *material);
 
+/* Reads the bodies of the scene with the tree `root`, deformable and rigid ones, into r->scene. Returns REFUSED, with a
+ * message, if one is invalid. */
 status read_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Moves the materials of which no body consists behind the others and counts them in s->unused_materials, no longer in
@@ -53,8 +58,16 @@ void scene_set_unused_materials_aside(struct scene *s);
 status read_body_parts(struct reader *r, const struct yaml_node *parts_node, const struct key *k,
                        struct scene_body *body);
 
+/* Reads the pre-cracks of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
+ * invalid. */
 status read_cracks(struct reader *r, const struct yaml_node *root);
+
+/* Reads the settings of cracks with prescribed or controlled growth from the tree `root` into r->scene. Returns
+ * REFUSED, with a message, if one is invalid. */
 status read_crack_growths(struct reader *r, const struct yaml_node *root);
+
+/* Reads the initial states (velocities, strains, wave pulses) from the tree `root` into r->scene. Returns REFUSED, with
+ * a message, if one is invalid. */
 status read_initial_states(struct reader *r, const struct yaml_node *root);
 
 /* Reads the function of time of the boundary `boundary` from the node `function_node`. If the node is NULL or
@@ -73,9 +86,18 @@ status read_rotation_axis(struct reader *r, const struct yaml_node *rotation_nod
 status read_vector_of_formulas(struct reader *r, const struct key *k, const struct yaml_node *vector_node,
                                unsigned further_variables, real *value, struct expression *formula);
 
+/* Reads the boundary conditions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if
+ * one is invalid. */
 status read_boundaries(struct reader *r, const struct yaml_node *root);
+
+/* Reads the requests for probes from the tree `root` into r->scene. Returns REFUSED, with a message, if one is invalid.
+ */
 status read_probes(struct reader *r, const struct yaml_node *root);
+
+/* Reads the regions for which the scene requests frames of their own from the tree `root` into r->scene. Returns
+ * REFUSED, with a message, if one is invalid. */
 status read_regions_of_output_frames(struct reader *r, const struct yaml_node *root);
+
 /* Sets defaults of keys that depend on several other keys, and checks conditions between keys outside of lists. root:
  * tree of the scene. Returns REFUSED, with a message, for keys that contradict each other. */
 status check_scene_keys_and_set_defaults(struct reader *r, const struct yaml_node *root);
@@ -104,9 +126,10 @@ status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_nod
  * horizon and space of the scene s. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
 
-/* Reports the largest spacing with which a material can have its strength [m] to a search for the spacing: reduces
- * *r->spacing_most to `largest_spacing` if it is larger. Returns false, and does nothing, if r->spacing_most is NULL,
- * that is, if there is no such search. Only in the latter case is a strength refused because of the present spacing. */
+/* Limits the spacing that `method: auto` searches for: reduces its upper bound *r->spacing_most to `largest_spacing`,
+ * the largest spacing with which a material can have its tensile strength [m]. Returns true then. Returns false, and
+ * does nothing, if the spacing is not searched for (r->spacing_most is NULL); the caller then refuses a strength that
+ * does not suit the present spacing. */
 static inline bool limit_spacing_of_spacing_search(struct reader *r, real largest_spacing)
 {
     if (r->spacing_most) *r->spacing_most = real_min(*r->spacing_most, largest_spacing);
@@ -134,7 +157,7 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
  * have one curve. */
 status check_single_softening_law(struct reader *r, const struct yaml_node *material_node, int material_index);
 
-/* Returns the first material of which has() returns true; NULL if there is none. */
+/* Returns the first material of the scene for which has(material) returns true; NULL if there is none. */
 const struct material *scene_first_material(const struct scene *s, bool (*has)(const struct material *));
 
 /* Returns REFUSED if bonds of one material soften while another material yields, and for keys that state-based models
@@ -158,8 +181,9 @@ status check_loads_are_supported(struct reader *r, const struct yaml_node *root)
  * it remains `auto`, and the choice is made when the particles exist. Bodies must have been read before. */
 void resolve_automatic_frames_of_bodies(struct scene *s);
 
-/* Finds out which particle lists form a lattice, and sets the default correction of bonds near faces again, which
- * depends on it. Bodies must have been read before. root: tree of the scene, to see which keys are given. */
+/* Finds out which particle lists form a lattice, and then sets the default of the correction of bonds near faces (key
+ * pd.surface), which depends on it. Bodies must have been read before. root: tree of the scene, to see which keys are
+ * given. */
 void resolve_lattices_of_particle_lists(struct reader *r, const struct yaml_node *root);
 
 /* Returns REFUSED, with a message, for keys that static solvers do not support. Materials and probes must have been

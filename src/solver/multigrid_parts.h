@@ -101,9 +101,10 @@ enum { ROWS_MANY = 200 };
             ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
     } while (0)
 
-/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node `node` counts as a
- * motion without stiffness [1]. It is larger for the finest level, whose stiffnesses are rounded to floats, and for
- * unconstrained fragments: such stiffnesses resist rotations by 6e-8 of their value. */
+/* Returns the fraction of the mean stiffness l->scale below which a pivot of the diagonal block of node `node` counts
+ * as zero, i.e. as a motion without stiffness. The fraction is larger on the finest level, whose stiffnesses are
+ * rounded to floats, and in unconstrained fragments (parts of the body that no support holds): rounding to floats gives
+ * their rotations a spurious stiffness of 6e-8 of the entries. */
 static inline real multigrid_smallest_pivot_ratio(const struct multigrid_level *l, int64_t node)
 {
     return l->unconstrained[node] || l->single ? 1e-6 : 1e-13;
@@ -138,23 +139,24 @@ void multigrid_make_prolongation_and_restriction(struct multigrid_level *l);
  * level l times l->down. */
 void multigrid_make_coarse_matrix(const struct multigrid_level *l, struct multigrid_level *coarser_level);
 
-/* Factorises the matrix K of level l as K = U^T D U, with the upper triangular matrix U and the diagonal matrix D, into
- * *d. Pivots without stiffness are replaced by the mean stiffness l->scale. Release with dense_free. */
+/* Factorises the matrix K of level l, the coarsest one, as K = U^T D U, with the upper triangular matrix U and the
+ * diagonal matrix D, and stores U and D^-1 in *d. Pivots without stiffness are replaced by the mean stiffness l->scale.
+ * Release with dense_free. */
 void dense_factorise(struct dense *d, const struct multigrid_level *l);
 
 /* Solves K x = b with the factorisation `d` of the matrix K by dense_factorise. load: b, d->n values; solution:
  * receives x, d->n values. */
 void dense_solve(const struct dense *d, const real *load, real *solution);
 
-/* Frees the arrays of a factorisation. */
+/* Frees the arrays of the factorisation *d. */
 void dense_free(struct dense *d);
 
 /* Computes the residual l->t = l->b - K l->x of level l with its matrix K. */
 void multigrid_compute_residual(struct multigrid_level *l);
 
-/* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
- * of the level and its diagonal blocks D. keep, residual_factor: coefficients of the step [1]; start_from_zero: true if
- * x and d are 0 on entry, which saves the product. */
+/* Does one step of a polynomial smoother on level l: d = previous_correction_factor d + residual_factor D^-1 (b - K x)
+ * and x = x + d, with the load b = l->b, the solution x = l->x, the correction d = l->d, the matrix K of the level and
+ * its diagonal blocks D. start_from_zero: true if x and d are 0 on entry, which saves the product K x. */
 void multigrid_smooth(struct multigrid_level *l, real previous_correction_factor, real residual_factor,
                       bool start_from_zero);
 

@@ -8,10 +8,10 @@
  * mirror images. No bond breaks. */
 void static_body_compute_bond_forces(const struct static_body *body);
 
-/* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with the
- * displacements `displacement` [N]. It is the decrease of the bond forces along `displacement`, by central differences.
- * displacement: a vector for each particle [m]; strain_ratio: largest strain that `displacement` causes over its
- * largest component [1/m]. Overwrites positions and forces of the particles. */
+/* Computes the product K u of the tangent stiffness K of the bonds at the reference positions with the displacements u,
+ * as the decrease of the bond forces along u by central differences. displacement: u, a vector for each particle [m];
+ * force: receives K u, a vector for each particle [N]; strain_ratio: largest strain that u causes, divided by the
+ * largest component of u [1/m]. Overwrites positions and forces of the particles. */
 void static_body_compute_tangent_product(const struct static_body *body, const struct field *displacement,
                                          struct field *force, real strain_ratio);
 
@@ -19,9 +19,9 @@ void static_body_compute_tangent_product(const struct static_body *body, const s
  * components, those with prescribed displacement. */
 void static_solver_compute_force_norms(const struct static_solver *s, const struct particles *p, real *norm);
 
-/* Computes the residual of a static solution and the force scale to which it refers, from the forces p->f
- * (static_solver_set_residual). The norm over free components is the residual force, that over constrained components
- * the reaction. */
+/* Computes the residual s->residual of a static solution and the force s->scale to which it refers, from the forces
+ * p->f, by static_solver_set_residual: the norm of the forces over free components is the unbalanced force, the norm
+ * over constrained components (with prescribed displacement) the reaction. */
 void static_solver_compute_residual(struct static_solver *s, const struct particles *p);
 
 #endif
