@@ -134,7 +134,8 @@ bool accuracy_method_has_coarse_cells(const struct accuracy_method *method);
  * peridynamics, "explicit" in the reference frame, where the load grows slowly, else "relaxation". */
 const char *accuracy_solver_of_point(const struct accuracy_point *point);
 
-/* Returns a quantity of a probe of the finished run e; NAN if there is none. probe, quantity: their names. */
+/* Returns the result called `quantity` of the probe called `probe` of the finished run e, in SI units; NAN if there is
+ * no such result. */
 double accuracy_probe_value_of_run(const struct run *e, const char *probe, const char *quantity);
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
@@ -163,15 +164,15 @@ struct accuracy_plan {
     struct machine machine;
 };
 
-/* Creates the list of all points of the table (runs), and computes the hash of each scene (accuracy_plan.c). Returns
- * REFUSED or FAILED if a scene cannot be read. Release with accuracy_plan_free. */
+/* Creates the list of all points of the table (a point is one run) in *plan, and computes the hash of the scene of each
+ * point (accuracy_plan.c). Returns REFUSED or FAILED if a scene cannot be read. Release with accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan);
 
 /* Releases the memory of the plan. */
 void accuracy_plan_free(struct accuracy_plan *plan);
 
-/* Composes *scene, the scene of point point: the scene of its problem, with the keys of its method, its horizon and its
- * time step. */
+/* Composes the scene of the run `point` in *scene: the scene of its problem, with the keys of its method, its horizon
+ * and its time step. */
 void accuracy_compose_scene_of_point(const struct accuracy_point *point, struct accuracy_scene *scene);
 
 /* Reads earlier results from results/bench/accuracy.csv into the points of the plan, as far as the settings (scene and
@@ -187,8 +188,8 @@ bool accuracy_results_file_exists(void);
  * be read. */
 status accuracy_read_recorded_results(struct accuracy_plan *plan);
 
-/* Appends the result of a point to results/bench/accuracy.csv and closes the file, so that an interrupted bench keeps
- * its results. Returns REFUSED or FAILED if the file cannot be written. */
+/* Appends the result of a point (one run) to results/bench/accuracy.csv and closes the file, so that the results of an
+ * interrupted bench are kept. Returns REFUSED or FAILED if the file cannot be written. */
 status accuracy_append_result_to_file(const struct accuracy_entry *entry);
 
 /* Writes all known results to results/bench/accuracy.csv and accuracy.json, and the problems with their errors to
@@ -198,10 +199,11 @@ status accuracy_write_all_results(const struct accuracy_plan *plan);
 /* Header of cost_accuracy.csv. keys: scene keys of the method besides spacing, horizon and step, as
  * key=value;key=value. */
 #define ACCURACY_TABLE_HEADER "problem,case,method,resolution,horizon,step,error,seconds,particles,steps,keys"
-/* Writes results/bench/cost_accuracy.csv with known points of the table. A point is written if its line has a point on
- * the Pareto front of its family in some case. A line consists of all points of a method at one horizon and time step,
- * a family of related methods (enum accuracy_family). bench/accuracy/cost_accuracy.csv is a copy of the last complete
- * measurement. Returns FAILED if the file cannot be written. */
+
+/* Writes known points (runs) of the table to results/bench/cost_accuracy.csv. Points of one method at one horizon and
+ * time step form a line, related methods form a family (enum accuracy_family). A line is written if at least one of its
+ * points is on the Pareto front of its family in some case. bench/accuracy/cost_accuracy.csv is a copy of the last
+ * complete measurement. Returns FAILED if the file cannot be written. */
 status accuracy_write_table_of_pareto_lines(const struct accuracy_plan *plan);
 
 /* ---- Pareto front (accuracy_front.c) ----------------------------------------------------------------------------- */
@@ -211,19 +213,20 @@ struct accuracy_dot {
     double time, error;
 };
 
-/* Finds the Pareto front of dot[dot_count]: the points with no other point that is at least as good in both time and
- * error and better in one of them; of equal points the first. Stores their indices in front[], which has space for
- * `dot_count` entries, in the order of ascending time and thus descending error. Returns their number. */
+/* Finds the Pareto front of dot[dot_count]: those entries for which no other entry is at least as good in both time and
+ * error and better in one of them; of equal entries the first. Stores the indices of these entries in front[], which
+ * has space for `dot_count` numbers, in the order of ascending time and thus descending error. Returns how many they
+ * are. */
 int accuracy_find_pareto_front(const struct accuracy_dot *dot, int dot_count, int *front);
 
-/* Returns the index of the point in dot[dot_count] with the least time among those with an error of at most
+/* Returns the index of the entry of dot[dot_count] with the least time among those with an error of at most
  * `largest_error` [1]; -1 if there is none. */
 int accuracy_index_of_fastest_point(const struct accuracy_dot *dot, int dot_count, double largest_error);
 
 /* ---- accuracy_draw.c, accuracy_page.c ---------------------------------------------------------------------------- */
 
-/* Writes the label of `point` into text[capacity]: method and resolution, as in `pd bond 100`, followed by `h` and the
- * horizon, and by `dt` and the fraction of the critical step, unless these are the usual ones. */
+/* Writes the label of the run `point` into text[capacity]: method and resolution, as in `pd bond 100`, followed by `h`
+ * and the horizon, and by `dt` and the fraction of the critical time step, if these are not the usual ones. */
 void accuracy_label(const struct accuracy_point *point, char *text, size_t capacity);
 
 /* Draws results/bench/accuracy_<problem>.png for every problem with known points, and the overview accuracy.png.
@@ -239,10 +242,10 @@ status accuracy_draw_overview_chart(const struct accuracy_plan *plan);
  * page cannot be written. */
 status accuracy_write_overview_page(const struct accuracy_plan *plan);
 
-/* Collects time and error of the known points of a problem in dot[] and their entries in dot_entry[], both with space
- * for plan->n. case_index: index of the case; < 0: one dot for all cases together, with their longest time and largest
- * error. part_index: number of the part of the error whose magnitude is used; < 0: the whole error. Returns the number
- * of dots. */
+/* Collects time and error of all known runs of a problem in dot[], and pointers to the entries of these runs in
+ * dot_entry[]; both arrays have space for plan->n elements. case_index: index of the case; < 0: one dot for all cases
+ * together, with the longest time and the largest error. part_index: number of the part of the error whose magnitude is
+ * used; < 0: the whole error. Returns the number of dots. */
 int accuracy_collect_times_and_errors(const struct accuracy_plan *plan, const struct accuracy_problem *problem,
                                       int case_index, int part_index, struct accuracy_dot *dot,
                                       const struct accuracy_entry **dot_entry);

@@ -10,7 +10,7 @@
 #define CIRCLE_TOUGHNESS 10.0
 #define CIRCLE_STRENGTH 40e6
 
-/* Horizon over the spacing [1], and the default of scenes. */
+/* Horizon [spacings], the default of scenes. */
 #define CIRCLE_HORIZON 3.015
 
 struct circle_run;
@@ -78,21 +78,23 @@ struct circle_run {
     struct bench_table *table;
 };
 
-/* Returns true if a case has runs. */
+/* Returns true if the case c has runs, on lattices along the axes or on rotated ones. */
 static inline bool circle_has_runs(const struct circle_case *c) { return c->spacing[0] > 0 || c->turned[0] > 0; }
 
-/* Returns "holds" or "MISSED" by the tolerance of the case, or "-" where its expected value does not apply. */
+/* Returns "holds" if the value measured in the run is within the tolerance of its case, else "MISSED"; "-" if the
+ * expected value of the case does not apply to the run. */
 const char *circle_verdict(const struct circle_run *run);
 
-/* Particles of a specimen on a turned lattice. section: mean area of its section over the nominal one [1]; layer:
- * volume of its loaded layer over the nominal one [1], or 1 if the specimen has none. */
+/* Sizes of a specimen on a turned lattice, relative to the nominal ones [1]. section: mean area of its cross sections;
+ * layer: volume of its loaded layer, or 1 if the specimen has none. */
 struct circle_list {
     double section, layer;
 };
 
-/* Writes the particles of a body of the specimen to the file `path`, on a lattice that is turned by `lattice_degrees`;
- * columns x, y, volume. x = `middle_x` [m] is half-way between rows of a lattice turned by 45 degrees. spacing [m]; the
- * thickness is 1 mm. Stores the sizes of the body in *body_sizes. FAILED if the file cannot be written. */
+/* Fills the body of the specimen, with a thickness of 1 mm, with a lattice that is turned by `lattice_degrees` and has
+ * the spacing `spacing` [m], and writes the particles as a CSV list with the columns x, y, volume to the file `path`.
+ * middle_x: coordinate [m] that is half-way between rows of a lattice turned by 45 degrees. Stores the sizes of the
+ * body in *body_sizes. Returns FAILED if the file cannot be written. */
 status circle_write_particle_list(const char *path, const struct circle_specimen *specimen, double spacing,
                                   int lattice_degrees, double middle_x, struct circle_list *body_sizes);
 

@@ -80,42 +80,46 @@ struct bench_results {
     int output;
     char head[1024];
 };
+
 /* Begins to collect what the bench `bench_name` prints and the tables that it writes, and makes the folder
- * bench/results. quick: true if the bench runs with --quick, which is stated in the results. Returns REFUSED outside a
- * source tree, FAILED if a file cannot be created. */
+ * bench/results. Stores the state of the collection in *r. quick: true if the bench runs with --quick, which is stated
+ * in the results. Returns REFUSED outside a source tree, FAILED if a file cannot be created. */
 status bench_results_begin(struct bench_results *r, const char *bench_name, bool quick);
-/* Ends the collection and prints what was collected. If the bench succeeded (`bench_status` is OK), also writes it to
- * bench/results/NAME.txt, where NAME is `bench_name`. Returns `bench_status` if it is not OK, FAILED if the file cannot
- * be written. */
+
+/* Ends the collection that bench_results_begin began and prints the collected output. If the bench succeeded
+ * (`bench_status` is OK), also writes the output to bench/results/NAME.txt with NAME = bench_name. Returns
+ * `bench_status` if it is not OK, else FAILED if the file cannot be written, else OK. */
 status bench_results_end(struct bench_results *r, const char *bench_name, status bench_status);
-/* Writes a copy of a table to bench/results/FILE while results are collected; does nothing otherwise, or if the table
- * has more than 250 lines. file_name: FILE; text: the table as CSV. Returns FAILED if the file cannot be written. */
+
+/* Writes the table `text` (CSV) to the file bench/results/FILE with FILE = file_name. Does nothing unless results are
+ * being collected (bench_results_begin), or if the table has more than 250 lines. Returns FAILED if the file cannot be
+ * written. */
 status bench_results_copy_table(const char *file_name, const char *text);
 
 /* ---- bench_scene.c: runs for timing ------------------------------------------------------------------------------ */
 
-/* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with override[override_count], and creates its
- * run e without output. path: with `text`, its name in messages. s: receives the scene and must keep its address until
- * bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the run cannot be created; both are then
- * already released. */
+/* Reads a scene from `text` or, if `text` is NULL, from the file `path`, with the overrides override[override_count],
+ * and creates its run in *e, without output. path: if `text` is given, the name of the scene in messages. s: receives
+ * the scene and must keep its address until bench_engine_free. Returns REFUSED or FAILED if the scene is invalid or the
+ * run cannot be created; *e and *s are then already released. */
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int override_count);
 
 /* Releases the run e and its scene s. */
 void bench_engine_free(struct run *e, struct scene *s);
 
-/* A function that computes a velocity v[dim] [m/s] at the reference position X[dim] [m]. context: argument for the
- * function. */
+/* Type of a function that computes the velocity v[dim] [m/s] at the reference position X[dim] [m]. context: the
+ * argument `context` of bench_engine_set_velocities. */
 typedef void bench_field(const void *context, const real *X, real *v);
 
 /* Sets the velocities of all particles, and of the grid nodes of the reference frame, to the values of `velocity_field`
  * at their reference positions. context: passed to `velocity_field`. */
 void bench_engine_set_velocities(struct run *e, bench_field *velocity_field, const void *context);
 
-/* Runs e to the end of step `last_step` or, with levels of coarse cells, of the next step at which all levels have the
- * same time. In between the energy is not balanced, and a sample of results would disturb the run. The last step is
- * sampled. section_times: the times of the sections of a step are added to it; NULL: not wanted. Returns FAILED if a
- * step fails. */
+/* Runs e to the end of step `last_step` or, if the mesh has coarse cells, which make longer time steps, to the next
+ * step at which all cells have the same time: before, the energy is not balanced, and a sample of results would disturb
+ * the run. The last step is sampled. section_times: receives, by addition, the times of the sections of a step; may be
+ * NULL. Returns FAILED if a step fails. */
 status bench_engine_run(struct run *e, int64_t last_step, struct timers *section_times);
 
 /* Overrides of scene keys whose values are composed one by one. at[n]: keys, and pointers to the values that
@@ -142,8 +146,8 @@ struct bench_figure {
     double value;
 };
 
-/* Stores the current values of those quantities in figure[figure_count] that probes of the run e have; other entries
- * keep their value. */
+/* Stores the current values of probe results of the run e in the entries of figure[figure_count] that name their probe
+ * and quantity; entries for which the run has no such result keep their value. */
 void bench_figures_read_from_probes(const struct run *e, struct bench_figure *figure, int figure_count);
 
 /* Runs a scene to its end and stores quantities of its probes in figure[figure_count]; NAN if no probe has them. If a
@@ -153,7 +157,7 @@ void bench_figures_read_from_probes(const struct run *e, struct bench_figure *fi
 status bench_run_scene_and_read_figures(const char *path, const char *text, struct bench_overrides *overrides,
                                         struct bench_figure *figure, int figure_count);
 
-/* Returns true if the scene file `path` exists; else prints that it is left out. */
+/* Returns true if the scene file `path` exists. Otherwise prints that the scene is left out and returns false. */
 bool bench_scene_exists(const char *path);
 
 /* Checks that all scene files path[path_count] exist. bench_name: name of the bench for the message. Returns REFUSED if
@@ -180,10 +184,12 @@ status bench_child_start(struct bench_child *child, const char *path, const stru
 /* Waits for the end of the process `child` and stores its processor time in child->processor. Returns FAILED unless it
  * exited with status 0. */
 status bench_child_wait(struct bench_child *child);
+
 /* Waits for the process `child` if it has not ended, and removes its output folder. */
 void bench_child_wait_and_remove_output(struct bench_child *child);
-/* Runs the scene file `path` with override[override_count] as a separate process on one thread and reads numbers of its
- * summary.json into value[value_count]. key[value_count]: names of the numbers. The output of the run is removed.
+
+/* Runs the scene file `path` with the overrides override[override_count] as a separate process on one thread, reads the
+ * numbers called key[value_count] of its summary.json into value[value_count], and removes the output of the run.
  * Returns FAILED if the run fails or a number is missing. */
 status bench_child_run_and_read_summary(const char *path, const struct scene_override *override, int override_count,
                                         const char *const *key, double *value, int value_count);
@@ -240,19 +246,19 @@ struct targets {
     struct bench_table timers;
 };
 
-/* Runs scenes as separate processes and adds their peak memory per particle with its target to *targets. Call before
- * this process allocates much memory, since a child process inherits the high-water mark of its parent. Returns FAILED
- * if a run fails. */
+/* Runs scenes as separate processes, measures their peak memory per particle, and adds it with its target to *targets.
+ * Call this function before this process allocates much memory, since a child process inherits the high-water mark of
+ * its parent. Returns FAILED if a run fails. */
 status bench_targets_measure_memory(struct targets *targets);
 
 /* Measures the time per step of whole runs and the memory bandwidth, and adds them with their targets to *targets.
  * quick: few repetitions. Returns FAILED if a run fails. */
 status bench_targets_measure_speed(struct targets *targets, bool quick);
 
-/* Prints the measured quantities in `targets` beside their targets. */
+/* Prints to standard output the measured quantities in `targets` beside their targets. */
 void bench_targets_print(const struct targets *targets);
 
-/* Adds a row per measured quantity in `targets` to `table`. */
+/* Adds a row for each measured quantity in `targets` to `table`. */
 void bench_targets_add_to_table(const struct targets *targets, struct bench_table *table);
 
 /* Measures the effect of an interface between material points and bonds on waves and on uniform strain
@@ -342,11 +348,13 @@ status bench_laws(bool quick);
  * only. */
 status bench_circles(bool quick);
 
-/* Runs and prints only those cases of bench_circles whose circle's name contains `circle_name_part`, as `notch 1.5`.
- * REFUSED if there is none. */
+/* Runs and prints only those cases of bench_circles (bonds that soften, compared with challenge problems) whose name of
+ * the problem contains `circle_name_part`, such as `notch 1.5`. quick: one spacing only. Returns REFUSED if there is no
+ * such case. */
 status bench_circles_of_name(const char *circle_name_part, bool quick);
 
-/* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
+/* Compares slow crack growth in load steps with linear elastic fracture mechanics (bench_slow.c). quick: fewer cases
+ * and coarse spacings. */
 status bench_slow(bool quick);
 
 /* Measures how start time, length, angle and energy of cracks depend on the time step (bench_steps.c). quick: short

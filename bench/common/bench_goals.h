@@ -18,7 +18,8 @@ struct bench_job {
  * FAILED if a run fails, else the first status of a `take` that is not OK. */
 status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs);
 
-/* Returns the number `key` of the file summary.json in `folder`; NAN if it has none. */
+/* Returns the number called `key` (names joined by dots) of the file summary.json in `folder`, the folder of a run; NAN
+ * if there is no such number. */
 double bench_summary_figure(const char *folder, const char *key);
 
 /* A result and its goal. */
@@ -38,7 +39,7 @@ struct bench_goals {
 void bench_add_goal(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* Prints all goals with measured and required values, and marks those that are missed. */
+/* Prints all goals to standard output with measured and required values, and marks the goals that are missed. */
 void bench_goals_print(const struct bench_goals *goals);
 
 /* Writes the goals to results/bench/NAME.csv and .json, where NAME is `bench_name`, and draws a bar for each in

@@ -28,7 +28,7 @@ double specimen_load_at_crack_growth(const struct specimen *s, double crack_leng
 
 /* Returns the angle between the pre-crack and the straight line from its end to the crack tip [degree], for a beam in
  * three-point bending with an eccentric notch: span 160 mm, height 40 mm, notch of 16 mm at 31.75 mm from the middle.
- * chord_length: of that line [m]. Returns NAN for more than 20 mm. */
+ * chord_length: length of that line [m]. Returns NAN if it is more than 20 mm. */
 double bend_crack_chord_angle(double chord_length);
 
 #endif

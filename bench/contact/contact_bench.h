@@ -46,44 +46,48 @@ struct contact_motion {
     double mass, x[DIM_MAX], v[DIM_MAX], spin;
 };
 
-/* Computes the motion of a body from its particles in the run e. body_number: index of the body. */
+/* Returns the motion (velocities and so on) of the body with the index `body_number`, computed from its particles in
+ * the run e. */
 struct contact_motion contact_motion_of_body(const struct run *e, int body_number);
 
-/* Runs the collision of two bars of given[0] and given[1] particles with the velocities given[2] and given[3] [wave
- * speeds] (contact_bars.c). Stores in measured[]: relative velocity after over before; duration of contact over 2 L/c;
- * largest force over rho c v A; energy error [1]. Returns FAILED if a step fails. */
+/* Runs the collision of two bars of c->given[0] and given[1] particles with the velocities given[2] and given[3], in
+ * units of the wave speed (contact_bars.c). Stores in measured[]: relative velocity after the collision divided by that
+ * before; duration of contact divided by 2 L/c (L: length of a bar, c: wave speed); largest force divided by rho c v A;
+ * error of the energy [1]. Returns FAILED if a step fails. */
 status contact_measure_bar_collision(const struct contact_case *c, double *measured);
 
-/* Runs a moving bar of given[0] particles with the speed given[2] [wave speeds] that hits a bar of given[1] particles
- * at rest (contact_bars.c). Stores in measured[]: velocities of the first and the second bar after the collision over
- * the initial velocity; energy error [1]. Returns FAILED if a step fails. */
+/* Runs a moving bar of c->given[0] particles with the speed given[2], in units of the wave speed, that hits a bar of
+ * given[1] particles at rest (contact_bars.c). Stores in measured[]: velocities of the first and of the second bar
+ * after the collision, divided by the initial velocity; error of the energy [1]. Returns FAILED if a step fails. */
 status contact_measure_striker_bar(const struct contact_case *c, double *measured);
 
-/* Runs a bar of given[0] particles in length that bounces given[1] times between rigid walls at the speed given[2]
- * [wave speeds] (contact_bars.c). Stores the errors of energy and momentum [1] in measured[0] and measured[1]. Returns
- * FAILED if a step fails. */
+/* Runs a bar of c->given[0] particles in length that bounces given[1] times between rigid walls at the speed given[2],
+ * in units of the wave speed (contact_bars.c). Stores the relative errors of energy and momentum in measured[0] and
+ * measured[1]. Returns FAILED if a step fails. */
 status contact_measure_bouncing_bar(const struct contact_case *c, double *measured);
 
-/* Runs the collision of two discs of radius given[0] [spacings] with the speed given[1] each [wave speeds], whose paths
- * are given[2] radii apart, on a lattice rotated by given[3] [rad] relative to the line of centres (contact_discs.c).
- * Stores in measured[]: normal and tangential relative velocity after over before; mean angular velocity of the discs
- * times R/v; energy error [1]. Returns FAILED if a step fails. */
+/* Runs the collision of two discs with the radius c->given[0] [spacings] and the speed given[1] each, in units of the
+ * wave speed, whose paths are given[2] radii apart, on a lattice rotated by given[3] [rad] relative to the line of
+ * centres (contact_discs.c). Stores in measured[]: normal and tangential relative velocity after the collision, divided
+ * by those before; mean angular velocity of the discs times R/v (R: radius, v: speed); error of the energy [1]. Returns
+ * FAILED if a step fails. */
 status contact_measure_disc_collision(const struct contact_case *c, double *measured);
 
-/* Compares a block of given[0] x given[0] particles that is cut in two with an intact one (contact_faces.c). Its ends
- * are displaced towards each other by the strain given[1] and along each other by given[2] [spacings]. Stores in
- * measured[]: normal and tangential force on the ends over those of the intact block; overlap of the cut faces
- * [spacings]. Returns FAILED if a run fails. */
+/* Compares a block of c->given[0] x given[0] particles that is cut in two with an intact block (contact_faces.c). The
+ * ends of both blocks are displaced towards each other by the strain given[1], and along each other by given[2]
+ * [spacings]. Stores in measured[]: normal and tangential force on the ends, divided by those of the intact block;
+ * overlap of the cut faces [spacings]. Returns FAILED if a run fails. */
 status contact_measure_cut_block(const struct contact_case *c, double *measured);
 
-/* Runs a block under its weight on a slope with the tangent given[0] and the coefficient of friction given[1], on a
- * rigid floor if given[2] > 0, else on a deformable one (contact_slope.c). Stores in measured[]: acceleration over g
- * sin(slope); distance moved [spacings]; energy error [1]. Returns FAILED if a step fails. */
+/* Runs a block under its weight on a slope with the tangent c->given[0] and the coefficient of friction given[1], on a
+ * rigid floor if given[2] > 0, else on a deformable floor (contact_slope.c). Stores in measured[]: acceleration divided
+ * by g sin(slope); distance moved [spacings]; error of the energy [1]. Returns FAILED if a step fails. */
 status contact_measure_sliding_block(const struct contact_case *c, double *measured);
 
-/* Runs a ball of radius given[0] [spacings] that hits a rigid plane at the speed given[1] [wave speeds]
- * (contact_faces.c). Stores in measured[]: exponent of the force over the approach; duration of contact over that of
- * Hertz; speed after over before; energy error [1]. Returns FAILED if a step fails. */
+/* Runs a ball of radius c->given[0] [spacings] that hits a rigid plane at the speed given[1], in units of the wave
+ * speed (contact_faces.c). Stores in measured[]: exponent of the force as a function of the approach; duration of
+ * contact divided by that of Hertz; speed after the collision divided by that before; error of the energy [1]. Returns
+ * FAILED if a step fails. */
 status contact_measure_ball_on_plane(const struct contact_case *c, double *measured);
 
 #endif

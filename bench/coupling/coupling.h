@@ -7,7 +7,6 @@
 #define COUPLING_BAR "inputs/bar_pulse.yaml"
 #define COUPLING_PLATE "inputs/plate_pulse.yaml"
 
-/* A coupling: its name, and the values of the scene keys that select it. */
 enum {
     VARIANT_DAMPED,
     VARIANT_UNDAMPED,
@@ -18,6 +17,8 @@ enum {
     VARIANT_PGG,
     VARIANTS
 };
+
+/* A coupling of material points and bonds: its name, and the values of the scene keys that select it. */
 struct coupling_variant {
     const char *name, *coupling;
     const char *damping; /* value of interface_damping; NULL: default */
@@ -27,8 +28,8 @@ extern const struct coupling_variant coupling_variant[VARIANTS];
 /* Appends the overrides that select the coupling coupling_variant[variant] to *overrides. */
 void coupling_variant_append_overrides(struct bench_overrides *overrides, int variant);
 
-/* Effect of an interface on a pulse: reflected and transmitted amplitude over the incident one; change of energy over
- * the incident energy [1]. */
+/* Effect of an interface on a pulse [1]: reflected and transmitted amplitude, divided by the incident amplitude; change
+ * of energy, divided by the incident energy. */
 struct pulse_result {
     double reflected, transmitted, energy_change;
 };
@@ -53,9 +54,10 @@ struct bar_table {
 
 /* ---- coupling_patch.c: uniform strain across an interface -------------------------------------------------------- */
 
-/* A result of the patch test: largest nodal force over stress times area of a cell face [1], which should be 0. shape,
- * load: of the interface and of the uniform strain; coupling, weights: values of the scene keys. on_node: with a grid
- * node at the interface (at its corner or centre); largest: over all positions of the grid. */
+/* A result of the patch test: largest nodal force, divided by the stress and the area of a cell face [1], which should
+ * be 0. shape, load: of the interface and of the uniform strain; coupling, weights: values of the scene keys. on_node:
+ * result with a grid node at the interface (at its corner or centre); largest: largest result for all positions of the
+ * grid. */
 struct patch_row {
     const char *shape, *load, *coupling, *weights;
     int cell; /* size of the grid cells [spacings] */
@@ -73,10 +75,11 @@ struct patch_table {
  * run does. */
 status patch_test_measure_nodal_forces(struct patch_table *table, bool quick);
 
-/* Prints the results of the patch test. */
+/* Prints the results of the patch test in `table` to standard output. */
 void patch_print(const struct patch_table *table);
 
-/* Fills `rows`, a table for files, with the results of the patch test. Release with bench_table_free. */
+/* Initialises `rows`, a table for files, with the results of the patch test in `table`. Release it with
+ * bench_table_free. */
 void patch_test_fill_file_table(const struct patch_table *table, struct bench_table *rows);
 
 /* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
@@ -100,10 +103,11 @@ struct plane_table {
  * table. quick: one interface and width only. Returns FAILED or REFUSED if a run does. */
 status plane_wave_measure_reflections(struct plane_table *table, bool quick);
 
-/* Prints the results for plane waves. */
+/* Prints the results for plane waves in `table` to standard output. */
 void plane_print(const struct plane_table *table);
 
-/* Fills `rows`, a table for files, with the results for plane waves. Release with bench_table_free. */
+/* Initialises `rows`, a table for files, with the results for plane waves in `table`. Release it with bench_table_free.
+ */
 void plane_wave_fill_file_table(const struct plane_table *table, struct bench_table *rows);
 
 /* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */

@@ -8,7 +8,7 @@
 /* Share of peridynamic particles that Zeng et al. 2022 state for a time. time [s]; share [1]. */
 struct mark {
     double time, share;
-}; /* [s], [1] */
+};
 
 /* A scene with its model, spacing and goals. t_r = 1 - t_adaptive/t_PD is the computing time that an adaptive run
  * saves, over that of full peridynamics; paper: Zeng et al. 2022. mark[marks]: shares of peridynamic particles in the
@@ -45,9 +45,10 @@ enum {
 };
 extern const struct variant efficiency_variant[VARIANTS];
 
-/* Creates scene *s and run *e of scene c with the settings efficiency_variant[variant]. time_step: time step [s]; 0:
- * that of the scene. Surface correction is used for bond-based models only, since state-based ones normalise with the
- * existing family. Returns REFUSED or FAILED if the scene is invalid. Release with bench_engine_free. */
+/* Reads the scene of the case c with the settings efficiency_variant[variant] into *s and creates its run in *e.
+ * time_step: time step [s]; 0: that of the scene. The correction of bonds near faces is used for bond-based models
+ * only, since state-based models normalise with the existing neighbours. Returns REFUSED or FAILED if the scene is
+ * invalid. Release with bench_engine_free. */
 status efficiency_make_run_of_variant(struct run *e, struct scene *s, const struct scene_case *c, int variant,
                                       double time_step);
 
@@ -58,15 +59,16 @@ bool efficiency_scene_is_bond_based(const struct scene_case *c);
  * finer spacings, which take long, only full peridynamics and the variants `frame`, `slits` and `levels`. */
 bool efficiency_variant_is_run_for_scene(const struct scene_case *c, int variant);
 
-/* Stores in *time_step the smallest of the time steps [s] that the variants run for the scene c would choose, so that
- * all can be run with the same one. Returns REFUSED or FAILED if a run cannot be created. */
+/* Finds the smallest of the time steps [s] that the variants of the scene c (efficiency_variant_is_run_for_scene) would
+ * choose, so that all variants can be run with the same time step, and stores it in *time_step. Returns REFUSED or
+ * FAILED if a run cannot be created. */
 status efficiency_find_common_time_step(const struct scene_case *c, double *time_step);
 
 /* Writes a title of the scene c such as `kalthoff_winkler` or `kalthoff_winkler at 0.5 mm` into text[capacity], and
  * returns text. */
 const char *efficiency_title(const struct scene_case *c, char *text, size_t capacity);
 
-/* Writes name, model and spacing of a scene as a quoted label of gnuplot, with one word per line. */
+/* Writes name, model and spacing of `scene` to the stream `gnuplot` as a quoted label, with one word per line. */
 void efficiency_write_tic_label(FILE *gnuplot, const struct scene_case *scene);
 
 /* Crack tips at the end of a run. */
@@ -79,12 +81,13 @@ struct crack_ends {
 /* Stores the crack tips, the longest crack and the time of the first broken bond of the run e in *c. */
 void crack_ends_store_from_run(struct crack_ends *c, const struct run *e);
 
-/* Returns that crack tip of another run, among those of cracks that grew, which ended nearest to the end of `tip`; NULL
- * if no crack grew. Ends are compared because the nearest start may belong to a crack that grew by only one spacing
- * beside the long one. */
+/* Finds the crack tip of `other_run` that corresponds to `tip`: among the tips of cracks that grew, the one whose final
+ * position is nearest to that of `tip`. Final positions are compared because the nearest initial position may belong to
+ * a crack that grew by only one spacing beside the long one. Returns NULL if no crack of the other run grew. */
 const struct crack_tip *crack_tip_nearest_in_other_run(const struct crack_ends *other_run, const struct crack_tip *tip);
 
-/* Returns the distance between two positions position[DIM_MAX] and other_position[DIM_MAX] [m]. */
+/* Returns the distance between the points position[DIM_MAX] and other_position[DIM_MAX] [m]; components that the space
+ * lacks must be 0. */
 double position_distance(const real *position, const real *other_position);
 
 #endif

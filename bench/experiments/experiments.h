@@ -50,7 +50,7 @@ struct experiments {
     char folder[64];
 };
 
-/* Adds a result to x and prints it. */
+/* Appends a copy of `result`, a measured quantity with its required range, to x and prints it. */
 void experiment_add_and_print_result(struct experiments *x, struct experiment_row result);
 
 /* Adds an empty curve to x. picture: name of the picture in which it is drawn; name: title of the curve, a format of
@@ -58,7 +58,8 @@ void experiment_add_and_print_result(struct experiments *x, struct experiment_ro
 struct experiment_curve *experiment_add_empty_curve(struct experiments *x, const char *picture, const char *name, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Appends the point (x, y) to a curve. error_bar_half_height: half height of its error bar; NAN: none. */
+/* Appends the point (x, y) to the curve c. error_bar_half_height: half height of the error bar of the point, in the
+ * unit of y; NAN: no error bar. */
 void experiment_curve_append_point(struct experiment_curve *c, double x, double y, double error_bar_half_height);
 
 /* ---- experiments_draw.c: pictures -------------------------------------------------------------------------------- */
@@ -94,8 +95,9 @@ struct experiment_case {
  * adds its results to x. Returns REFUSED or FAILED if the study does. */
 status experiment_make_convergence_study(struct experiments *x, const struct experiment_case *c);
 
-/* Computes mean, standard deviation and half width of the 95 % confidence interval of the mean of value[value_count],
- * without values that are not finite. Returns the number of finite values. */
+/* Computes the mean of the finite values of value[value_count], their standard deviation, and half of the 95 %
+ * confidence interval of the mean, and stores them in *mean, *deviation and *interval. Returns the number of finite
+ * values. */
 int experiment_compute_mean_and_interval(const double *value, int value_count, double *mean, double *deviation,
                                          double *interval);
 
@@ -110,19 +112,20 @@ struct branching {
     int branches;
 };
 
-/* Finds the branching of a crack along x in the damage of a frame. spacing: of the particles [m]. */
+/* Finds where and at which angle a crack along x has branched, from the damage in a frame, and returns it. spacing:
+ * spacing of the particles [m]. */
 struct branching branching_find_in_frame(const struct output_frame *frame, double spacing);
 
-/* Returns the coordinate x at which the crack branches, in the last frame of a run [m]; NAN if it does not. run_folder:
- * of the run; spacing [m]. */
+/* Returns the coordinate x at which the crack branches, in the last frame of the run in `run_folder` [m]; NAN if it
+ * does not branch. spacing: spacing of the particles [m]. */
 double branching_x_coordinate(const char *run_folder, double spacing);
 
-/* Returns the angle between the outermost branches of the crack in the last frame of a run [degree]; NAN if it does not
- * branch. run_folder: of the run; spacing [m]. */
+/* Returns the angle between the outermost branches of the crack, in the last frame of the run in `run_folder` [degree];
+ * NAN if it does not branch. spacing: spacing of the particles [m]. */
 double branching_angle_in_degrees(const char *run_folder, double spacing);
 
-/* Returns the largest number of branches of the crack in the last frame of a run; 0 if there is no such frame.
- * run_folder: of the run; spacing [m]. */
+/* Returns the largest number of branches of the crack, in the last frame of the run in `run_folder`; 0 if there is no
+ * such frame. spacing: spacing of the particles [m]. */
 double branching_largest_branch_count(const char *run_folder, double spacing);
 
 /* Reads the last frame of the run in `run_folder` into *frame. Returns FAILED if there is none or it cannot be read.
@@ -144,16 +147,16 @@ status experiments_run_strip(struct experiments *x);
  * per crack area to x. Returns REFUSED or FAILED if a run does. */
 status experiments_run_surfing_crack(struct experiments *x);
 
-/* Measured by surf_run_and_measure_crack: energy of broken bonds over the new crack area [J/m^2]; mean crack speed over
- * that of the field. */
+/* Results of surf_run_and_measure_crack. taken: energy of broken bonds, divided by the new crack area [J/m^2]; speed:
+ * mean crack speed, divided by the speed of the prescribed field [1]. */
 struct surf_figures {
     double taken, speed;
 };
 
 /* Runs a mode I crack under the displacements of a steadily moving crack, prescribed at the edge of the plate. The
  * field has the energy release rate energy_share * G_c with G_c = 40 J/m^2 and moves at `speed_ratio` times the
- * Rayleigh speed. spacing [m]; time_step_fraction: fraction of the critical time step. Stores the results in *measured
- * and the Rayleigh speed [m/s] in *rayleigh_speed. Returns REFUSED or FAILED if the run does. */
+ * Rayleigh speed. spacing: particle spacing [m]; time_step_fraction: fraction of the critical time step. Stores the
+ * results in *measured and the Rayleigh speed [m/s] in *rayleigh_speed. Returns REFUSED or FAILED if the run does. */
 status surf_run_and_measure_crack(double spacing, double energy_share, double speed_ratio, double time_step_fraction,
                                   struct surf_figures *measured, double *rayleigh_speed);
 
@@ -164,16 +167,16 @@ status experiments_run_vortex(struct experiments *x);
 /* Numerical methods of the vortex. */
 enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
 
-/* Runs the vortex with a numerical method at a spacing [m]. error: receives the root-mean-square error of the
- * displacements at the end over the root mean square of the displacements [1]. Returns REFUSED or FAILED if the run
- * does. */
+/* Runs the vortex (experiments_run_vortex) with the numerical method `method` at the particle spacing `spacing` [m].
+ * Stores in *error the root mean square of the error of the displacements at the end, divided by the root mean square
+ * of the displacements. Returns REFUSED or FAILED if the run does. */
 status vortex_run_and_measure_error(enum vortex_method method, double spacing, double *error);
 
 /* Runs the notched beam of John & Shah 1990 and adds its results to x. Returns REFUSED or FAILED if a run does. */
 status experiments_run_notched_beam(struct experiments *x);
 
-/* Runs a disc that is compressed across its diameter, and adds its stress and its largest load over the closed forms to
- * x. Returns REFUSED or FAILED if a run does. */
+/* Runs a disc that is compressed across its diameter, and adds its stress and its largest load, each divided by the
+ * closed form, to x. Returns REFUSED or FAILED if a run does. */
 status experiments_run_compressed_disc(struct experiments *x);
 
 #endif

@@ -67,11 +67,11 @@ struct kernel_bench {
     struct targets targets;
 };
 
-/* Returns true if the kernel of `job` visits bonds. */
+/* Returns true if the kernel that `job` times visits bonds. */
 static inline bool job_visits_bonds(const struct job *job) { return job->kind <= BOND_STRESS; }
 
-/* Returns the number of particles that the kernel of `job` visits in its body of g; for contact kernels those near a
- * face. */
+/* Returns the number of particles that the kernel of `job` visits in the body of g on which it is timed; contact
+ * kernels visit only particles near a face. */
 static inline int64_t job_particle_count(const struct job *job, const struct ground *g)
 {
     if (job->kind >= CONTACT_SEARCH) return g->engine[CUT].contact->rows;

@@ -9,12 +9,12 @@
 /* Returns true if the program `lmp` on the path lists bond_style bpm/peri among its styles. */
 bool peer_has_bond_style(void);
 
-/* Returns how many times as fast bond_style bpm/peri is as pair_style peri/pmb, or peri/lps if `state_based` is true,
- * by the table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
+/* Returns the speed of bond_style bpm/peri of LAMMPS divided by that of pair_style peri/pmb, or of peri/lps if
+ * `state_based` is true, by the table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
 double peer_bond_style_speed_ratio(bool state_based);
 
-/* Runs `lmp` with the arguments "-in", input_name, "-log", log_name in the folder `folder`. input_name, log_name: names
- * of files. Returns FAILED if lmp cannot be started or fails. */
+/* Runs LAMMPS (`lmp -in input_name -log log_name`) in the folder `folder`. input_name: file name of the input script;
+ * log_name: file name of the log. Returns FAILED if lmp cannot be started or fails. */
 status peer_run_lammps(const char *folder, const char *input_name, const char *log_name);
 
 /* Reads the loop time from the LAMMPS log file `log_path` of a run of `step_count` steps and stores the time of a step

@@ -37,11 +37,13 @@ bool laws_figure_holds(const struct laws_figure *expected, double measured);
 
 /* ---- laws_elements.c: single elements ---------------------------------------------------------------------------- */
 
-/* Returns a copy of `law` with its derived constants. young [Pa], poisson [1], yield [Pa], density [kg/m^3]: constants
- * of the material. */
+/* Returns a copy of `law` in which the constants of the material are set, and the constants that follow from them
+ * computed. young: Young's modulus [Pa]; poisson: Poisson's ratio; yield: yield stress [Pa]; density: mass density
+ * [kg/m^3]. */
 struct law laws_law_with_derived_constants(struct law law, real young, real poisson, real yield, real density);
 
-/* Returns steel with one of the flow laws: Young's modulus 200 GPa, Poisson's ratio 0.3, yield stress 200 MPa. */
+/* Returns the law of a steel (Young's modulus 200 GPa, Poisson's ratio 0.3, yield stress 200 MPa) that hardens by the
+ * flow law `flow`. */
 struct law laws_steel(enum flow flow);
 
 /* Returns a state of eight equal material points, which law_update treats together: without stress, at 294 K, and with
@@ -59,8 +61,9 @@ void laws_add_elastic_stress_of_increment(const struct law *law, struct law_poin
 real laws_elastic_energy_density(const struct law *law, const struct law_points *points);
 
 /* Strains an element with the material law `law` by 500 random increments of up to 0.2 %, with an explicit law update
- * after each. Returns the work of the strains minus elastic energy and plastic work, which should be 0, over the sum of
- * the absolute values of the work of all increments [1]. Returns NAN if the element has hardly yielded. */
+ * after each. Returns the relative error of the energy, which should be 0: the work of the strains minus elastic energy
+ * and plastic work, divided by the sum of the absolute values of the work of all increments. Returns NAN if the element
+ * has hardly yielded. */
 double laws_energy_error_of_random_strains(const struct law *law, enum space space);
 
 /* Measure the quantities of a case with a single element in tension, cycled or heated, in explicit steps.

@@ -59,31 +59,32 @@ enum { LASTING_STEPS = 100000, LASTING_STEPS_QUICK = 10000 };
  * *result. Returns FAILED if the bench itself fails; a run that stops as unstable or is refused is a result. */
 status drift_run(const struct drift_case *drift_case, int64_t steps, struct lasting *result);
 
-/* Returns true if `result` meets the requirements of the case `drift_case`. */
+/* Returns true if `result` meets the requirements of the case `drift_case` on energy, growth rate and angular momentum.
+ */
 bool drift_holds(const struct drift_case *drift_case, const struct lasting *result);
 
-/* Composes the label of the case `drift_case` in text[capacity]. */
+/* Writes the label of the case `drift_case`, its name or its settings in words, to text[capacity]. */
 void drift_label(const struct drift_case *drift_case, char *text, size_t capacity);
 
-/* A function that drift_call_for_all_cases calls for each case l. context: its argument. A status that is not OK ends
- * the calls. */
+/* Type of a function that drift_call_for_all_cases calls for each case l. context: the argument `context` of
+ * drift_call_for_all_cases. A returned status that is not OK ends the calls. */
 typedef status drift_take(void *context, const struct drift_case *l);
 
-/* Calls callback(context, case) for all cases, with `quick` for every fourth (energy_drift_cases.c). Returns the first
- * status that is not OK. */
+/* Calls callback(context, case) for all cases in which the drift of the energy is measured (energy_drift_cases.c).
+ * quick: true for every fourth case only. Returns the first status that is not OK; OK if there is none. */
 status drift_call_for_all_cases(bool quick, drift_take *callback, void *context);
 
 /* Cases of the group LASTING_NAMED (energy_drift_named.c). */
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 
-/* Runs all cases, or those whose name contains `case_name_part` if it is not NULL, prints their results, and fills
- * `table`, the table of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer cases and steps. Returns
- * FAILED if the bench itself fails. */
+/* Runs all cases of the drift of the energy, or those whose name contains `case_name_part` if it is not NULL, prints
+ * their results, and fills `table`, the contents of results/bench/stability_lasting.csv (energy_drift.c). quick: fewer
+ * cases and steps. Returns FAILED if the bench itself fails. */
 status drift_run_all_cases(struct bench_table *table, const char *case_name_part, bool quick);
 
-/* Draws the picture of `table`, filled by drift_run_all_cases (energy_drift_draw.c). Returns FAILED if it cannot be
- * drawn. */
+/* Draws the picture of the results in `table`, which drift_run_all_cases has filled, to results/bench
+ * (energy_drift_draw.c). Returns FAILED if it cannot be drawn. */
 status drift_draw(const struct bench_table *table);
 
 #endif

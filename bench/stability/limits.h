@@ -37,17 +37,18 @@ struct limits_scene {
 enum { FAILING_SCENES = 18 };
 extern const struct limits_scene *const limits_scene[FAILING_SCENES];
 
-/* Measures the quantities of a scene with the method of row r on one thread, because bodies are small, and stores them
+/* Runs the scene s with the method of row r, on one thread since bodies are small, and stores the measured quantities
  * in measured[]; NAN if the run fails. Returns REFUSED if the scene is invalid. */
 status limits_measure(const struct limits_scene *s, const struct limits_row *r, double measured[FAILING_FIGURES]);
 
-/* Composes the label of row r of the scene s, its method and parameter, in text[capacity]. */
+/* Writes the label of row r of the scene s, its method and parameter, to text[capacity]. */
 void limits_label(const struct limits_scene *s, const struct limits_row *r, char *text, size_t capacity);
 
-/* Returns the number of quantities that are measured in a scene. */
+/* Returns the number of quantities that are measured in the scene s, the length of the list s->figure. */
 int limits_quantity_count(const struct limits_scene *s);
 
-/* Returns true if all measured quantities measured[] of the scene are at or below their thresholds. */
+/* Returns true if all quantities measured[] of the scene s are at or below their thresholds, as those of a correct
+ * method are. */
 bool limits_quantities_are_below_thresholds(const struct limits_scene *s, const double *measured);
 
 /* Creates the run e of a scene with the scene keys of row r as overrides, and stores the scene in *s. text: the scene,

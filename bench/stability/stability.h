@@ -60,8 +60,8 @@ struct stability_limits {
 status stability_determine_limits(const struct stability_case *c, int trial_steps, int long_steps,
                                   struct stability_limits *limits);
 
-/* Initial motion and length of a run. speed: largest random velocity over the wave speed; drift: velocity of a
- * translation along each axis over the wave speed; steps: number of steps. */
+/* Initial motion and length of a run. speed: largest random velocity, drift: velocity of a translation along each axis,
+ * both divided by the wave speed; steps: number of steps. */
 struct stability_shake {
     double speed, drift;
     int steps;
@@ -73,24 +73,25 @@ struct stability_shake {
 status stability_run_and_test_boundedness(const struct stability_case *c, double time_step,
                                           struct stability_shake initial_motion, bool *is_bounded);
 
-/* Runs the case c with `time_step_ratio` the observed limit of its time step, and stores in *stop_step the number of
- * steps after which the run stops with a message that states position, step and remedy; INFINITY if it runs 1000 steps
- * or the message is incomplete (limits_time_step.c). Returns REFUSED or FAILED if the limit cannot be determined. */
+/* Runs the case c with a time step of time_step_ratio times the observed stability limit, to test that an unstable run
+ * stops by itself. Stores in *stop_step the number of steps after which the run stops with a message that states
+ * position, step and remedy; INFINITY if it runs 1000 steps or the message is incomplete (limits_time_step.c). Returns
+ * REFUSED or FAILED if the limit cannot be determined. */
 status stability_find_step_of_automatic_stop(const struct stability_case *c, double time_step_ratio, double *stop_step);
 
 /* Writes the scene of the case c into text[capacity]: its own text c->text if it has one, else that of a block
  * (stability_scene.c). */
 void stability_write_scene_text(const struct stability_case *c, char *text, size_t capacity);
 
-/* Composes the label of the case c in text[capacity]. */
+/* Writes the label of the case c, its method and special properties in words, to text[capacity]. */
 void stability_label(const struct stability_case *c, char *text, size_t capacity);
 
-/* A function that stability_call_for_all_cases calls for each case c. context: its argument. A status that is not OK
- * ends the calls. */
+/* Type of a function that stability_call_for_all_cases calls for each case c. context: the argument `context` of
+ * stability_call_for_all_cases. A returned status that is not OK ends the calls. */
 typedef status stability_take(void *context, const struct stability_case *c);
 
-/* Calls callback(context, case) for all cases of the map (stability_cases.c). quick: fewer of them. Returns the first
- * status that is not OK. */
+/* Calls callback(context, case) for all cases of the stability bench (stability_cases.c). quick: true for fewer cases.
+ * Returns the first status that is not OK; OK if there is none. */
 status stability_call_for_all_cases(bool quick, stability_take *callback, void *context);
 
 /* A row of the map. */
@@ -111,7 +112,8 @@ struct stability_map {
 #define STABILITY_LEAST 0.6
 #define STABILITY_MOST 0.95
 
-/* Sends the gnuplot commands of the picture of the map. map: a struct stability_map (stability_draw.c). */
+/* Writes the gnuplot commands of the picture of all stability limits to the stream `gnuplot` (stability_draw.c). map: a
+ * struct stability_map. */
 void stability_write_picture_commands(FILE *gnuplot, const void *map);
 
 /* Measures and prints the scenes in which methods fail (limits.h), and fills `table` with them (stability_scenes.c).

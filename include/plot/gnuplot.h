@@ -44,6 +44,8 @@ enum {
 
 /* Sets the size of all pictures that this process draws from now on. */
 void picture_size_set(struct picture_size size);
+
+/* Returns the size that picture_size_set has set; width and height are 0 if it was not called. */
 struct picture_size picture_size_get(void);
 
 /* Starts gnuplot to draw the picture `path` of width x height pixels, and stores the process in *g. A size that was set
@@ -58,11 +60,13 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
  * that must not be replaced, FAILED if gnuplot cannot be started. Close g with gnuplot_close. */
 status gnuplot_open_scaled(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Returns the number of pixels that an image in a picture of the given format has along an edge that is `layout_pixels`
- * long in its layout: more in pictures of a finer resolution, and in vector formats, which are enlarged. */
+/* Returns the number of pixels with which an image inside a picture is computed along an edge that takes
+ * `layout_pixels` pixels in the layout of the picture. It is larger for pictures of a finer resolution, and for vector
+ * formats, since these are enlarged by viewers. */
 int gnuplot_image_pixels_along_edge(enum picture_format format, int layout_pixels);
 
-/* Returns true if the size of picture_size_set is too narrow for a key beside the panel. */
+/* Returns true if the picture size set by picture_size_set is too narrow for a key (legend) beside the panels, so that
+ * the key must be below them. */
 bool picture_is_too_narrow_for_key(void);
 
 /* Writes the commands for the title of a picture, which begins `left_margin` pixels from its left edge. A title that is
@@ -74,8 +78,8 @@ void gnuplot_write_title(struct gnuplot *g, const char *text, double left_margin
  * or incomplete (the message contains that of gnuplot). An existing picture at the final path then remains. */
 status gnuplot_close(struct gnuplot *g);
 
-/* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`
- * if there is none. file: file with the messages, read from its beginning. */
+/* Copies the last line that is not blank from `file`, a file with the error messages of a program, to text[size].
+ * Writes `it gave no reason` if there is no such line. The file is read from its beginning. */
 void error_message_read_last_line(FILE *file, char *text, size_t size);
 
 /* Writes `text` to the file `file` as a quoted gnuplot string in which no character has a special meaning. */

@@ -133,10 +133,10 @@ enum { TITLE_LENGTH = 256 };
 struct plotted_particles;
 struct view;
 
-/* Composes the title of a picture in title[TITLE_LENGTH]: `name, method: what`, with name and method of the run in
- * r->folder; unknown parts are left out. If r->title is given, it is the title. c: particles of the picture, for which
- * the position of the slice, in the unit of the axes, and the factor on displacements are added, or NULL; view:
- * rectangle of the picture, NULL if c is. */
+/* Composes the title of a picture in title[TITLE_LENGTH]: `NAME, METHOD: QUANTITY`, with name and method of the run in
+ * r->folder, and QUANTITY = quantity, what the picture shows; unknown parts are left out. If r->title is given, it is
+ * the title. c: particles of the picture, or NULL; if given, the position of a slice and a factor on displacements are
+ * appended to the title. view: rectangle of the picture, which determines the unit of the position; NULL if c is. */
 void picture_compose_title(char *title, const struct plot_request *r, const char *quantity,
                            const struct plotted_particles *c, const struct view *view);
 
@@ -239,8 +239,8 @@ struct plotted_particles {
     struct rigid_shown *rigid; /* [rigids] */
 };
 
-/* Copies those particles of the frame f that a picture shows into *c. projection: slice of a body in three dimensions,
- * or view of it from outside; NULL for the slice with the largest damage. Release c with plotted_particles_free. */
+/* Copies those particles of the frame f that a picture shows into *c: in 2D all, in 3D those selected by `projection`,
+ * a slice or a view from outside; NULL for the slice with the largest damage. Release c with plotted_particles_free. */
 void plotted_particles_select_from_frame(struct plotted_particles *c, const struct output_frame *f,
                                          const struct projection *projection);
 
@@ -265,10 +265,10 @@ bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 /* Releases the arrays of *c. */
 void plotted_particles_free(struct plotted_particles *c);
 
-/* Completes the slice `projection` through a body in three dimensions from the particles of the frame f. Sets its
- * normal if it is not set. Sets its position if it is not set, else moves it to the nearest layer of particles. Does
- * nothing for views from outside and in lower dimensions. Returns REFUSED if no particle is within one spacing of the
- * given position. */
+/* Completes the slice *projection through a body in three dimensions from the particles of the frame f: sets the normal
+ * of the slice if it is not set, and its position along the normal if it is not set; a given position is moved to the
+ * nearest layer of particles. Does nothing for views from outside and in lower dimensions. Returns REFUSED if no
+ * particle is within one spacing of the given position. */
 status projection_complete_slice_from_particles(struct projection *projection, const struct output_frame *f);
 
 /* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
@@ -281,9 +281,9 @@ enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRAC
 /* Returns the kind of map (MAP_...) in which a field is shown. */
 enum map map_of_field(const struct plot_field *field);
 
-/* Adds the rigid bodies of the scene s, in their positions at frame number `frame_number` of the run in `folder`, to
- * the particles c of this frame. Adds none if s is NULL or if the run has no files of rigid bodies. f: the frame; s:
- * kept by reference. */
+/* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, with
+ * the placements that the run in `folder` has stored for this frame. Adds none if s is NULL or if the run has no files
+ * of rigid bodies. f: the frame; s: kept by reference. */
 void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struct output_frame *f,
                                         const struct scene *s, const char *folder, int frame_number);
 
@@ -307,13 +307,15 @@ struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
 };
-/* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[frame_count], and stores them
- * in *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
+
+/* Lists the named values (bodies, materials and so on) of a field that occur in cloud[frame_count], the particles of
+ * several frames, and stores them in *k. folder: folder of the run, from whose scene the names of bodies and materials
+ * are read. */
 void categories_list_named_values(struct categories *k, const struct plot_field *field, const char *folder,
                                   const struct plotted_particles *cloud, int frame_count);
 
-/* Returns the colour in which a value of a field is drawn whose values have names, such as bodies or materials.
- * category_value: index of the body, material and so on. */
+/* Returns the colour of one value of a field whose values have names, such as bodies or materials. category_value:
+ * index of the body, material and so on. */
 struct colour category_colour(const struct plot_field *field, float category_value);
 
 /* Rectangle of a map and the options of its display. */
@@ -372,19 +374,21 @@ void raster_paint_particles(struct colour *pixel, int width, int height, const s
 void cubes_paint_particles(struct colour *pixel, int width, int height, const struct view *view,
                            const struct plotted_particles *c, enum map map);
 
-/* Paints the faces of the pre-cracks of the view v over pixel[height][width] of a flat map of damage or of a field, as
- * lines that move with the particles c beside them. Paints nothing in other maps. */
+/* Paints the faces of the pre-cracks v->notch into the image pixel[height * width] (rows from bottom to top) of a map
+ * of a plane body, as lines that move with the adjacent particles of c. v: rectangle of the image; map: quantity that
+ * the colours show. Paints nothing unless it is damage or a field. */
 void notches_paint_crack_faces(struct colour *pixel, int width, int height, const struct view *v,
                                const struct plotted_particles *c, enum map map);
 
-/* Returns the colour of rigid bodies in a map of the kind `map`: faded in MAP_CRACKS, as the body there. */
+/* Returns the colour in which rigid bodies are drawn in a map of the kind `map`; it is faded in MAP_CRACKS, where the
+ * deformable bodies are faded, too. */
 struct colour rigid_body_colour(enum map map);
 
 /* Extends the rectangle of the view v so that it shows those rigid bodies of c that are near the particles. */
 void view_extend_to_rigid_bodies(struct view *v, const struct plotted_particles *c);
 
-/* Returns true if a rigid body of c is visible in the rectangle of v. In views from outside this is assumed for any
- * rigid body. Otherwise the body must reach into the plane of the picture, which is tested at 300 x 300 points. */
+/* Returns true if at least one rigid body of c is visible in the rectangle of v. In views from outside every rigid body
+ * counts as visible. In plane bodies and slices the rectangle is tested at 300 x 300 points. */
 bool rigids_are_visible(const struct view *v, const struct plotted_particles *c);
 
 /* Paints the rigid bodies of c, seen in the rectangle of v, into the image pixel[height * width] of a plane body or a
@@ -404,9 +408,9 @@ struct sheet {
     enum picture_format format;
 };
 
-/* Draws one picture, the file `sheet`, with a panel for each of the frames cloud[frame_count], a common colour scale or
- * key, and `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns
- * FAILED if gnuplot fails. */
+/* Draws one picture, the file sheet.path, with a panel for each of the frames cloud[frame_count], a common colour scale
+ * or key (legend), and the heading `title`. map: quantity that the colours show; view: common rectangle and range of
+ * the colours. Returns FAILED if gnuplot fails. */
 status maps_draw_panels_of_frames(struct sheet sheet, const char *title, enum map map, const struct view *view,
                                   const struct plotted_particles *cloud, int frame_count);
 

@@ -17,7 +17,7 @@ struct newton_solver {
     uint8_t *held;     /* [n] bit d is set if component d is prescribed */
     /* [n] vectors of conjugate gradients; displacement at which forces are evaluated [m] */
     struct field d, q, r, z, x, at;
-    struct field before, grown; /* [n] forces at u under the previous loads; growth of the loads from these [N] */
+    struct field before, grown; /* [n] forces at u under the previous loads; change of the loads since [N] */
 
     /* Computes all forces at displacement u, except those of supports, into f. Must be deterministic. */
     void (*force)(void *context, const struct field *u, struct field *f);

@@ -57,8 +57,9 @@ struct convergence {
 bool convergence_evaluate_scalar_result(struct convergence *c, const double *spacing, const double *value,
                                         const int *level, int run_count, int level_count, const double *resolution);
 
-/* Computes mean, standard deviation and error of the mean of the figure value[run_count] of runs that differ by chance
- * alone, such as by a random seed, and stores them in *l. Values that are not finite are left out. */
+/* Computes mean, standard deviation and error of the mean of a figure (scalar result) over runs that differ by chance
+ * alone, such as by a random seed, and stores them in *l. value[run_count]: value of the figure in each run; values
+ * that are not finite are left out. */
 void convergence_summarise_runs(struct level_figures *l, const double *value, int run_count);
 
 /* Returns the half-width of the interval centred at `centre` that contains the true value of the figure with
@@ -66,8 +67,9 @@ void convergence_summarise_runs(struct level_figures *l, const double *value, in
  * `centre` and the result have the unit of the figure. */
 double convergence_interval_half_width(const struct convergence *c, double centre, double probability);
 
-/* Computes the members order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and
- * errors of its spacing levels. */
+/* Computes the likely order of convergence, the extrapolated value and the uncertainties (members order_likely,
+ * order_error, extrapolated, uncertainty and discretisation of *c) from the means and errors at the spacing levels,
+ * c->level[c->levels]. */
 void convergence_compute_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with `degrees_of_freedom` >= 1 degrees of freedom. */

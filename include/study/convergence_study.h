@@ -16,9 +16,9 @@ struct spacings {
                                  * have, at at[level][0] [spacings] */
 };
 
-/* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings. The spacings of the
- * `level_count` levels have about the ratio sqrt(2); the finest is near `finest` [m]. They are chosen such that the
- * lattice fits the bodies and cracks. */
+/* Chooses the particle spacings of a convergence study of the scene s and stores them in *spacings. level_count: number
+ * of levels, which differ by factors of about sqrt(2); finest: approximate spacing of the finest level, level 0 [m].
+ * The spacings are chosen such that the lattice fits the bodies and cracks. */
 void spacings_choose_for_convergence_study(struct spacings *spacings, const struct scene *s, int level_count,
                                            double finest);
 
@@ -94,16 +94,17 @@ status scalar_results_determine_convergence(const struct convergence_study *s, c
  * since study_lock_folder refuses it. */
 status scalar_results_check_replaceable(const char *folder);
 
-/* Writes the table of the figures figure[figures] to the file converge.csv in the folder of the study, and the text of
- * the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file cannot be written. */
+/* Writes the table of the figures (scalar results) figure[figures] to the file converge.csv in the folder of the study
+ * s, and the text of the scene to study.yaml, the file by which the study is recognised. Returns FAILED if a file
+ * cannot be written. */
 status scalar_results_write(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Prints to standard output a table of the figures figure[figures], a sentence on each of them, and the parameter of
- * the discretisation to which each is most sensitive. */
+/* Prints to standard output a table of the figures (scalar results) figure[figures] of the study s, a sentence on the
+ * convergence of each figure, and the parameter of the discretisation to which it is most sensitive. */
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Draws the figures figure[figures] (scalar results) over the particle spacing as pictures/convergence.png in the
- * folder of the study. If the runs have cracks, also draws their paths as pictures/path.png. Returns FAILED if a
+/* Draws the figures (scalar results) figure[figures] over the particle spacing as pictures/convergence.png in the
+ * folder of the study s. If the runs have cracks, also draws the crack paths as pictures/path.png. Returns FAILED if a
  * picture cannot be drawn. */
 status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 

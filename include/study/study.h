@@ -55,8 +55,8 @@ status varied_key_parse_values(struct varied_key *k, const char *text);
 /* Frees the key and the values of *k. */
 void varied_key_free(struct varied_key *k);
 
-/* Returns the number at the beginning of the text `value`, NAN if there is none. Stores in *unit a pointer to the text
- * after the number and the spaces that follow it, or to the whole text if there is no number. */
+/* Returns the number at the beginning of the text `value`; NAN if there is none. Stores in *unit a pointer to the rest
+ * of the text after the number and the following spaces, or to the whole text if there is no number. */
 double value_read_number_and_unit(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ char *study_options_read(const char *folder);
 /* Prints a word for a shell, in quotes if it contains characters that a shell interprets. */
 void study_print_shell_word(FILE *out, const char *word);
 
-/* Frees the runs, texts and tables of the study *s and unlocks its folder. */
+/* Frees the runs, texts and name table of the study *s and unlocks its folder. The files in the folder remain. */
 void study_free(struct study *s);
 
 /* Adds a run to the study, with copies of override[overrides], its overrides of keys of the scene. name: desired name
@@ -143,9 +143,9 @@ void study_print_equal_scene_count(const struct study *s, FILE *out);
  * The text belongs to the run. */
 const char *study_case_value_of_key(const struct study_case *c, const char *key);
 
-/* Writes the file `name` in the folder of the study from a memory stream. stream: the stream, which is closed, or NULL
- * if there was no memory for it; text, length: its contents *text of *length bytes, which are released. Returns FAILED
- * if `stream` is NULL or the file cannot be written. */
+/* Closes the memory stream `stream` (open_memstream) and writes its contents, *length bytes of *text, to the file
+ * `name` in the folder of the study; then releases *text. stream: NULL if it could not be opened. Returns FAILED if
+ * `stream` is NULL or the file cannot be written. */
 status study_write_stream_to_file(const struct study *s, const char *name, FILE *stream, char **text,
                                   const size_t *length);
 
@@ -201,15 +201,15 @@ status study_table_read(struct study_table *t, const struct study *s);
 /* Frees the names and values of the table *t. */
 void study_table_free(struct study_table *t);
 
-/* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
+/* Returns the index in t->figure of the figure (number in summary.json) called `name`, or -1 if there is none. */
 int study_index_of_result(const struct study_table *t, const char *name);
 
 /* Checks that runs of the scene s can have a figure (a number in summary.json) called `name`. Returns REFUSED if they
  * cannot, with the most similar name in the message. */
 status result_name_check_is_known(const struct scene *s, const char *name);
 
-/* Returns true if the figure called `name` describes the computation or the discretisation (time, number of particles)
- * instead of the body. */
+/* Returns true if the figure (number in summary.json) called `name` describes the computation or the discretisation
+ * (run time, number of particles) instead of the body. */
 bool study_result_is_technical(const char *name);
 
 /* Reads the header line of history.csv of the first run of the study that has such a file into header[capacity]; "" if
@@ -234,16 +234,17 @@ status study_write_table(const struct study_table *t, const struct study *s, con
  * write it. Returns OK for any other folder, since study_lock_folder refuses it. */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys);
 
-/* Prints a line for each figure that study_draw_results_over_keys draws, with mean, standard deviation and half of the
- * 95 % interval of the mean over the runs, if the only varied key of the study is a random seed; else prints nothing.
- * Arguments as there. Returns REFUSED if there is no such figure. */
+/* If the only varied key of the study is a random seed, prints to `to` a line for each figure (number in summary.json)
+ * with mean, standard deviation and half of the 95 % interval of the mean over the runs; else prints nothing. t: table
+ * of the results; key[keys]: varied keys of the study and their values; result[results]: names of the figures; if
+ * results is 0, those that study_draw_results_over_keys draws. Returns REFUSED if there is no such figure. */
 status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 
 /* Draws figures of a study (numbers in summary.json) over the values of each of its varied keys, as pictures/KEY.png in
- * the folder of the study, and over two keys as pictures/map.png. key[keys]: keys of the study and their values;
- * result[results]: names of the figures, up to six; if results is 0, the first ones that differ between runs are drawn.
- * Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
+ * the folder of the study, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the study
+ * and their values; result[results]: names of the figures, up to six; if results is 0, the first ones that differ
+ * between runs are drawn. Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
 status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,
                                     int keys, const char *const *result, int results);
 

@@ -19,21 +19,22 @@ struct run_arguments {
  * message, unless it is a number from `smallest` to `largest`. */
 status option_read_count(int *count, const char *option, const char *text, int smallest, int largest);
 
-/* Reads the size of pictures from the text that follows the option `option`: width and height as 1200x800 [pixel] or as
- * 90mmx60mm, or the width alone, 90mm, with a height that fits (0 in *size). Returns REFUSED, with a message, unless
- * the width is from 300 (53 mm) and the height from 226 (40 mm) to 10000 pixels, since a smaller picture has no space
- * beside its letters. */
+/* Reads the size of pictures from `text`, the text that follows the option `option`, into *size: width and height as
+ * 1200x800 [pixel] or as 90mmx60mm, or the width alone, 90mm, with a height of 0 in *size: what each picture needs.
+ * Returns REFUSED, with a message, unless the width is from 300 (53 mm) and the height from 226 (40 mm) to 10000
+ * pixels, since a smaller picture has no space beside its letters. */
 status option_read_picture_size(struct picture_size *size, const char *option, const char *text);
 
-/* Reads the resolution of pictures [pixel/inch] from the text that follows the option `option`. Returns REFUSED, with a
- * message, unless it is a number above 0, up to 1200. */
+/* Reads the resolution of pictures [pixel/inch] from `text`, the text that follows the option `option`, into size->dpi.
+ * Returns REFUSED, with a message, unless it is a number above 0, up to 1200. */
 status option_read_dpi(struct picture_size *size, const char *option, const char *text);
 
 /* Returns true if `option` is one of the options of the pictures of a study: --size, --dpi, --format. */
 bool option_is_of_study_pictures(const char *option);
 
-/* Reads the value of the option --size, --dpi or --format of a study. option_value: NULL if the option has none; usage:
- * usage line. Returns REFUSED, with a message, if it is missing or no size, resolution or format of a picture. */
+/* Reads the value `option_value` of the option `option` of a study, --size, --dpi or --format, into *size.
+ * option_value: NULL if the option has no value; usage: usage line for the message. Returns REFUSED, with a message, if
+ * the value is missing or is no size, resolution or format of a picture. */
 status option_read_size_dpi_or_format(struct picture_size *size, const char *option, const char *option_value,
                                       const char *usage);
 

@@ -101,7 +101,7 @@ void print_load_steps_cost(const struct run *e, const struct cost *cost, int thr
  * surface encloses. */
 void print_shape_file_volumes(const struct run *e);
 
-/* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
+/* Prints a line for each body of run e that consists of several pieces without bonds between them (check_pieces.c). */
 void print_bodies_of_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
@@ -111,13 +111,13 @@ void print_bodies_of_separate_pieces(const struct run *e);
 real solid_smallest_edge(const struct run *e, const struct solid *solid);
 
 /* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. For a single solid
- * this is its smallest edge over the spacing, INFINITY unless this is less than `max_layers`. For other shapes it is a
- * count, INFINITY unless at least half of the particles have fewer layers than half of `max_layers`. Returns INFINITY
- * for a body that is joined to one of a lower index. */
+ * this is its smallest edge divided by the spacing, INFINITY unless this is less than `max_layers`. For other shapes it
+ * is a count, INFINITY unless at least half of the particles have fewer layers than half of `max_layers`. Returns
+ * INFINITY for a body that is joined to one of a lower index. body_index: index of the body. */
 double count_layers_across_thin_parts(const struct run *e, int body_index, double max_layers);
 
-/* Writes a line to `out` for each body whose particles near faces are too stiff, or whose cells are too soft, in
- * bending. */
+/* Writes a line to `out` for each body of nearly incompressible material whose particles near faces are too stiff, or
+ * whose mesh cells are too soft, in bending. */
 void print_advice_on_incompressible_bodies(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
@@ -170,7 +170,8 @@ void hint_keys_without_effect(const struct scene *s, struct warnings *warning_li
 
 /* ---- check_signs.c ----------------------------------------------------------------------------------------------- */
 
-/* Adds a line to *warning_list for each load whose sign, and for each setting whose size, is probably not intended. */
+/* Adds a line to *warning_list for each load of run e whose sign is probably not intended, and for each setting whose
+ * size is probably not intended. */
 void hint_unlikely_signs_and_sizes(const struct run *e, struct warnings *warning_list);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */

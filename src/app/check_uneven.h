@@ -35,13 +35,13 @@ bool uneven_list_accepts_part_with_error(const struct uneven_list *list, real er
  * unchanged. */
 void uneven_list_add_narrow_part(struct uneven_list *list, const struct uneven *part, bool already_listed);
 
-/* Returns the distance [m] from the point X[dim] (inside the piece p) to the surface of p, along the axis `axis`, found
- * by steps and bisection. p: a body, or its part of one material. step: length of a step, whose sign is the direction
- * [m]. Returns max_distance [m] if the distance is larger. */
+/* Computes the distance from the point X[dim] [m], which is inside the piece p (a body, or its part of one material),
+ * to the surface of p along the axis `axis`, by steps and bisection. step: length of a step [m]; its sign is the
+ * direction. Returns the distance, or max_distance if the distance is larger [m]. */
 real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, int axis, real step, real max_distance);
 
-/* Prints to `out` a line for each part of the list whose width was measured on a line through the part. If no width was
- * measured, prints a line for the part with the largest error. */
+/* Prints to `out` a line for each narrow part in the list whose width was measured on a line through the part (member
+ * `measured`). If no width was measured, prints a line for the part with the largest error. */
 void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of the piece list->piece to the list. A neck is a narrow part that widens on both sides, such as the
@@ -50,7 +50,8 @@ void print_parts_of_uneven_width(struct uneven_list *list, FILE *out);
 void uneven_list_add_necks_of_piece(struct uneven_list *list, const struct run *run, const struct cover *cover,
                                     uint8_t *listed_axes);
 
-/* Adds to the list the parts of the 1D body of list->piece whose length is no whole number of spacings. */
+/* Adds to the list the parts of the 1D body list->piece (a body, or its part of one material) whose length is no whole
+ * number of spacings. */
 void uneven_list_add_parts_of_1d_body(struct uneven_list *list);
 
 #endif

@@ -4,20 +4,21 @@
 
 #include "output/output.h"
 
-/* Returns true if the folder contains a run of LAMMPS that `cleave export lammps` has set up. */
+/* Returns true if `folder` contains a run of LAMMPS that `cleave export lammps` has set up. */
 bool lammps_run_exists(const char *folder);
 
-/* Lists the frames of the run of LAMMPS in a folder, from its file plate.dump. Stores their number in *frame_count and
+/* Lists the frames of the run of LAMMPS in `folder`, from its file plate.dump. Stores their number in *frame_count and
  * an allocated array in *frames, which the caller releases with memory_free. Returns FAILED if in.lammps or plate.dump
  * cannot be read or has no frame. */
 status lammps_frames_list(const char *folder, int *frame_count, struct listed_frame **frames);
 
-/* Reads the frame with the number `frame_number` of the run of LAMMPS in a folder into *f. The frame has no stress.
+/* Reads the frame with the number `frame_number` of the run of LAMMPS in `folder` into *f. The frame has no stress.
  * Returns FAILED if a file of the run cannot be read or is damaged. Release f with frame_free. */
 status lammps_run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
-/* Prints the differences between the run of LAMMPS in a folder and the state that Cleave has computed, which the export
- * wrote to check.csv. Prints nothing if the folder has no check.csv. Returns FAILED if a file cannot be read. */
+/* Prints the differences between the run of LAMMPS in `folder` and the particle positions that Cleave has computed for
+ * the same step, which the export wrote to check.csv. Prints nothing if the folder has no check.csv. Returns FAILED if
+ * a file cannot be read. */
 status lammps_print_differences_from_export(const char *folder);
 
 #endif

@@ -44,9 +44,9 @@ extern const struct frame_field frame_cells[CELL_LISTS];
  * break, and those that the scene requests. */
 unsigned frame_field_bits_of_source(const struct frame_source *source);
 
-/* Copies the numbers of a field that a frame stores from the particles in *source to `rows`, an array of
- * row_order->n rows with frame_field_bytes_per_row bytes each. row_order: which particle each row shows. Rows of
- * material points of coarse cells (source->extra.more) are 0 in fields that such points lack. */
+/* Copies the numbers of a field that a frame stores from the particles in *source to `rows`, an array of row_order->n
+ * rows with frame_field_bytes_per_row bytes each. row_order: which particle each row shows. Rows of material points of
+ * coarse cells (source->extra.more) are 0 in fields that such points lack. */
 void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
                            const struct frame_rows *row_order, char *rows);
 

@@ -34,9 +34,10 @@ struct value_range history_value_range(const struct history *history, const int 
 void curves_write_data(FILE *gnuplot, const struct series *series, const int *column_index, const double *factor,
                        int column_count);
 
-/* Writes the colour of the curve of the k-th of `times` times in gnuplot's notation to `text`: a shade of the
- * sequential scale, dark for the first time. */
 enum { COLOUR_ROOM = 8 };
+
+/* Writes the colour of curve number k, from 0, of `times` curves that show successive times to `text`, in gnuplot's
+ * notation: a shade of the sequential colour scale, dark for the first time. */
 void curves_write_colour_of_time(char text[COLOUR_ROOM], int k, int times);
 
 /* Layout of a picture of curves: its size, and the distances of its panels from the left, right, upper and lower edge
@@ -74,15 +75,17 @@ void curves_write_margins_and_key(FILE *gnuplot, const struct curves_layout *lay
 struct two_panels {
     double upper_end, lower_from, lower_end;
 };
+
+/* Returns the edges of two panels, one above the other, in a picture with the given layout. */
 struct two_panels curves_layout_edges_of_two_panels(const struct curves_layout *layout);
 
-/* Returns the distance of tics, 1, 2 or 5 times a power of ten, for an axis whose values extend over `value_extent` and
- * that is `axis_length` pixels long. Tics are at least `least_distance` pixels apart, and there are at most about ten.
- */
+/* Chooses the distance between neighbouring tics (labelled marks) of an axis, in the unit of its values: 1, 2 or 5
+ * times a power of ten, with at most about ten tics that are at least `least_distance` pixels apart. value_extent:
+ * largest minus smallest value at the axis; axis_length: length of the axis [pixel]. Returns the distance. */
 double tic_distance(double value_extent, double axis_length, double least_distance);
 
-/* Writes the gnuplot command for the tics of the vertical axis `vertical_axis` ("y" or "y2") of a panel of the given
- * height [pixel], whose values extend from `low` to `high`. */
+/* Writes the gnuplot command for the tics (labelled marks) of the vertical axis `vertical_axis` ("y" or "y2") of a
+ * panel. low, high: values at the ends of the axis; panel_height: height of the panel [pixel]. */
 void curves_write_tics(FILE *gnuplot, const char *vertical_axis, double low, double high, double panel_height);
 
 /* PANEL_GAP: distance of panels one above another [pixel]; TIME_LETTERS: number of letters of a time in a key, as
@@ -93,22 +96,24 @@ enum { PANEL_GAP = 26, TIME_LETTERS = 9 };
  */
 void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *quantity);
 
-/* Writes the title of a picture into text[TITLE_LENGTH], and after it the number `outside` of particles outside the
- * picture unless that is 0. */
+/* Writes `title` into text[TITLE_LENGTH] and appends `outside`, the number of particles that are outside the picture,
+ * unless it is 0. */
 void title_compose_with_particles_outside(char *text, const char *title, int64_t outside);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
  * range and label. series: history that is drawn. */
 void curves_write_time_axis(FILE *gnuplot, const struct series *series);
 
-/* Draws the stress-intensity factors of all probes of this kind over time and, below, the relative differences between
- * their integration contours, as the picture `sif`. title: heading of the picture; series: history of the run. Returns
- * OK without a picture if the run has no such probe, FAILED if gnuplot fails. */
+/* Draws the stress-intensity factors of all SIF probes over time and, in a panel below, the relative differences
+ * between their integration contours, as the picture `sif` in the folder series->pictures. title: heading of the
+ * picture; series: history of the run. Returns OK without a picture if the run has no SIF probe, FAILED if gnuplot
+ * fails. */
 status sif_curves_draw(const char *title, const struct series *series);
 
-/* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
- * measured in an experiment if the scene states one. title: heading of the picture; series: history of the run. Returns
- * OK without a picture if the run has no growth probe, FAILED if gnuplot fails. */
+/* Draws the paths of the crack tips that GROWTH probes follow as the picture `path` in the folder series->pictures,
+ * with the angle measured in an experiment if the scene states one. folder: folder of the run; title: heading of the
+ * picture; series: history of the run. Returns OK without a picture if the run has no GROWTH probe, FAILED if gnuplot
+ * fails. */
 status crack_paths_draw(const char *folder, const char *title, const struct series *series);
 
 /* Returns true if the run in `folder` consists of load steps. */

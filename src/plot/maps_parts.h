@@ -44,53 +44,62 @@ enum { KEY_SQUARE = 40, KEY_ROW = 22, KEY_LEFT = 14, KEY_UNDER = 6 };
 static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
 
 /* Returns the layout of a picture of maps with the best compromise between large panels, a picture of pleasant shape
- * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key of named
- * values, is below the panels if they are larger then. panel_count: number of panels; height_over_width: height over
- * width of a panel. */
+ * and few empty positions. In narrow pictures (picture_is_too_narrow_for_key) the colour bar, or the key (legend) of
+ * named values, is below the panels if the panels are larger then. shown: content of the picture; panel_count: number
+ * of panels; height_over_width: height of a panel divided by its width. */
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
 /* Returns true if a map of the kind `map` has a colour bar. */
 bool map_has_colour_bar(enum map map);
 
-/* Returns the width of the longest of the numbers at tics between `low` and `high` [pixel]. */
+/* Returns the width of the longest number at the tics (labelled marks) of an axis [pixel]. low, high: values at the
+ * ends of the axis; tics: distance between tics, in the unit of the values; format: format of the numbers as in printf.
+ */
 double tic_numbers_width(double low, double high, double tics, const char *format);
 
-/* Returns the distance of tics of a horizontal axis of the given width [pixel] whose numbers do not touch, so small
- * that there are two at least, since a single one gives no scale; one if two have no space. */
+/* Chooses the distance between neighbouring tics (labelled marks) of a horizontal axis, in the unit of its values, such
+ * that their numbers do not touch and there are at least two tics, or one if there is no space for two. low, high:
+ * values at the ends of the axis; axis_width: length of the axis [pixel]. Returns the distance. */
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
 /* Returns the width that a colour bar with its numbers and its label takes on the right of panels [pixel].
  * panels_height: height of all rows of panels [pixel]. */
 int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
 
-/* Collects the key of a picture: kinds of particles, fragments or named values of the map, and rigid bodies if
- * `has_rigid_bodies` is true. */
+/* Collects the entries of the key (legend) of a picture in *key: kinds of particles, fragments or named values, as the
+ * kind of map requires, and rigid bodies if `has_rigid_bodies` is true. map: quantity that the colours show; view: view
+ * with the named values. */
 void map_key_make(struct map_key *key, enum map map, const struct view *view, bool has_rigid_bodies);
 
-/* Writes the gnuplot commands that draw the key of a picture in the place that the layout has for it. */
+/* Writes the gnuplot commands that draw the key (legend) of a picture at its position in the layout. */
 void map_key_draw(FILE *gnuplot, const struct layout *layout, const struct map_key *key);
 
-/* Writes the gnuplot commands that draw the colour bar of a picture in the place that the layout has for it, with the
- * share of the particles whose values are beyond its ends. particle_count: number of particles of a frame. */
+/* Writes the gnuplot commands that draw the colour bar of a picture at its position in the layout, with the percentages
+ * of the particles whose values are below and above the range of the bar. shown: content of the picture;
+ * particle_count: number of particles of a frame. */
 void map_colour_bar_draw(FILE *gnuplot, const struct layout *layout, const struct maps_shown *shown,
                          int64_t particle_count);
 
-/* Writes the gnuplot margins of a box of the given width and height. left_edge, upper_edge: its upper left corner. All
- * lengths are in pixels. */
+/* Writes the gnuplot commands that set the margins such that the next plot fills a box of the given width and height
+ * [pixel]. left_edge, upper_edge: distances of the upper left corner of the box from the left and upper edge of the
+ * picture [pixel]. */
 void box_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge, double width,
                        double height);
 
-/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, upper_edge:
- * position of its upper left corner, from the left and upper edge of the picture [pixel]. */
+/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left_edge, upper_edge:
+ * distances of the upper left corner of the panel from the left and upper edge of the picture [pixel]. */
 void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left_edge, double upper_edge);
 
-/* Returns the unit of length of the axes of panels: that of the longer edge of the view, wherever the body is. */
+/* Returns the unit of length of the axes of panels, chosen by the length of the longer edge of the view, not by the
+ * coordinates of the body. */
 struct unit panel_axis_unit(const struct view *view);
 
-/* Returns the width of the longest number at the tics of the horizontal axis of a panel of the given width [pixel]. */
+/* Returns the width of the longest number at the tics of the horizontal axis of a panel [pixel]. view: rectangle of the
+ * panel; width: width of the panel [pixel]. */
 double panel_numbers_width(const struct view *view, double width);
 
-/* Returns the width of the numbers and of the label at the vertical axis of a panel of the given height [pixel]. */
+/* Returns the width that the numbers and the label at the vertical axis of a panel take [pixel]. view: rectangle of the
+ * panel; height: height of the panel [pixel]. */
 double panel_margin_of_numbers(const struct view *view, double height);
 
 /* Writes the gnuplot commands for tics and labels of a panel that shows a plane body or a slice. particles: particles
@@ -101,8 +110,9 @@ void panel_write_axes(FILE *gnuplot, const struct layout *layout, const struct v
                       bool is_lowest);
 
 /* Writes the gnuplot commands that draw, below a panel with a view of a three-dimensional body from outside, its
- * coordinate axes as arrows and a bar of known length. axis_unit: unit of the axes of the panel; left, upper_edge:
- * distances of its upper left corner from the left and upper edge of the picture [pixel]. */
+ * coordinate axes as arrows and a bar of known length. view: rectangle of the panel; particles: particles of the panel;
+ * axis_unit: unit of length; left_edge, upper_edge: distances of the upper left corner of the panel from the left and
+ * upper edge of the picture [pixel]. */
 void panel_write_axis_arrows(FILE *gnuplot, const struct layout *layout, const struct view *view,
                              const struct plotted_particles *particles, const struct unit *axis_unit, double left_edge,
                              double upper_edge);

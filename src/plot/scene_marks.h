@@ -28,7 +28,8 @@ void marks_begin_data_block(struct marks *m);
 void marks_add_point(struct marks *m, const real *position, const double *arrow);
 
 /* Ends the current data block and adds the element that draws it to the plot command. plot_style: text of this element
- * after the name of the block, such as "using 1:2 with points"; key_entry: its line in the key, "" for none. */
+ * after the name of the block, such as "using 1:2 with points"; key_entry: text of its entry in the key (legend), ""
+ * for no entry. */
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
@@ -43,13 +44,13 @@ void marks_draw_lines_of_precracks(struct marks *m);
 /* Draws symbols at the positions of the probes of the scene. */
 void marks_draw_symbols_of_probes(struct marks *m);
 
-/* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each refinement level. */
+/* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each size of cells. */
 void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
 /* Draws boxes around the named regions of the scene. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
-/* Adds an entry to the key of the picture: a square in the colour `colour` and the text `text`. */
+/* Adds an entry to the key (legend) of the picture: a square in the colour `colour` and the text `text`. */
 void marks_add_colour_to_key(struct marks *m, struct colour colour, const char *text);
 
 #endif

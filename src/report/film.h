@@ -68,24 +68,26 @@ struct film {
  * as f. Returns FAILED if a frame cannot be read. Release f with film_free. */
 status film_read_frames_of_run(struct film *f, const char *folder, const struct scene *scene);
 
-/* Selects the frames, the fields and the groups of particles that are shown, such that the film takes at most
- * `byte_budget` bytes on the page. */
+/* Selects the frames, the fields and the groups of particles (each shown as one particle) that the page shows, such
+ * that the film f takes at most `byte_budget` bytes on the page. */
 void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
 
-/* Writes the selected frames and fields of f to `page` as the entry `film` of its JSON. Returns FAILED if a frame
- * cannot be read again. */
+/* Writes the selected frames and fields of the film f to `page` as the entry `film` of the JSON text of the page.
+ * Returns FAILED if a frame cannot be read again. */
 status film_write(struct page *page, const struct film *f);
 
 /* Releases the memory of *f. */
 void film_free(struct film *f);
 
-/* Divides the particles of the set `particle_set` into groups, each of which is shown as one particle. Particles that
- * fill a cubic cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or has
- * yielded in any frame and all have the same kind and fragment in every frame. Each other particle is a group. */
+/* Divides the particles of the set `particle_set` into groups, each of which the page shows as one particle. Particles
+ * that fill a cubic cell with up to 2^f->levels particles along an edge become one group, if none of them is damaged or
+ * has yielded in any frame and all have the same kind and fragment in every frame. Each other particle is a group. If
+ * f->every is above 1, marks the groups that are not shown as hidden. */
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
-/* Returns the edge of group number `group` of the set `particle_set` [m]: the spacing of a single particle, or the edge
- * of a cubic cell of merged particles. */
+/* Returns the edge with which the page draws group number `group` of the set `particle_set` [m]: the spacing of a
+ * single particle or, for a group of merged particles, the edge of their cubic cell. The edge is enlarged if only one
+ * of f->every groups is shown, so that the shown groups fill the body. */
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);
 
 /* Fills the table f->field with the fields that a run of the dimension f->dim may have. */
@@ -99,16 +101,16 @@ void film_update_field_ranges_from_frame(struct film *f, const struct output_fra
  * to false for fields with the same value in all frames at all particles. */
 void film_choose_stored_ranges_of_fields(struct film *f);
 
-/* Returns the number of bytes that one group of particles takes in one frame, over all fields that are shown and change
- * with time. */
+/* Returns the number of bytes that the page stores in each frame for one group (particles that are shown as one): the
+ * sum over all fields that are shown and change with time. */
 int film_bytes_per_group_and_frame(const struct film *f);
 
 /* Returns true if the field is written to the page: its values differ between particles or frames, and it is not left
  * out to save space. */
 bool film_field_is_shown(const struct film *f, const struct film_field *field);
 
-/* Writes the values of one field in the frame `frame` as an array: means over the particles of each shown group of
- * `particle_set`. path: file from which the frame was read. */
+/* Writes the values of one field in the frame `frame` to the page as an array with one value for each shown group of
+ * `particle_set`: the mean over the particles of the group. path: file from which the frame was read. */
 void film_write_field_values_of_frame(struct page *p, const struct film_field *field,
                                       const struct film_set *particle_set, const struct output_frame *frame,
                                       const char *path);
@@ -117,9 +119,9 @@ void film_write_field_values_of_frame(struct page *p, const struct film_field *f
  * quadrilaterals in 3D. */
 void film_write_rigid_body_surfaces(struct page *p, const struct film *f);
 
-/* Writes the positions and rotations of the rigid bodies in frame `frame_number` as the entry `rigid` of that frame.
- * For each body these are its position, `dim` coordinates [m], and the rows of its rotation matrix [dim][dim]. Writes
- * nothing if the run has no file of rigid bodies for this frame. */
+/* Writes the positions and rotations of the rigid bodies in frame number `frame_number` of the run to the page as the
+ * entry `rigid` of that frame: for each body f->dim coordinates [m], then the rotation matrix [dim][dim] by rows.
+ * Writes nothing if the run has no file of rigid bodies for this frame. */
 void film_write_rigid_body_motion_of_frame(struct page *p, const struct film *f, int frame_number);
 
 #endif

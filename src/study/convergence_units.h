@@ -5,14 +5,14 @@
 #include "plot/plot.h"
 #include "study/convergence_study.h"
 
-/* Returns the unit in which spacings up to `coarsest` [m] are printed and drawn: that of a body of ten such spacings.
- */
+/* Returns the unit in which particle spacings up to `coarsest` [m] are printed and drawn, the one that suits a length
+ * of 10 `coarsest`. */
 struct unit unit_for_spacings(double coarsest);
 
 /* Returns the unit in which the spacings of the study are printed and drawn (unit_for_spacings). */
 struct unit convergence_spacing_unit(const struct convergence_study *s);
 
-/* Returns the unit in which the means and errors of a figure are printed and drawn. */
+/* Returns the unit in which the means and errors of the figure (scalar result) f are printed and drawn. */
 struct unit scalar_result_unit(const struct scalar_result_study *f);
 
 #endif

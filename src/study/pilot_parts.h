@@ -63,7 +63,8 @@ void pilot_combine_overrides(struct pilot *choice, const struct scene_override *
 status pilot_determine_required_spacing(struct pilot_search *search, struct pilot_candidate *candidate,
                                         const struct convergence_study *study);
 
-/* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected time of the run. */
+/* Prints the results of the pilot runs of the method `candidate` to standard output: spacing, accuracy, and expected
+ * time of the run. search: the scene and the requested accuracy. */
 void pilot_print(const struct pilot_search *search, const struct pilot_candidate *candidate);
 
 /* Stores the choice *choice as files in the folder of the pilot runs, with the scene and the overrides for which it was

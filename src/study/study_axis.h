@@ -12,11 +12,13 @@ struct study_axis {
     bool logarithmic;
 };
 
-/* Returns the number of characters of the longest number at an axis with at most `most` intervals. */
+/* Returns the number of characters of the longest number at the axis if its tics divide it into at most `most`
+ * intervals. */
 int study_axis_number_length(const struct study_axis *axis, int most);
 
-/* Sends kind, range, tics and format of the numbers of an axis to gnuplot, with so many digits that the numbers are
- * distinct. name: `x`, `y`, or `cb` for the colour bar of a map; most: largest number of intervals. */
+/* Sends kind (linear or logarithmic), range, tics and format of the numbers of an axis to gnuplot, with so many digits
+ * that the numbers are distinct. name: `x`, `y`, or `cb` for the colour bar of a map; most: largest number of intervals
+ * between tics. */
 void study_axis_send(FILE *gnuplot, const char *name, const struct study_axis *axis, int most);
 
 #endif

@@ -26,8 +26,9 @@ void study_choose_case_name(const struct study *s, char *name, const char *wante
 /* Adds the name of the run with the index `case_number` of the study s to the hash table of the names of its runs. */
 void study_register_case_name(struct study *s, int case_number);
 
-/* Finds which of the keys key[key_count] appear in the names of runs, those with several values. Stores their indices
- * in key_order[], which has space for `key_count` entries, in the order in which they appear. Returns their number. */
+/* Finds which of the keys key[key_count] of a study appear in the names of its runs: those with several values. Stores
+ * their indices in key_order[], which has space for `key_count` entries, in the order of the names. Returns how many
+ * they are. */
 int study_list_keys_in_run_names(int *key_order, const struct varied_key *key, int key_count);
 
 /* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
@@ -45,14 +46,14 @@ enum { LABEL_ROOM = 40 };
  * the key are too long, the label omits their common beginning and end. */
 void study_value_label(char *text, const struct varied_key *key, int value_index);
 
-/* Returns the number of characters of the longest label of the values of a key. */
+/* Returns the number of characters of the longest label (study_value_label) of the values of a varied key. */
 int study_longest_label_length(const struct varied_key *key);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 
-/* Writes the file name of the picture of a key, KEY.png, or with the ending of another format that was chosen
- * (picture_size_set), to name[PICTURE_NAME_ROOM]. */
+/* Writes the file name of the picture of a varied key to name[PICTURE_NAME_ROOM]: KEY.png with KEY = key, or with the
+ * ending of another picture format that picture_size_set has set. */
 void study_picture_name(char *name, const char *key);
 
 /* Returns the width of a character in the pictures of a study [pixel]. */

@@ -26,12 +26,12 @@ struct shown_key {
     bool numbers;         /* the shown values are numbers with one unit or without unit */
 };
 
-/* Returns the shown keys of key[key_count], the varied keys of a study. Words come from the scene of the study: the
- * name or the face of what a key belongs to, as in `traction on y+`. If vectors differ in a single component, this
- * component is shown. Release them with shown_keys_free. */
+/* Returns an allocated array [key_count] that describes how pictures show the varied keys key[key_count] of a study.
+ * The words of a key contain the name or the face of the item of the scene to which it belongs, as in `traction on y+`.
+ * If vectors differ in a single component, this component is shown. Release the array with shown_keys_free. */
 struct shown_key *shown_keys_make(const struct study *study, const struct varied_key *key, int key_count);
 
-/* Frees shown[key_count]. */
+/* Frees the array shown[key_count] and its texts; `shown` may be NULL. */
 void shown_keys_free(struct shown_key *shown, int key_count);
 
 /* Statistics of the runs that are combined to one point of a line: mean and standard deviation of a figure in the unit
@@ -66,12 +66,13 @@ struct study_picture {
     char note[4][NOTE_ROOM];
 };
 
-/* Chooses the figures (numbers in summary.json) that the panels show, in this order: figures of cracks, of probes,
- * energies, and the duration. Figures that are equal in all runs are left out. */
+/* Chooses the figures (numbers in summary.json) that the panels of the picture show: figures of cracks first, then of
+ * probes, energies, and the duration. Figures that are equal in all runs are left out. Stores them in picture->figure
+ * and their number in picture->panels. */
 void panels_choose_figures(struct study_picture *picture);
 
-/* Chooses the figures with the names figure_name[figure_count] for the panels. Returns REFUSED if a name is not in the
- * table. */
+/* Chooses the figures (numbers in summary.json) with the names figure_name[figure_count] for the panels of the picture.
+ * Returns REFUSED if a name is not in picture->table. */
 status panels_show_named_figures(struct study_picture *picture, const char *const *figure_name, int figure_count);
 
 /* Returns true if `key` is the seed of random numbers, such as material.scatter.seed. */
@@ -88,42 +89,47 @@ bool key_has_no_physical_meaning(const char *key);
  * of `study`; -1 for another value. The caller frees each value_at[k]. */
 void values_find_indices_in_runs(int **value_at, const struct study *study, const struct shown_key *key, int key_count);
 
-/* Assigns a role to each key and sets the number of lines. Keys with several values distinguish lines, in their order,
- * while there are at most max_lines lines. Of further keys only the first value is shown. */
+/* Assigns a role (enum key_role) to each key of the picture and sets the number of lines per panel. Keys with several
+ * values, in their order, distinguish lines as long as there are at most max_lines lines. Of further keys only the runs
+ * with the first value are shown. */
 void roles_assign_to_keys(struct study_picture *picture, int max_lines);
 
 /* Computes the unit of the figure of each panel and the points of its lines, p->unit_of_figure and p->point, from the
  * roles of the keys. Replaces points computed before. Release them with study_points_free. */
 void study_points_compute(struct study_picture *p);
 
-/* Frees the points of p. */
+/* Frees the points p->point that study_points_compute has allocated. */
 void study_points_free(struct study_picture *p);
 
 /* Finds the smallest and the largest value of the points of panel number `panel`, error bars included, in the unit of
  * the panel, and stores them in *low and *high; INFINITY and -INFINITY if there are no points. */
 void study_points_range(const struct study_picture *p, int panel, double *low, double *high);
 
-/* Returns the axis of the values of the key across that have points in panel number `panel`. Evenly spaced values have
- * no logarithmic axis. */
+/* Returns the horizontal axis of panel number `panel`: range and kind for those values of the key along this axis
+ * (p->across) that have points in the panel. The axis is not logarithmic if the values are evenly spaced. */
 struct study_axis study_axis_across(const struct study_picture *p, int panel);
 
-/* Returns the axis of the figure of panel number `panel`, in the unit of the panel. */
+/* Returns the vertical axis of panel number `panel`: range and kind for the values of the figure that the panel shows,
+ * in the unit of the panel. */
 struct study_axis study_axis_of_figure(const struct study_picture *p, int panel);
 
-/* Returns the position of value number `value_index` of the key across on its axis: the number, or the index itself if
- * the values are no numbers. */
+/* Returns the position on the horizontal axis of value number `value_index` of the key along this axis: the value, or
+ * value_index if the values are no numbers. */
 double study_value_across(const struct study_picture *p, int value_index);
 
-/* Return the largest number of intervals of the axis of a figure, and of the axis `axis` of the key across, whose
- * numbers then do not touch, in panels of the present size. */
+/* Returns the largest number of intervals between tics of the vertical axis at which the numbers do not touch, in
+ * panels of the present size. */
 int study_intervals_up(const struct study_picture *p);
+
+/* Returns the largest number of intervals between tics of the horizontal axis `axis` at which the numbers do not touch,
+ * in panels of the present size. */
 int study_intervals_across(const struct study_picture *p, const struct study_axis *axis);
 
-/* Returns true if each point of each panel has a value. */
+/* Returns true if every point of every panel has a value, i.e. at least one run with the figure. */
 bool study_points_complete(const struct study_picture *p);
 
-/* Writes the title of line number `line`, its values of the keys that distinguish lines, to text[capacity], as `60, 1`.
- */
+/* Writes the title of line number `line` to text[capacity], such as `60, 1`: the values of those keys that distinguish
+ * lines. */
 void study_line_title(char *text, size_t capacity, const struct study_picture *p, int line);
 
 /* Writes the words of a key and the unit of its values to text[capacity], as `traction on y+ [MPa]`. */
@@ -134,10 +140,10 @@ void study_key_text(char *text, size_t capacity, const struct shown_key *key);
  * particles [mm]`. with_value: true to add the first value of each key. */
 void study_keys_text(char *text, size_t capacity, const struct study_picture *p, enum key_role role, bool with_value);
 
-/* Composes the notes below the panels, and computes columns, sizes and margins of the panels, the space of the key and
- * the size of the picture from the lengths of their texts. In a picture whose size the user has chosen, the panels have
- * the number of columns that makes them largest. p: with its points; up: key along the vertical axis of a map, NULL for
- * a picture with lines. */
+/* Composes the notes below the panels of p, and computes columns, sizes and margins of the panels, the space of the key
+ * (legend) and the size of the picture from the lengths of the texts. If the user has chosen the size of the picture,
+ * the number of columns is the one that makes the panels largest. The points of p must have been computed
+ * (study_points_compute). up: varied key along the vertical axis of a map; NULL for a picture with lines. */
 void study_layout_find(struct study_picture *p, const struct varied_key *up);
 
 #endif

@@ -63,7 +63,8 @@ static void scene_put(const struct fault_scene *s)
     if (!f || fputs(s->text, f) < 0 || fclose(f) != 0) complain("cannot write %s", place_of("", s).scene);
 }
 
-/* Returns the only line of the run's messages that is not a warning. lines: receives the number of such lines. */
+/* Reads the messages that the run p has printed on standard error. Returns the last line that is not a warning, in
+ * static memory; "" if there is none. Stores the number of such lines in *lines. */
 static const char *said(const struct place *p, int *lines)
 {
     static char line[1024];
@@ -100,7 +101,9 @@ static _Noreturn void run_here(const struct fault_plan *plan, const struct place
     _exit(program_main(resume ? 9 : 8, words));
 }
 
-/* Runs the program in a child process. Returns its exit status, or SIGNAL + the signal that ended it. */
+/* Runs `cleave run` in a child process for the scene and folder of p, on `threads` threads, with the option --resume if
+ * `resume` is true; the call that the plan names is disturbed. Returns the exit status, or SIGNAL + the number of the
+ * signal that ended the process; -1 if no process could be started. */
 static int run(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
 {
     int ended = 0;
@@ -123,7 +126,8 @@ static struct place reference_of(const struct fault_scene *s)
     return p;
 }
 
-/* Resumes a run with --resume and compares the results with the reference. */
+/* Resumes the run p with --resume on `threads` threads and compares its results with those of the run `reference`.
+ * Counts and prints a failure if the run fails or the results differ. what: description of the disturbance before. */
 static void resumes(const char *what, const struct place *reference, const struct place *p, int threads)
 {
     int lines;
@@ -134,7 +138,8 @@ static void resumes(const char *what, const struct place *reference, const struc
         complain("%s, then --resume: other results", what);
 }
 
-/* Divides work between two processes; returns the number of their failures. */
+/* Runs share(0) and share(1) in two child processes at once, each of which does one half of the tests. Returns the sum
+ * of the numbers of failures that the processes have counted. */
 static int in_two(void (*share)(int worker))
 {
     int all = 0;

@@ -44,11 +44,12 @@ struct fault_plan {
 
 extern const char *const fault_name[FAULT_CALLS];
 
-/* Starts to count calls in count[FAULT_CALLS], shared memory that outlives the process, and applies the plan. Files are
- * no longer synced, except the log, to save time. */
+/* Starts to count the calls of each kind (enum fault_call) in count[FAULT_CALLS], shared memory that outlives the
+ * process, and to disturb the call that the plan names. To save time, files are no longer synced from then on, except
+ * the log. */
 void faults_arm(const struct fault_plan *plan, long *count);
 
-/* Returns the hash of a file's bytes; 0 if there is no file. */
+/* Returns a hash of the bytes of the file `path`; 0 if there is no such file. */
 unsigned long fault_hash(const char *path);
 
 int program_main(int argc, char **argv); /* main of the program */

@@ -16,13 +16,15 @@ void fuzz_checkpoint(const uint8_t *bytes, size_t n);
 /* choices that compose a scene which may be run */
 void fuzz_valid(const uint8_t *bytes, size_t n);
 
-/* Returns a first input for the checkpoint, NULL if none could be created. Release with free. */
+/* Creates a valid checkpoint as the first input of fuzz_checkpoint. Returns its bytes, to be released with free, and
+ * stores their number in *n; NULL if none could be created. */
 uint8_t *fuzz_checkpoint_seed(size_t *n);
 
-/* Returns first input `number` (from 0) for Exodus II, NULL if there are no more. Release with free. */
+/* Creates valid Exodus II file number `number`, from 0, as an initial input of fuzz_exodus. Returns its bytes, to be
+ * released with free, and stores their number in *n; NULL if there are no more. */
 uint8_t *fuzz_exodus_seed(int number, size_t *n);
 
-/* Ends the process with a line. */
+/* Prints a line with the reason `why` and the text `words`, and aborts the process: a target has violated a rule. */
 _Noreturn void fuzz_fail(const char *why, const char *words);
 
 #endif

@@ -10,7 +10,8 @@
 
 #include "faults.h"
 
-/* Returns true if two summaries agree up to the figures about the machine. */
+/* Returns true if the files a and b, summaries of runs, agree in all lines before "threads", that is, in all figures
+ * but those about the machine. */
 static bool same_figures(const char *a, const char *b)
 {
     char x[1024], y[1024];
@@ -28,7 +29,8 @@ static const char *other;
 static size_t reference_length;
 static int files, differing;
 
-/* Returns true for files that may differ: checkpoints contain times; a lock that could not be removed has no effect. */
+/* Returns true if the file called `name` may differ between equal runs: checkpoints contain times, and hidden files,
+ * such as a lock that could not be removed, have no effect. */
 static bool is_beside(const char *name) { return name[0] == '.' || strncmp(name, "checkpoint", 10) == 0; }
 
 static int compare_one(const char *path, const struct stat *s, int type, struct FTW *walk)
@@ -53,7 +55,8 @@ static int count_one(const char *path, const struct stat *s, int type, struct FT
     return 0;
 }
 
-/* Returns true if the folder has files under temporary names. */
+/* Returns true if `folder` contains files under temporary names, such as a run leaves that is killed while it writes.
+ */
 static bool half_written(const char *folder)
 {
     files = 0;
@@ -61,7 +64,8 @@ static bool half_written(const char *folder)
     return files > 0;
 }
 
-/* Returns true if both folders have the same files with equal bytes. */
+/* Compares the folders of two runs file by file and prints which files differ. Returns true if both folders have the
+ * same files with equal bytes, more than four, checkpoints and hidden files aside, and no file has a temporary name. */
 static bool same_files(const char *reference, const char *folder)
 {
     other = folder, reference_length = strlen(reference), files = differing = 0;

@@ -19,8 +19,8 @@ static inline int remove_one(const char *path, const struct stat *s, int type, s
 /* Removes a folder with all that is in it. */
 static inline void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
 
-/* Enters the folder `name` beside a program, for all files of its tests; creates it if it is missing. program: argv[0].
- * Returns false if that fails. */
+/* Makes the folder `name` in the folder of the test program the working folder, for all files of the test; creates it
+ * if it is missing. program: path of the test program, argv[0]. Returns false if that fails. */
 static inline bool enter_folder_beside(const char *program, const char *name)
 {
     char path[4096];

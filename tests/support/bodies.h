@@ -41,6 +41,7 @@ static inline void body_make(struct body *b, int dim, const int *count)
     cells_make_for_neighbour_search(&b->c, &b->p, 3.1);
 }
 
+/* Frees the particles and cells of the body b. */
 static inline void body_free(struct body *b)
 {
     cells_free(&b->c);
@@ -60,8 +61,8 @@ static inline int64_t particle_at(const struct body *b, real x, real y, real z)
     return -1;
 }
 
-/* Sets damage 0.5 for the particle at a reference position [m], and makes it peridynamic, since only peridynamic
- * particles lose bonds. The test fails if there is no such particle. */
+/* Sets damage 0.5 for the particle whose reference position is (x, y, z) [m], and makes it peridynamic, since only
+ * peridynamic particles lose bonds. The test fails if there is no such particle. */
 static inline void hurt(struct body *b, real x, real y, real z)
 {
     const int64_t i = particle_at(b, x, y, z);
@@ -84,8 +85,9 @@ struct store {
     } entry[ENTRIES];
 };
 
-/* Saves an entry in the store a->file or restores it from there, as a->saving says: the archive function of a store.
- * The test fails if a name is saved twice or restored without having been saved, or if the size differs. */
+/* Saves the entry called `name`, `size` bytes from `data` on, in the store a->file if a->saving is true, else restores
+ * it from there: the function of an archive that is a store. The test fails if a name is saved twice or restored
+ * without having been saved, or if the size differs. Returns OK. */
 static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     struct store *s = a->file;
@@ -104,14 +106,15 @@ static inline status store_exchange(struct archive *a, const char *name, void *d
     return OK;
 }
 
+/* Frees the data of all entries of the store s. */
 static inline void store_free(struct store *s)
 {
     for (int k = 0; k < s->n; k++) free(s->entry[k].data);
 }
 
-/* Creates a plate of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to (10, 10.5),
- * with the particles of this row and of the next row below damaged up to x = 8.5 m, and the crack tips t. window: time
- * over which the crack speed is taken [s]. Release both with notched_free. */
+/* Creates a plate b of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to the point
+ * (10, 10.5) [m], in which the particles of this row and of the next row below are damaged up to x = 8.5 m, and finds
+ * its crack tips t. window: time over which the crack speed is averaged [s]. Release both with notched_free. */
 static inline void notched_make(struct body *b, struct crack_tips *t, real window)
 {
     body_make(b, 2, (const int[]){40, 20});
@@ -121,6 +124,7 @@ static inline void notched_make(struct body *b, struct crack_tips *t, real windo
     tips_make_at_precrack_ends(t, &b->p, &b->c, &crack, 1, 1, window);
 }
 
+/* Frees the plate b and the crack tips t of notched_make. */
 static inline void notched_free(struct body *b, struct crack_tips *t)
 {
     tips_free(t);

@@ -60,8 +60,8 @@ static inline real cloud_between(uint64_t *seed, real low, real high)
     return low + (high - low) * cloud_random(seed);
 }
 
-/* Sets the two materials of a body, like steel and aluminium, brittle but unbreakable and elastic: Poisson's ratio that
- * of bonds in the space (0 in 1D), all bond limits and yield stretches infinite. */
+/* Sets the two materials of the body c to elastic ones, like steel and aluminium, whose bonds neither break nor yield
+ * (infinite limits). Poisson's ratio is that of bond-based peridynamics in the space, 0 in 1D. */
 static inline void cloud_materials(struct particle_cloud *c, enum space space)
 {
     static const real young[] = {200e9, 70e9}, density[] = {8000, 2700};
@@ -75,8 +75,8 @@ static inline void cloud_materials(struct particle_cloud *c, enum space space)
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
-/* Creates the particles of body c by a plan: peridynamic, one body, material 0, at rest in their reference positions.
- * It has no cells and bonds yet (cloud_source, cloud_bonds). Release it with particle_cloud_free. */
+/* Creates the particles of the body c by a plan: peridynamic, one body, material 0, at rest at their reference
+ * positions. The body has no cells and bonds yet (cloud_source, cloud_bonds). Release it with particle_cloud_free. */
 static inline void particle_cloud_make(struct particle_cloud *c, const struct cloud_plan *plan)
 {
     static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
@@ -121,17 +121,17 @@ static inline void cloud_exact(struct particle_cloud *c)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
 }
 
-/* Stores all bonds explicitly: replaces the shared stencils, which give the bonds of regular row blocks, by lists of
- * neighbours. */
+/* Stores all bonds of b explicitly: replaces the shared stencils, which give the bonds of regular row blocks (eight
+ * particles stored together), by lists of neighbours. */
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
         if (b->implicit[g]) bond_row_block_write_columns_from_stencil(b, g);
 }
 
-/* Creates the cells of body c and sets c->source, all that bonds_make needs: materials, limits, and the surface
- * correction of the plan. Call it once, after kinds, bodies and materials of the particles are set; cloud_bonds does so
- * itself. */
+/* Creates the cells of the body c and fills c->source, the argument from which bonds_make makes bonds: materials,
+ * limits of bonds, and the surface correction of the plan. Call this function once, after kinds, bodies and materials
+ * of the particles are set. cloud_bonds calls it itself. */
 static inline void cloud_source(struct particle_cloud *c)
 {
     struct bond_source *s = &c->source;
@@ -172,6 +172,7 @@ static inline void cloud_strain(struct particle_cloud *c, const real strain[DIM_
         }
 }
 
+/* Frees all arrays of the body c and sets it to zero. */
 static inline void particle_cloud_free(struct particle_cloud *c)
 {
     if (c->bonds.column) bonds_free(&c->bonds);
@@ -196,8 +197,8 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
     particles_rebuild_lists_by_kind(to);
 }
 
-/* Returns the largest difference of corresponding elements of a[n] and b[n] over the largest magnitude in b; 0 if they
- * are equal, NAN if a difference is NAN. */
+/* Returns the largest difference of corresponding elements of a[n] and b[n], divided by the largest magnitude in b; 0
+ * if a and b are equal, NAN if a difference is NAN. */
 static inline real cloud_difference(const real *a, const real *b, int64_t n)
 {
     real difference = 0, largest = 0;

@@ -64,7 +64,7 @@ static inline void eigen_sweep(real *d, real *e, int64_t l, int64_t m)
     d[l] -= p, e[l] = g, e[m] = 0;
 }
 
-/* Compares two numbers for qsort, in ascending order. */
+/* Compares the numbers (real) at a and b for qsort, in ascending order. */
 static inline int eigen_ascending(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;

@@ -53,9 +53,10 @@ static inline void exodus_put_reals(int file, const char *name, int number, int 
     NC(nc_put_var_double(file, id, value));
 }
 
-/* Creates a file of Exodus II, in place of any of that path, with n <= 64 nodes at X[n][dim] and the numbers of element
- * blocks, side sets and node sets, which exodus_put_... then write. mode: format of the file, flags of nc_create.
- * Returns the id of the file, to be closed with nc_close. */
+/* Creates the Exodus II file `path`, replacing an existing one, with n <= 64 nodes at the positions X[n][dim]. mode:
+ * format of the file, flags of nc_create; blocks, side_sets, node_sets: numbers of element blocks, side sets and node
+ * sets, which are written later by exodus_put_block, exodus_put_sides and exodus_put_nodes. Returns the id of the file,
+ * to be closed with nc_close. */
 static inline int exodus_begin(const char *path, int mode, int dim, int n, const real *X, int blocks, int side_sets,
                                int node_sets)
 {
@@ -76,8 +77,9 @@ static inline int exodus_begin(const char *path, int mode, int dim, int n, const
     return file;
 }
 
-/* Writes a block of elements. number: of the block, from 1; type: its element type in the file, such as HEX8;
- * connect[elements][nodes]: numbers of the nodes of each element, from 1. */
+/* Writes a block of elements to the Exodus II file `file`. number: number of the block, from 1; type: element type,
+ * such as HEX8; elements: number of elements; nodes: number of nodes of an element; connect[elements][nodes]: numbers
+ * of the nodes of each element, from 1. */
 static inline void exodus_put_block(int file, int number, const char *type, int elements, int nodes, const int *connect)
 {
     const int dim[2] = {exodus_dim(file, "num_el_in_blk", number, (size_t)elements),
@@ -88,8 +90,9 @@ static inline void exodus_put_block(int file, int number, const char *type, int 
     nc_enddef(file);
 }
 
-/* Writes the names of all n blocks or sets of one sort. name: array for them, such as eb_names; over: dimension that
- * counts them, such as num_el_blk; names[n]: the names, "" for none, at most 32 characters each. */
+/* Writes the names of all n blocks or sets of one kind to the Exodus II file `file`. name: name of the array of names,
+ * such as eb_names; over: dimension that counts the blocks or sets, such as num_el_blk; names[n]: the names, "" for
+ * none, at most 32 characters each. */
 static inline void exodus_put_names(int file, const char *name, const char *over, int n, const char *const *names)
 {
     int dim[2], id;
@@ -102,8 +105,8 @@ static inline void exodus_put_names(int file, const char *name, const char *over
         NC(nc_put_vara_text(file, id, (size_t[]){(size_t)k, 0}, (size_t[]){1, strlen(names[k]) + 1}, names[k]));
 }
 
-/* Writes a side set of n sides: side[k] of element[k]. number: of the set, from 1. Elements and the sides of an element
- * are numbered from 1. */
+/* Writes a side set of n element sides to the Exodus II file `file`: side number side[k] of element number element[k].
+ * number: number of the set, from 1. Elements, and the sides of an element, are numbered from 1. */
 static inline void exodus_put_sides(int file, int number, int n, const int *element, const int *side)
 {
     const int dim = exodus_dim(file, "num_side_ss", number, (size_t)n);
@@ -111,7 +114,8 @@ static inline void exodus_put_sides(int file, int number, int n, const int *elem
     exodus_put_integers(file, "side_ss", number, 1, &dim, side);
 }
 
-/* Writes a node set of n nodes with the numbers node[n], from 1. number: of the set, from 1. */
+/* Writes a node set to the Exodus II file `file`. number: number of the set, from 1; node[n]: numbers of its nodes,
+ * from 1. */
 static inline void exodus_put_nodes(int file, int number, int n, const int *node)
 {
     const int dim = exodus_dim(file, "num_nod_ns", number, (size_t)n);

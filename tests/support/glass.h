@@ -6,7 +6,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-/* Returns the elastic constants and wave speeds of this glass in a space. */
+/* Returns the elastic constants and wave speeds of the glass of Imachi et al. 2019 in the space `space`. */
 static inline struct crack_medium glass(enum space space)
 {
     struct material m = {.young = 75.629e9, .poisson = 0.286, .density = 2456};

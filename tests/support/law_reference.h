@@ -49,8 +49,9 @@ static inline real reference_stress(const struct law *m, real a, real rate, real
     return NAN;
 }
 
-/* Computes the relative stress xi = s' - g X of point p [Pa], with the deviator s' of its stress and its back stress X.
- * g: share of the back stress that recall leaves [1]. Returns the equivalent stress sqrt(3/2 xi:xi) [Pa]. */
+/* Computes the relative stress s' - g X of point p, with the deviator s' of its stress and its back stress X, and
+ * stores its components xx yy zz xy yz zx in xi[SYM_MAX] [Pa]. g: fraction of the back stress that recall leaves.
+ * Returns the equivalent stress sqrt(3/2 xi:xi) [Pa]. */
 static inline real reference_relative(const struct reference_point *p, real g, real *xi)
 {
     const real mean = (p->s[0] + p->s[1] + p->s[2]) / 3;
@@ -62,8 +63,8 @@ static inline real reference_relative(const struct reference_point *p, real g, r
     return sqrt(sum);
 }
 
-/* Returns the share of the back stress added in an increment `more` of plastic strain that remains at its end, since
- * recall takes away from it meanwhile [1]; 1 without recall. */
+/* Returns the fraction of the back stress added during an increment `more` of plastic strain that remains at the end of
+ * the increment, since recall (the law of Armstrong and Frederick) reduces it meanwhile; 1 without recall. */
 static inline real reference_added(const struct law *m, real more)
 {
     const real x = m->kinematic.recall * more;
@@ -71,8 +72,8 @@ static inline real reference_added(const struct law *m, real more)
 }
 
 /* Returns by how much the equivalent stress exceeds the yield stress after an increment `more` of plastic strain from
- * the trial state p [Pa]. duration: of the step [s], 0: the rate has no effect; T: temperature [K]; stiffness: 3 G,
- * three times the shear modulus [Pa]. */
+ * the trial state p [Pa]; the root of this function is the increment of the step. duration: duration of the step [s],
+ * 0: the rate has no effect; T: temperature [K]; stiffness: three times the shear modulus [Pa]. */
 static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real duration,
                                     real T, real stiffness)
 {
@@ -83,9 +84,9 @@ static inline real reference_excess(const struct law *m, const struct reference_
            reference_stress(m, p->a + more, rate, T);
 }
 
-/* Maps the trial stress of a point back to the yield surface of the flow law m in 3D, by bisection of the increment of
- * plastic strain, and updates its plastic state. Changes nothing below the yield stress. duration: of the step [s], 0:
- * load step, the rate has no effect; T: temperature [K]. */
+/* Maps the trial stress of the point p back to the yield surface of the flow law m in 3D, by bisection of the increment
+ * of plastic strain, and updates stress, back stress and plastic strain of p. Changes nothing below the yield stress.
+ * duration: duration of the step [s], 0: load step, the rate has no effect; T: temperature [K]. */
 static inline void reference_return(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real stiffness = 3 * m->shear;
@@ -107,9 +108,9 @@ static inline void reference_return(const struct law *m, struct reference_point 
     p->a += low;
 }
 
-/* Maps the trial stress of a point in plane stress (zz = 0) back to the yield surface within plane stress, by bisection
- * of the strain zz beyond the elastic one at which the return in 3D leaves no stress zz. Otherwise as
- * reference_return. */
+/* Maps the trial stress of the point p in plane stress (zz = 0) back to the yield surface of the flow law m, such that
+ * the stress remains plane: finds by bisection the strain zz, beyond the elastic one, with which reference_return
+ * leaves no stress zz. duration: duration of the step [s], 0: load step, the rate has no effect; T: temperature [K]. */
 static inline void reference_return_plane_stress(const struct law *m, struct reference_point *p, real duration, real T)
 {
     const real c12 = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), c11 = c12 + 2 * m->shear;

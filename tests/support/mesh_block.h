@@ -13,7 +13,7 @@
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
 /* A block of material points with their mesh in the reference frame (cells of 2^D points each), and the materials to
- * which the mesh refers. It may have a hole in one corner, so that it has complete and partial cells. */
+ * which the mesh refers. It may have a hole in one corner, so that some cells are partial, i.e. lack points. */
 struct block {
     struct particle_cloud c;
     struct mesh mesh;
@@ -22,9 +22,10 @@ struct block {
     struct mesh_source source;
 };
 
-/* Creates a block and its mesh. hole: the points within three spacings of the lowest corner are peridynamic, so not
- * part of the mesh; cubic: c12 is lowered by a fifth, which makes the material anisotropic; optional: sum of WITH_*,
- * further arrays of the particles. Release it with block_free. */
+/* Creates the block b and its mesh in the space `space`. hole: true if the points within three spacings of the lowest
+ * corner are peridynamic and thus no part of the mesh; cubic: true if the elastic constant c12 is lowered by a fifth,
+ * which makes the material anisotropic; optional: sum of WITH_*, further arrays of the particles. Release it with
+ * block_free. */
 static void block_make_with(struct block *b, enum space space, bool hole, bool cubic, int optional)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
@@ -55,13 +56,15 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
     assert_true(b->mesh.runs > 0 && b->mesh.partial_cells > 0);
 }
 
+/* Creates the block b as block_make_with does, without further arrays. */
 static inline void block_make(struct block *b, enum space space, bool hole, bool cubic)
 {
     block_make_with(b, space, hole, cubic, 0);
 }
 
-/* Gives all points of a cell that have one material the same dilatation (elastic.mean_dilatation; not in 1D), and makes
- * the mesh anew. mixed: every eleventh point first becomes of material 1, so that cells have several materials. */
+/* Selects the mean dilatation for both materials of the block b, by which all points of one material in a cell have the
+ * same dilatation (elastic.mean_dilatation; not in 1D), and rebuilds the mesh. mixed: true to assign material 1 to
+ * every eleventh point before, so that cells contain several materials. */
 static inline void block_average(struct block *b, bool mixed)
 {
     for (int m = 0; m < CLOUD_MATERIALS; m++) b->elastic[m].mean_dilatation = b->c.p.dim > 1;
@@ -69,14 +72,15 @@ static inline void block_average(struct block *b, bool mixed)
     mesh_remove_points_and_return_lost_energy(&b->mesh, &b->c.p, &b->source, NULL, 0);
 }
 
+/* Frees the mesh and the particles of the block b. */
 static void block_free(struct block *b)
 {
     mesh_free(&b->mesh);
     particle_cloud_free(&b->c);
 }
 
-/* Sets random displacements at every node of the mesh with mass, between -by and by spacings in each direction; 0 at
- * other nodes. */
+/* Sets random displacements at every node of the mesh with mass, each component between -by and by [spacings]; 0 at
+ * other nodes. seed: start of the random numbers. */
 static void shake(struct block *b, real by, uint64_t seed)
 {
     for (int64_t I = 0; I < b->mesh.grid.n; I++)
@@ -109,8 +113,9 @@ static inline void rotation(struct block *b, real angle, real stretch)
 
 /* ---- reference implementation: energy point by point ------------------------------------------------------------- */
 
-/* Computes the strain e = R^T F - 1 of point i, dim x dim, from the displacements of the nodes. F: deformation gradient
- * at the point; R: rotation of the mean deformation gradient of its cell if `finite`, else the identity. */
+/* Computes the strain R^T F - 1 of point i from the displacements of the nodes and stores it in e[dim * dim], row by
+ * row. F: deformation gradient at the point; R: rotation of the mean deformation gradient of its cell if `finite` is
+ * true, else the identity. */
 static void point_strain(const struct block *b, int64_t i, bool finite, real *e)
 {
     const struct mesh *mesh = &b->mesh;
@@ -159,8 +164,8 @@ static real point_trace(const struct block *b, int64_t i, bool finite)
     return sum / n;
 }
 
-/* Returns the elastic energy of point i [J], from its strain with the dilatation of point_trace. finite: the strain is
- * that without the rotation of the cell. */
+/* Returns the elastic energy of point i [J], from its strain with the dilatation of point_trace. finite: true if the
+ * rotation of the cell is removed from the strain. */
 static real point_energy(const struct block *b, int64_t i, bool finite)
 {
     const int dim = b->c.p.dim;
@@ -177,8 +182,8 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
     return 0.5 * b->mesh.volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
 }
 
-/* Returns the elastic energy of all points of the mesh [J], to be compared with that of the engine. finite: strains
- * are those without the rotations of cells. */
+/* Returns the elastic energy of all points of the mesh [J], computed point by point, to be compared with that of the
+ * engine. finite: true if the rotations of cells are removed from the strains. */
 static inline real plain_energy(const struct block *b, bool finite)
 {
     real sum = 0;
@@ -187,8 +192,8 @@ static inline real plain_energy(const struct block *b, bool finite)
     return sum;
 }
 
-/* Computes the nodal forces of the mesh by the engine (b->mesh.grid.force) for the present displacements. finite:
- * strains are those without the rotations of cells. */
+/* Computes the nodal forces b->mesh.grid.force of the mesh for the present displacements, by the function of the
+ * engine. finite: true if the rotations of cells are removed from the strains. */
 static void forces(struct block *b, bool finite)
 {
     mesh_clear(&b->mesh);
@@ -204,9 +209,10 @@ static real largest_force(const struct block *b)
     return most;
 }
 
-/* Creates the partial stress of every point, the share of its stress that PD-MPM bonds carry, as a random matrix M = T
- * C^-1: T symmetric with entries of at most `most` times Young's modulus of material 0, C of the point's material. p:
- * particles; material: by index. Release with partial_stress_free. */
+/* Creates partial stresses for all particles of p: a random matrix M = T C^-1 for each particle, where M times its
+ * stress is the part of the stress that PD-MPM bonds carry. C: stiffness of the material of the particle; T: symmetric,
+ * with entries of at most `most` times Young's modulus of material 0. material: materials by index. Release with
+ * partial_stress_free. */
 static inline void partial_of(struct partial_stress *partial, const struct particles *p,
                               const struct material *material, real most)
 {

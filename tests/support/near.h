@@ -14,8 +14,8 @@
 
 #include "base/base.h"
 
-/* Fails the test at a line of a file unless |a - b| <= tolerance. Infinities equal themselves; NAN equals nothing.
- * what: name of a for the message. */
+/* Fails the test unless |a - b| <= tolerance. Infinities equal themselves; NAN equals nothing. what: name of a for the
+ * message; file, line: location of the assertion. */
 static inline void near_check(double a, double b, double tolerance, const char *what, const char *file, int line)
 {
     if (a == b || fabs(a - b) <= tolerance) return;
@@ -23,8 +23,8 @@ static inline void near_check(double a, double b, double tolerance, const char *
     _fail(file, line);
 }
 
-/* Fails the test at a line of a file unless the status `got` is `wanted` and, if that is not OK, its message contains
- * `part` (NULL: any message). */
+/* Fails the test unless the status `got` equals `wanted` and, if that is not OK, the stored message contains the text
+ * `part` (NULL: any message). file, line: location of the assertion. */
 static inline void status_check(status got, status wanted, const char *part, const char *file, int line)
 {
     if (got == wanted && (wanted == OK || part == NULL || strstr(status_message(), part) != NULL)) return;

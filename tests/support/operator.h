@@ -50,9 +50,10 @@ struct spectrum {
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns an array of bit sets, by node of the mesh if `node`, else by particle: bit d is set if component d is no
- * unknown, since a velocity is prescribed for the particle, or a wall holds the node, or the node follows its mirror
- * image. Release it with memory_free. */
+/* Finds the components of displacement that are no unknowns. Returns an array with an entry for each node of the mesh
+ * if `node` is true, else for each particle of the run: bit d is set if component d is no unknown, since a velocity is
+ * prescribed for the particle, a wall holds the node, or the node follows its mirror image. Release it with
+ * memory_free. */
 static inline uint8_t *operator_held(struct run *e, bool node)
 {
     const int64_t n = node ? e->frame->mesh.grid.n : e->part.n;
@@ -70,8 +71,9 @@ static inline uint8_t *operator_held(struct run *e, bool node)
     return held;
 }
 
-/* Adds the components of particle or node `at` that are not held as unknowns, with their mass [kg]; only counts them in
- * o->n while o->unknown is NULL. */
+/* Adds the free components of the displacement of the mesh node (if `node` is true) or particle with the index `at` to
+ * the unknowns of the operator o, with the mass `mass` [kg]. Only counts them in o->n while o->unknown is NULL. held:
+ * array of operator_held. */
 static inline void operator_add(struct operator* o, bool node, const uint8_t *held, int64_t at, real mass)
 {
     for (int d = 0; d < o->e.part.dim; d++) {
@@ -118,8 +120,9 @@ static inline void operator_place(struct operator* o, struct unknown q, real u)
         e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
-/* Computes the internal forces f[n] on all unknowns [N] for the present displacements. Nodes beyond symmetry planes are
- * first moved as mirror images of the nodes that they follow, to which their forces are then added, as in mesh_move. */
+/* Computes the internal forces f[o->n] on all unknowns [N] for the present displacements. Nodes beyond symmetry planes
+ * are first moved as mirror images of the nodes that they follow; their forces are then added to those of these nodes,
+ * as in mesh_move. */
 static inline void operator_forces(struct operator* o, real *f)
 {
     struct run *e = &o->e;
@@ -162,8 +165,8 @@ static inline void operator_fill(struct operator* o)
 
 /* ---- whole operator ---------------------------------------------------------------------------------------------- */
 
-/* Creates the run of the stability case c and the operator of its bodies. Returns OK, or the status of a scene that is
- * refused; o is then not to be released. Release with operator_free. */
+/* Creates the run of the stability case c and computes the stiffness matrix of its bodies, both stored in *o. Returns
+ * REFUSED or FAILED if the scene is refused, with nothing to release. Otherwise release o with operator_free. */
 static inline status operator_make(struct operator* o, const struct stability_case *c)
 {
     char text[4096];
@@ -175,6 +178,7 @@ static inline status operator_make(struct operator* o, const struct stability_ca
     return OK;
 }
 
+/* Frees the matrix, the unknowns and the run of the operator o. */
 static inline void operator_free(struct operator* o)
 {
     memory_free(o->unknown);
@@ -183,8 +187,9 @@ static inline void operator_free(struct operator* o)
     bench_engine_free(&o->e, &o->s);
 }
 
-/* Returns the relative difference |W/(1/2 u K u) - 1| for small random displacements u, with the energy W of bonds and
- * cells as the energy balance counts it; displacements are 0 afterwards. */
+/* Tests that the energy of the engine and the stiffness matrix K agree: returns |W/(1/2 u K u) - 1| for small random
+ * displacements u, with the energy W of bonds and cells by which the engine balances the energy. Displacements are 0
+ * afterwards. */
 static inline real operator_energy(struct operator* o)
 {
     struct run *e = &o->e;
@@ -204,8 +209,8 @@ static inline real operator_energy(struct operator* o)
     return fabs(W / half - 1);
 }
 
-/* Returns the properties of the operator. imaginary: computes the imaginary parts of the eigenvalues, too, which is
- * slower; else `imaginary` of the result is NAN. */
+/* Returns asymmetry, eigenvalues and error of the energy of the operator o. imaginary: true to compute the imaginary
+ * parts of the eigenvalues, too, which is slower; if false, the member `imaginary` of the result is NAN. */
 static inline struct spectrum operator_spectrum(struct operator* o, bool imaginary)
 {
     const int64_t n = o->n;
@@ -230,8 +235,9 @@ static inline struct spectrum operator_spectrum(struct operator* o, bool imagina
     return s;
 }
 
-/* Writes the operator to a file: a line for each unknown (node or particle, index, component, reference position [m],
- * mass [kg]), then K row by row [N/m]. */
+/* Writes the operator o to the file `path`: a line for each unknown (1 for a node or 0 for a particle, index,
+ * component, reference position [m], mass [kg]), then the stiffness matrix K row by row [N/m]. Writes nothing if the
+ * file cannot be opened. */
 static inline void operator_dump(const struct operator* o, const char *path)
 {
     FILE *to = fopen(path, "w");

@@ -6,7 +6,7 @@
 #include "coupling/conversion.h"
 #include "kernels/kernels.h"
 
-/* Fails the test unless |value| <= most. what: name of the quantity for the message. */
+/* Fails the test unless |value| is at most `most`. what: name of the quantity for the message. */
 static inline void at_most(const char *what, real value, real most)
 {
     if (!(fabs(value) <= most)) fail_msg("%s: %g is more than %g", what, value, most);
@@ -27,8 +27,8 @@ struct patch {
     struct partial_stress partial;
 };
 
-/* Creates the grid of a patch, which covers all particles. ratio: edge of the cells [spacings]; offset: distance of a
- * node from the start of the lattice along x [spacings]. */
+/* Creates the grid s->g of the patch s such that it covers all particles. ratio: edge of the cells [spacings]; offset:
+ * distance of a node from the start of the lattice along x [spacings]. */
 static inline void patch_grid(struct patch *s, real ratio, real offset)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -41,8 +41,8 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
     assert_int_equal(grid_extend_box(&s->g, from, to, 1000000, &changed), OK);
 }
 
-/* Maps mass, momentum and forces of the material points to the nodes of the grid (FLIP), with the shape functions
- * `shape`. */
+/* Maps mass, momentum and forces of the material points of the patch s to the nodes of its grid by the kernel p2g
+ * (FLIP) with the shape functions `shape`. */
 static inline void patch_map(struct patch *s, enum shape shape)
 {
     struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
@@ -51,8 +51,8 @@ static inline void patch_map(struct patch *s, enum shape shape)
     p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);
 }
 
-/* Returns the largest magnitude of the nodal force [N] among the nodes between `from` and `to` [spacings] in every
- * direction; the test fails if there is no such node. */
+/* Returns the largest magnitude of the nodal forces [N] in the box with the corners from[dim] and to[dim] [spacings].
+ * The test fails if no node is in the box. */
 static inline real patch_residual(const struct patch *s, const real *from, const real *to)
 {
     real largest = -1;
@@ -70,6 +70,7 @@ static inline real patch_residual(const struct patch *s, const real *from, const
     return largest;
 }
 
+/* Frees the particles, grid, order and partial stresses of the patch s. */
 static inline void patch_free(struct patch *s)
 {
     partial_stress_free(&s->partial);

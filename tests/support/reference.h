@@ -11,7 +11,8 @@
 
 /* ==== families ===================================================== */
 
-/* Computes the vector from particle i to j, of coordinates x, into relative[dim]. Returns its length [m]. */
+/* Computes the vector from particle i to particle j, with the positions x[dim][..] [m], and stores it in relative[dim].
+ * Returns the length of the vector [m]. */
 static inline real reference_relative(real *const *x, int dim, int64_t i, int64_t j, real *relative)
 {
     real r2 = 0;
@@ -19,8 +20,8 @@ static inline real reference_relative(real *const *x, int dim, int64_t i, int64_
     return sqrt(r2);
 }
 
-/* Returns true if j is in the family of i: another particle of its body within the cutoff, or exactly at it, in the
- * reference configuration. */
+/* Returns true if particle j is in the family f of particle i: another particle of the same body whose distance in the
+ * reference configuration is at most the cutoff. */
 static inline bool reference_bonded(const struct particles *p, const struct family *f, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
@@ -28,8 +29,8 @@ static inline bool reference_bonded(const struct particles *p, const struct fami
     return reference_relative(p->X, p->dim, i, j, xi) <= cutoff * (1 + 1e-9);
 }
 
-/* Returns beta, the share of the volume of a particle at distance r [m] that is within the horizon [1]; 1 if whole
- * volumes are used. */
+/* Returns beta, the fraction of the volume of a neighbour at distance r [m] that counts as within the horizon; 1 if the
+ * family f counts whole volumes. */
 static inline real reference_beta(const struct family *f, real r)
 {
     if (f->volume == VOLUME_WHOLE) return 1;
@@ -46,8 +47,9 @@ static inline real reference_shell(const struct family *f, const real *xi, real 
     return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
 }
 
-/* Returns sigma, the sum of r V beta times the shell weight over a full family of the lattice [m^4], with length r and
- * volume V of each neighbour. The micro-modulus c [N/m^6] of bonds follows from it. */
+/* Returns the sum of r V beta times the shell weight over all neighbours of a particle in the middle of the lattice
+ * [m^4]. r: length of the bond; V: volume of the neighbour; beta: fraction of V within the horizon. The micro-modulus
+ * of bonds follows from this sum. */
 static inline real reference_sigma(const struct family *f)
 {
     int dim = space_dim(f->space), reach = (int)ceil(f->horizon / f->spacing) + 1;
@@ -64,8 +66,8 @@ static inline real reference_sigma(const struct family *f)
     return sum;
 }
 
-/* Returns the micro-modulus c of the bonds of a material [N/m^6], for which a uniform dilatation of a full family has
- * the energy of the elastic material. */
+/* Returns the micro-modulus c of the bonds of material m [N/m^6], with which a uniform dilatation of a full family (all
+ * neighbours within the horizon exist) stores the energy of the elastic material. */
 static inline real reference_modulus(const struct family *f, const struct material *m)
 {
     real E = m->young, nu = m->poisson, sigma = reference_sigma(f);
@@ -81,7 +83,8 @@ static inline real reference_modulus(const struct family *f, const struct materi
     }
 }
 
-/* Returns the volume of all neighbours of particle i, each times beta, its share within the horizon [m^3]. */
+/* Returns the sum of the volumes of all neighbours of particle i, each multiplied by the fraction within the horizon
+ * [m^3]. */
 static inline real reference_neighbour_volume(const struct particles *p, const struct family *f, int64_t i)
 {
     real xi[DIM_MAX], sum = 0;
@@ -91,10 +94,11 @@ static inline real reference_neighbour_volume(const struct particles *p, const s
     return sum;
 }
 
-/* Returns the weight of bond i-j: c beta lambda V_i V_j, with the micro-modulus c, the share beta of the volume within
- * the horizon and the surface correction lambda, over the same of a bond between lattice particles of material 0.
- * Between materials c is the harmonic mean of both (two half bonds in series). volume: reference_neighbour_volume of
- * all particles, for the surface correction; NULL: lambda = 1. */
+/* Returns the weight of the bond between particles i and j: c beta lambda V_i V_j, divided by c_0 V_0^2, with the
+ * micro-modulus c_0 of material 0 and the volume V_0 of a lattice cell. c: micro-modulus, between two materials the
+ * harmonic mean of both (two half bonds in series); beta: fraction of the volume within the horizon, times the shell
+ * weight; lambda: surface correction; V_i, V_j: volumes of the particles. volume: reference_neighbour_volume of all
+ * particles, for the surface correction; NULL: lambda = 1. */
 static inline real reference_weight(const struct particles *p, const struct bond_source *s, const real *volume,
                                     int64_t i, int64_t j)
 {
@@ -108,13 +112,14 @@ static inline real reference_weight(const struct particles *p, const struct bond
 
 /* ==== cracks, in general position only =========================================================================== */
 
-/* Returns twice the signed area of the triangle a b c in the plane: positive if the corners turn anticlockwise. */
+/* Returns twice the signed area of the triangle with the corners a, b and c in the plane: positive if their order is
+ * anticlockwise. */
 static inline real reference_turn(const real *a, const real *b, const real *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Returns six times the signed volume of the tetrahedron a b c d. */
+/* Returns six times the signed volume of the tetrahedron with the corners a, b, c and d. */
 static inline real reference_tetrahedron(const real *a, const real *b, const real *c, const real *d)
 {
     real u[3], v[3], w[3];
@@ -122,8 +127,8 @@ static inline real reference_tetrahedron(const real *a, const real *b, const rea
     return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-/* Returns true if the segment a-b intersects the triangle t0 t1 t2: its ends are on different sides of the plane, and
- * the line passes all three edges with the same orientation. */
+/* Returns true if the segment from a to b intersects the triangle with the corners t0, t1 and t2: a and b are on
+ * different sides of the plane of the triangle, and the line passes all three edges with the same orientation. */
 static inline bool reference_pierced(const real *t0, const real *t1, const real *t2, const real *a, const real *b)
 {
     if ((reference_tetrahedron(t0, t1, t2, a) > 0) == (reference_tetrahedron(t0, t1, t2, b) > 0)) return false;
@@ -131,8 +136,8 @@ static inline bool reference_pierced(const real *t0, const real *t1, const real 
     return first == (reference_tetrahedron(a, b, t1, t2) > 0) && first == (reference_tetrahedron(a, b, t2, t0) > 0);
 }
 
-/* Returns true if the segment a-b crosses the crack c: a point in 1D, one straight segment in 2D, a convex polygon in
- * 3D. */
+/* Returns true if the segment from a to b (dim coordinates each) crosses the crack c, which is a point in 1D, one
+ * straight segment in 2D, a convex polygon in 3D. */
 static inline bool reference_cut(const struct crack *c, const real *a, const real *b, int dim)
 {
     if (dim == 1) return (a[0] < c->corner[0][0]) != (b[0] < c->corner[0][0]);
@@ -147,8 +152,8 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
 
 /* ==== bonds ============================================================= */
 
-/* Returns the stored weights of all bonds as a full matrix of n x n entries, bond i-j at w[i n + j]: 0 for a broken
- * bond, NAN where there is none. Release it with memory_free. */
+/* Returns the weights stored in b for all bonds as a full matrix w of p->n x p->n entries, with the bond from particle
+ * i to j at w[i n + j]: 0 for a broken bond, NAN if there is no bond. Release it with memory_free. */
 static inline real *reference_table(const struct bonds *b, const struct particles *p)
 {
     real *w = NEW("reference.w", p->n * p->n, real);
@@ -181,8 +186,8 @@ struct reference_row {
     real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX];
 };
 
-/* Computes force, energy and stress of particle i from its elastic bonds. w: matrix of reference_table; stiffness:
- * force of a bond of weight 1 over its stretch [N]. */
+/* Returns force, energy and stress of particle i from its elastic bonds. w: matrix of reference_table; stiffness: force
+ * of a bond of weight 1, divided by its stretch [N]. */
 static inline struct reference_row reference_row(const struct particles *p, const real *w, real stiffness, int64_t i)
 {
     struct reference_row row = {.energy = 0};
@@ -201,7 +206,8 @@ static inline struct reference_row reference_row(const struct particles *p, cons
 
 /* ==== partial stress ===================================================== */
 
-/* Returns the index of component ab in a stored symmetric tensor: xx yy zz xy yz zx in 3D, xx yy xy in 2D. */
+/* Returns the index of the component in row a and column b in a stored symmetric tensor: order xx yy zz xy yz zx in 3D,
+ * xx yy xy in 2D. */
 static inline int reference_symmetric(int dim, int a, int b)
 {
     if (a == b) return a;
@@ -209,15 +215,15 @@ static inline int reference_symmetric(int dim, int a, int b)
     return a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Expands a stored symmetric tensor to a matrix of dim x dim. */
+/* Expands a stored symmetric tensor (xx yy zz xy yz zx in 3D, xx yy xy in 2D) to the matrix `tensor` of dim x dim. */
 static inline void reference_tensor(const real *symmetric, int dim, real tensor[DIM_MAX][DIM_MAX])
 {
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) tensor[a][b] = symmetric[reference_symmetric(dim, a, b)];
 }
 
-/* Returns the share of the segment between the reference positions of particles m and j that is inside the cube
- * (square, interval) of particle q [1]. section: thickness in 2D [m], cross section in 1D [m^2], 1 in 3D. */
+/* Returns the fraction of the segment between the reference positions of particles m and j that is inside the cube
+ * (square, interval) of particle q. section: thickness in 2D [m], cross section in 1D [m^2], 1 in 3D. */
 static inline real reference_inside(const struct particles *p, real section, int64_t m, int64_t j, int64_t q)
 {
     real edge = pow(p->volume0[q] / section, 1.0 / p->dim), from = 0, to = 1;
@@ -233,9 +239,9 @@ static inline real reference_inside(const struct particles *p, real section, int
     return fmax(0, to - from);
 }
 
-/* Computes the tensor T [Pa] of material point q: its stiffness due to the intact bonds between peridynamic particles
- * and material points that cross its cube. w: matrix of reference_table; stiffness: force of a bond of weight 1 over
- * its stretch [N]; section: as in reference_inside. */
+/* Computes the stiffness T [Pa] of material point q that is due to the intact bonds between peridynamic particles and
+ * material points that cross its cube. w: matrix of reference_table; stiffness: force of a bond of weight 1, divided by
+ * its stretch [N]; section: thickness in 2D [m], cross section in 1D [m^2], 1 in 3D. */
 static inline void reference_partial(const struct particles *p, const real *w, real stiffness, real section, int64_t q,
                                      real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX])
 {
@@ -255,9 +261,9 @@ static inline void reference_partial(const struct particles *p, const real *w, r
         }
 }
 
-/* Computes T : C^-1 sigma [Pa], the part of the stress sigma of a point that bonds of the stiffness T
- * (reference_partial) carry, into grid_coupled; both are stored symmetric tensors. C: stiffness of the isotropic
- * material m. */
+/* Computes T : C^-1 sigma, the part of the stress `sigma` of a point that bonds with the stiffness T
+ * (reference_partial) carry, and stores it in grid_coupled [Pa]. Both stresses are stored symmetric tensors (xx yy zz
+ * xy yz zx in 3D, xx yy xy in 2D). C: stiffness of the isotropic material m. */
 static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
                                      const real *sigma, real *grid_coupled)
 {

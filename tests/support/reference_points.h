@@ -14,7 +14,8 @@ struct reference_shape {
     real value, slope;
 };
 
-/* Returns the linear shape function at distance r from its node: 1 at r = 0, 0 from one cell h on [1]. */
+/* Returns the linear shape function at the signed distance r from its node [m]: 1 at r = 0, 0 for |r| >= h. h: edge of
+ * a cell [m]. */
 static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
 
 /* Returns the integral of the linear shape function from -h to r [m]. h: edge of a cell [m]. */
@@ -25,8 +26,9 @@ static inline real reference_tent_integral(real r, real h)
     return r < 0 ? 0.5 * (h + r) * (h + r) / h : h - 0.5 * (h - r) * (h - r) / h;
 }
 
-/* Returns N and dN/dx of a shape function in one direction at distance r = x_p - x_I of a point from a node [m]. h:
- * edge of a cell [m]; l: half the width of the point [m], over which GIMP averages the linear function. */
+/* Returns value and slope of the shape function `shape` of a node in one direction, at a point whose signed distance
+ * from the node is r [m]. h: edge of a cell [m]; l: half the width of the point [m], over which GIMP averages the
+ * linear function. */
 static inline struct reference_shape reference_shape(enum shape shape, real r, real h, real l)
 {
     real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
@@ -81,8 +83,8 @@ static inline void reference_node_position(const struct grid *g, int64_t node, r
     }
 }
 
-/* Computes N and grad N of every node at every particle, products of those in each direction, into s->value and
- * s->slope. */
+/* Computes the shape function N and its gradient of every node at every particle, as products of the functions in each
+ * direction, and stores them in s->value and s->slope. */
 static inline void reference_weights(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -122,6 +124,7 @@ static inline void reference_step_make(struct reference_step *s)
     reference_weights(s);
 }
 
+/* Frees the arrays that reference_step_make has allocated. */
 static inline void reference_step_free(struct reference_step *s)
 {
     memory_free(s->value);
@@ -136,8 +139,8 @@ static inline void reference_step_free(struct reference_step *s)
     }
 }
 
-/* Computes the stress that point i transmits to the grid [Pa], dim x dim: its stress less the part M sigma that PD-MPM
- * bonds carry. */
+/* Computes the stress that point i transmits to the grid, and stores it in `tensor`, dim x dim [Pa]: its stress minus
+ * the part that bonds between peridynamic particles and material points carry. */
 static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
 {
     int n = symmetric_component_count(s->p->dim);
@@ -174,8 +177,8 @@ static inline void reference_map(struct reference_step *s, bool with_mass)
     }
 }
 
-/* Returns true if points i and j share the mean dilatation of a cell: both are material points of one body and
- * material, which uses mean dilatations, and both are in the same cell. So does a point with itself. */
+/* Returns true if points i and j have the mean dilatation of a cell in common: both are material points of one body and
+ * of one material, which uses mean dilatations, and both are in the same cell. Also true for i = j. */
 static inline bool reference_together(const struct reference_step *s, int64_t i, int64_t j)
 {
     const struct particles *p = s->p;
@@ -186,8 +189,8 @@ static inline bool reference_together(const struct reference_step *s, int64_t i,
     return same;
 }
 
-/* Computes change[i], by how much a value of point i changes when it is replaced by the mean over the points that share
- * their dilatation with it (reference_together), weighted by volume; 0 where there are none. */
+/* Computes the change change[i] of value[i] of each point i when it is replaced by the mean value, weighted by volume,
+ * of all points that share the dilatation of point i (reference_together); 0 if there are none. */
 static inline void reference_means(const struct reference_step *s, const real *value, real *change)
 {
     for (int64_t i = 0; i < s->p->n; i++) {
@@ -206,8 +209,8 @@ static inline real reference_trace(real tensor[DIM_MAX][DIM_MAX], int dim)
     return sum;
 }
 
-/* Computes by how much the mean stress of each point changes [Pa], into s->more, when the points of a cell that share
- * their dilatation get the mean of theirs. */
+/* Computes the change of the mean stress of each point, and stores it in s->more [Pa], when the mean stresses of the
+ * points of a cell that share their dilatation (reference_together) are replaced by their average. */
 static inline void reference_pressures(struct reference_step *s)
 {
     real *mean = NEW("reference.mean", s->p->n, real);
@@ -220,8 +223,8 @@ static inline void reference_pressures(struct reference_step *s)
     memory_free(mean);
 }
 
-/* Adds the forces of all material points to the nodal forces: -V sigma . grad N of the stress that each transmits, and
- * N f of its own force. */
+/* Adds the forces of all material points to the nodal forces s->force: -V sigma . grad N, with volume V and transmitted
+ * stress sigma of the point (reference_given), and N f, with the external force f on the point. */
 static inline void reference_forces(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -252,8 +255,8 @@ static inline void reference_move(struct reference_step *s)
         }
 }
 
-/* Returns the value of a nodal field at point i, with the weights s->value, or a component of its gradient, with
- * s->slope[d]. */
+/* Returns the sum of the nodal field `field` over all nodes, with the weights of point i: the value of the field at
+ * point i if `weight` is s->value, component d of its gradient if `weight` is s->slope[d]. */
 static inline real reference_at(const struct reference_step *s, const real *weight, const real *field, int64_t i)
 {
     real sum = 0;
@@ -261,8 +264,9 @@ static inline real reference_at(const struct reference_step *s, const real *weig
     return sum;
 }
 
-/* Updates the velocities of the points (FLIP) by the increments at the nodes, and maps their new momentum to the nodes
- * with the old weights. s->momentum holds the velocity of this second map afterwards, 0 at light nodes. */
+/* Updates the velocities of the points (FLIP) by the increments s->change at the nodes, and maps the new momentum of
+ * the points to the nodes with the old weights. Stores the nodal velocities of this second map in s->momentum, 0 at
+ * nodes below the smallest mass. */
 static inline void reference_remap(struct reference_step *s)
 {
     for (int64_t i = 0; i < s->p->n; i++)
@@ -316,9 +320,9 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     memcpy(sigma, b, sizeof b);
 }
 
-/* Updates the state of point i with the velocity gradient L [1/s]: rotates its stress with the spin (Jaumann), adds
- * Hooke's law of the strain increment sym(L) dt - W W/2, with the spin increment W, and updates its volume and, with
- * CPGIMP, its stretches along the axes. */
+/* Updates the state of point i with the velocity gradient L [1/s]: rotates its stress with the spin (Jaumann), adds the
+ * stress increment by Hooke's law for the strain increment sym(L) dt - W W/2, with the spin increment W, and updates
+ * the volume of the point and, with CPGIMP, its stretches along the axes. */
 static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     struct particles *p = s->p;
@@ -350,8 +354,8 @@ static inline void reference_gradient(const struct reference_step *s, int64_t i,
         for (int b = 0; b < s->p->dim; b++) L[a][b] = reference_at(s, s->slope[b], straining[a], i);
 }
 
-/* Computes by how much the rate of dilatation of each point changes [1/s], into s->more, when the points of a cell that
- * share their dilatation get the mean of theirs. */
+/* Computes the change of the rate of dilatation of each point, and stores it in s->more [1/s], when the rates of the
+ * points of a cell that share their dilatation (reference_together) are replaced by their average. */
 static inline void reference_dilatations(struct reference_step *s)
 {
     real *rate = NEW("reference.rate", s->p->n, real), L[DIM_MAX][DIM_MAX];
@@ -363,9 +367,9 @@ static inline void reference_dilatations(struct reference_step *s)
     memory_free(rate);
 }
 
-/* Moves all material points and updates their stress and volume. They move with the nodal velocities at the end of the
- * step, with FLIP those at which bonds end with the velocities of the second map; strains follow from
- * reference_gradient. APIC: also sets their velocities and gradients. */
+/* Moves all material points and updates their stress and volume (reference_gradient, reference_stress). Points move
+ * with the nodal velocities at the end of the step; with FLIP, points at which bonds end (s->bonded) move with the
+ * velocities of the second map. With APIC, also sets the velocities and velocity gradients of the points. */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
@@ -389,7 +393,8 @@ static inline void reference_gather(struct reference_step *s)
     }
 }
 
-/* Returns the largest principal stress of a stored symmetric tensor [Pa], by Jacobi rotations. */
+/* Returns the largest eigenvalue (principal stress) of a stored symmetric tensor, by Jacobi rotations [Pa]. symmetric:
+ * components xx yy zz xy yz zx in 3D, xx yy xy in 2D. */
 static inline real reference_principal(const real *symmetric, int dim)
 {
     real t[DIM_MAX][DIM_MAX], largest = -INFINITY;

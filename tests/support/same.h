@@ -5,8 +5,8 @@
 #include "near.h"
 #include "data/particles.h"
 
-/* Asserts that two sets of particles are equal in number and bitwise in all their arrays. optional: sum of the WITH_*
- * that both have. */
+/* Asserts that the particles a and b are equal in number and bitwise in all their arrays. optional: sum of the WITH_*
+ * whose optional arrays both have. */
 static inline void assert_same_particles(const struct particles *a, const struct particles *b, int optional)
 {
     assert_int_equal(a->n, b->n);

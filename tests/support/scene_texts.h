@@ -136,8 +136,8 @@ static const char grown[] =
     "  - growth\n"
     "  - growth: {name: ruled, of: growth1, experiment: 70}\n";
 
-/* Reads a scene from its text; the test fails if it is not valid. o: n overrides of its keys. Release with
- * scene_free. */
+/* Reads a scene from `text` with the overrides o[n] of its keys and returns it; the test fails if the scene is not
+ * valid. Release it with scene_free. */
 static struct scene read_ok(const char *text, const struct scene_override *o, int n)
 {
     struct scene s;

@@ -8,8 +8,8 @@
 
 #include "scene/scene_read.h"
 
-/* Reads a scene from its text with overrides of its keys: a list of at most 16 strings `key=value` that ends with NULL.
- * Returns the status of scene_read_text. */
+/* Reads a scene from `text` into *s with the overrides of its keys in `list`: at most 16 strings `key=value`, then
+ * NULL. Returns the status of scene_read_text. Release s with scene_free if it is OK. */
 static inline status scene_with(struct scene *s, const char *text, va_list list)
 {
     enum { MOST = 16 };

@@ -6,8 +6,9 @@
 
 #include "simd/simd.h"
 
-/* Returns the first kernel set from `set` on that this processor can run, after making it the set in use; NULL if there
- * is none. Prints which sets are used and skipped. */
+/* Finds the first kernel set (kernels compiled for one set of vector instructions), from the entry `set` of the table
+ * simd_sets on, that this processor can run, makes it the set in use, and returns it; NULL if there is none. Prints
+ * which sets are used and skipped. */
 static inline const struct simd_set *sets_next(const struct simd_set *set)
 {
     for (; set < simd_sets + simd_set_count; set++) {

@@ -19,8 +19,8 @@ struct setting {
 };
 
 /* Makes a scene of the material point method at spacing 0.5 m with two materials and one body `plate`, the box from 0
- * to edge[dim] [m]. A second body `layer`, whose solid is not yet set, and initial conditions for all bodies are ready
- * but not counted: increase the counts to use them. */
+ * to edge[dim] [m], in *s. A second body `layer`, whose solid is not yet set, and three initial conditions for all
+ * bodies are prepared but not counted: increase scene.bodies and scene.initials to use them. */
 static inline void setting_make(struct setting *s, enum space space, const real *edge)
 {
     static const char *const name[BODIES] = {"plate", "layer"};

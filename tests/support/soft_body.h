@@ -12,9 +12,9 @@ struct soft_body {
     struct softening_pair pair[CLOUD_MATERIALS * CLOUD_MATERIALS];
 };
 
-/* Creates the bonds of the body s->c, which soften by a law, for all pairs of materials. onset: stretch at which
- * softening begins; critical: critical stretch of a brittle bond of equal energy [1]. Call it after
- * particle_cloud_make, in place of cloud_bonds. */
+/* Creates the bonds of the body s->c, which soften by the law `law`, for all pairs of materials. onset: stretch at
+ * which softening begins [1]; critical: critical stretch of a brittle bond with the same fracture energy [1]. Call this
+ * function after particle_cloud_make, in place of cloud_bonds. */
 static inline void soft_bonds(struct soft_body *s, enum softening law, real onset, real critical)
 {
     s->curve = softening_curve_of_law(law);

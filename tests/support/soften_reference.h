@@ -18,8 +18,8 @@ struct soften_reference {
     real broken; /* energy of ended bonds [J] */
 };
 
-/* Allocates the states of the bonds of n particles, none softening, ended or due. Release with
- * soften_reference_free. */
+/* Returns new states for the bonds of n particles, none of which softens, has ended or is due to be examined. law:
+ * softening law. Release them with soften_reference_free. */
 static inline struct soften_reference soften_reference_make(enum softening law, int64_t n)
 {
     struct soften_reference r = {.law = law};
@@ -31,20 +31,23 @@ static inline struct soften_reference soften_reference_make(enum softening law, 
     return r;
 }
 
+/* Frees the arrays of r. */
 static inline void soften_reference_free(struct soften_reference *r)
 {
     memory_free(r->most), memory_free(r->onset), memory_free(r->critical), memory_free(r->ended), memory_free(r->due);
 }
 
-/* Returns the stretch at which a softening bond ends [1]: s_c^2/s_0 (linear), s_0 + 9/5 (s_c^2 - s_0^2)/s_0 (bilinear),
- * with s_0 the onset and s_c the critical stretch. */
+/* Returns the stretch at which the force of a softening bond has fallen to 0 [1]: s_c^2/s_0 for the linear law, s_0 +
+ * 9/5 (s_c^2 - s_0^2)/s_0 for the bilinear law. onset: stretch s_0 at which softening begins; critical: critical
+ * stretch s_c of a brittle bond of equal energy. */
 static inline real soften_reference_end(enum softening law, real onset, real critical)
 {
     if (law == SOFTENING_LINEAR) return critical * critical / onset;
     return onset + 1.8 * (critical * critical - onset * onset) / onset;
 }
 
-/* Returns the force of a bond at stretch k, not below the onset, on the softening curve, over its stiffness [1]. */
+/* Returns the force of a bond on the softening curve, divided by its stiffness [1], at the stretch k >= onset; 0 beyond
+ * the end of the curve. onset, critical: as in soften_reference_end. */
 static inline real soften_reference_peak(enum softening law, real onset, real critical, real k)
 {
     const real end = soften_reference_end(law, onset, critical), kink = onset + 2 * (end - onset) / 9;
@@ -54,9 +57,9 @@ static inline real soften_reference_peak(enum softening law, real onset, real cr
     return onset / 3 * (end - k) / (end - kink);
 }
 
-/* Returns the energy that a bond has dissipated when its largest stretch so far is k, not below the onset, over
- * stiffness and length [1]: the area under the curve, by trapezoids between its corners, less the triangle of
- * unloading. */
+/* Returns the energy that a bond has dissipated when its largest stretch so far is k >= onset, divided by the stiffness
+ * and the length of the bond [1]: the area under the softening curve up to k, by trapezoids between its corners, minus
+ * the triangle of unloading. onset, critical: as in soften_reference_end. */
 static inline real soften_reference_spent(enum softening law, real onset, real critical, real k)
 {
     const real end = soften_reference_end(law, onset, critical), kink = onset + 2 * (end - onset) / 9;
@@ -69,8 +72,8 @@ static inline real soften_reference_spent(enum softening law, real onset, real c
     return area - 0.5 * at * to;
 }
 
-/* Returns the share of its stiffness that bond q keeps at stretch s [1]: 1 - d with the damage d of the largest
- * stretch, s included; 1 in compression and before softening begins. */
+/* Returns the fraction of its stiffness that the bond with the index q keeps at the stretch s: 1 - d, with the damage d
+ * that follows from the largest stretch so far, s included; 1 in compression and before softening begins. */
 static inline real soften_reference_kept(const struct soften_reference *r, int64_t q, real s)
 {
     const real k = fmax(r->most[q], s);
@@ -78,8 +81,8 @@ static inline real soften_reference_kept(const struct soften_reference *r, int64
     return soften_reference_peak(r->law, r->onset[q], r->critical[q], k) / k;
 }
 
-/* Solves the symmetric system A x = b of n <= 6 unknowns by Cholesky's decomposition; b becomes x. Returns false, with
- * b unchanged, if a pivot is not above `least`. */
+/* Solves the symmetric system A x = b of n <= 6 unknowns by Cholesky's decomposition and stores x in b. Returns false,
+ * with b unchanged, if a pivot is not above `least`. */
 static inline bool soften_reference_solve(int n, real A[6][6], real *b, real least)
 {
     real L[6][6] = {{0}};
@@ -102,8 +105,8 @@ static inline bool soften_reference_solve(int n, real A[6][6], real *b, real lea
 }
 
 /* Returns the dilatation at particle i [1]: the trace of the strain that fits the stretches of its bonds by least
- * squares, weighted by the stiffness that they keep; D times their mean stretch where they have too few directions for
- * a fit, 0 without bonds. w: matrix of reference_table. */
+ * squares, weighted by their remaining stiffness. If the bonds have too few directions for a fit, returns their mean
+ * stretch times the dimension; 0 without bonds. w: matrix of reference_table. */
 static inline real soften_reference_dilatation(const struct soften_reference *r, const struct particles *p,
                                                const real *w, int64_t i)
 {
@@ -130,10 +133,11 @@ static inline real soften_reference_dilatation(const struct soften_reference *r,
     return trace;
 }
 
-/* Starts the softening of bonds that are beyond their onset and whose row blocks are both due, unless the dilatation
- * shows that no stress pulls at them; only the row blocks of such bonds stay due. Adds the energy that bonds lose at
- * once to r->jumped. w: matrix of reference_table; stiffness: force of a bond of weight 1 over its stretch [N];
- * block[i]: row block of particle i. */
+/* Starts the softening of all bonds whose stretch is beyond their onset and whose row blocks (eight particles stored
+ * together), of both particles, are due to be examined. Bonds at which the dilatation shows that no tensile stress acts
+ * do not start; their row blocks remain due, all others are not. Adds the energy that bonds lose at once because they
+ * start beyond their onset to r->jumped. w: matrix of reference_table; stiffness: force of a bond of weight 1, divided
+ * by its stretch [N]; block[i]: row block of particle i. */
 static inline void soften_reference_begin(struct soften_reference *r, const struct particles *p, const real *w,
                                           real stiffness, const int64_t *block)
 {
@@ -161,11 +165,11 @@ static inline void soften_reference_begin(struct soften_reference *r, const stru
     r->due = denied;
 }
 
-/* Computes force and energy of all particles into row[n] (its stress remains 0), after soften_reference_begin; ends
- * bonds whose stretch is beyond their end, marks the row blocks of bonds beyond their onset as due, and updates the
- * largest stretches. A bond that ends, though its largest stretch was not above its onset before, is brittle: with
- * LAST_FORCE_NONE its force ends at once, and its energy is that of its stretch. Arguments as of
- * soften_reference_begin. */
+/* Computes force and energy of all particles and stores them in row[n] (the stress remains 0). Ends bonds whose stretch
+ * is beyond the end of the softening curve, marks the row blocks (eight particles stored together) of bonds beyond
+ * their onset as due, and updates the largest stretches. A bond that ends although its largest stretch was not above
+ * its onset before is brittle: its force ends at once, and its energy is that of its stretch. w, stiffness, block: as
+ * for soften_reference_begin, which must have been called before. */
 static inline void soften_reference_step(struct soften_reference *r, const struct particles *p, const real *w,
                                          real stiffness, const int64_t *block, struct reference_row *row)
 {
@@ -192,8 +196,8 @@ static inline void soften_reference_step(struct soften_reference *r, const struc
     }
 }
 
-/* Returns the energy that all bonds have dissipated so far [J]: of ended bonds, of those that soften, and lost at once
- * by those that began late. Arguments as of soften_reference_begin. */
+/* Returns the energy that all bonds have dissipated so far [J]: bonds that have ended, bonds that soften, and the
+ * energy that bonds lost at once because they began to soften late. w, stiffness: as for soften_reference_begin. */
 static inline real soften_reference_fracture(const struct soften_reference *r, const struct particles *p, const real *w,
                                              real stiffness)
 {

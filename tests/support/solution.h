@@ -20,8 +20,8 @@ struct solution {
     status made, ran;
 };
 
-/* Creates the run of a scene given as text, with overrides of its keys: a list of at most 16 strings `key=value` that
- * ends with NULL. The status is in a->made. */
+/* Reads a scene from `text`, with the overrides of its keys in `list` (at most 16 strings `key=value`, then NULL), and
+ * creates its run in *a. Stores the status in a->made. */
 static inline void solution_make_list(struct solution *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -31,8 +31,8 @@ static inline void solution_make_list(struct solution *a, const char *text, va_l
     a->ran = a->made;
 }
 
-/* Creates the run of a scene given as text, with overrides of its keys: at most 16 strings `key=value`, then NULL. The
- * status is in a->made. */
+/* Reads a scene from `text`, with overrides of its keys as further arguments (at most 16 strings `key=value`, then
+ * NULL), and creates its run in *a. Stores the status in a->made. */
 static inline void solution_make(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -41,7 +41,7 @@ static inline void solution_make(struct solution *a, const char *text, ...)
     va_end(list);
 }
 
-/* Creates a run as solution_make does and, if this succeeds, runs it to its end. The status is in a->ran. */
+/* Creates a run in *a as solution_make does and, if this succeeds, runs it to its end. Stores the status in a->ran. */
 static inline void solution_run(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -57,6 +57,7 @@ static inline void solution_done(const struct solution *a)
     if (a->ran != OK) fail_msg("%s", status_message());
 }
 
+/* Frees the run and the scene of *a. */
 static inline void solution_free(struct solution *a)
 {
     engine_free_run(&a->e);
@@ -70,7 +71,7 @@ static inline void near_to(const char *what, real value, real expected, real tol
         fail_msg("%s: %.9g where %.9g +- %.2g is expected", what, value, expected, tolerance * fabs(expected));
 }
 
-/* Returns the index of the particle nearest to (x, y, z) [m], in the reference configuration. */
+/* Returns the index of the particle whose reference position is nearest to (x, y, z) [m]. */
 static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
 {
     return particles_index_nearest_to_position(&a->e.part, (const real[DIM_MAX]){x, y, z});
@@ -83,8 +84,9 @@ static inline real solution_moved(const struct solution *a, int d, real x, real 
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Returns the largest difference of a displacement component of two solutions over the largest component in the second,
- * at the particles of the second. Solutions of unequal numbers of particles are compared at the nearest particles. */
+/* Returns the largest difference between displacement components of the solutions a and b at the particles of b,
+ * divided by the largest component of b. If a and b have unequal numbers of particles, each particle of b is compared
+ * with the nearest particle of a. */
 static inline real solution_difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
