@@ -27,9 +27,9 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Sets the critical stretch of bonds for each pair of materials: by the energy of the weaker material, or of an
- * interface between bodies. In static problems no bond breaks. Allocates the table tables->pair_stretch
- * [materials][materials], to which `source` then refers. */
+/* Computes the critical stretch of bonds for each pair of materials, from the fracture energy of the weaker material or
+ * of an interface between bodies; INFINITY in static problems, in which no bond breaks. Allocates the table
+ * tables->pair_stretch [materials][materials], to which *source then refers. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
@@ -49,8 +49,8 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_is_single_equilibrium(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
-/* Sets the softening of bonds for each pair of materials. A bond softens as the one of its two materials that begins to
- * soften at the smaller stretch. Does nothing if no material softens. */
+/* Sets the softening law of bonds for each pair of materials in *tables and *source. A bond between two materials
+ * softens like that material which begins to soften at the smaller stretch. Does nothing if no material softens. */
 static void make_softening(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -72,9 +72,10 @@ static void make_softening(const struct scene *s, struct material_tables *tables
     source->limit.softening = tables->pair_softening, source->limit.curve = &tables->curve;
 }
 
-/* Sets the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials, with
- * sigma_y, E and H of the one of the two that yields first. (H_b: hardening modulus, k_e: elastic stiffness of a bond.)
- * A bar of one material then has its uniaxial stress-strain curve. Does nothing if no material yields. */
+/* Computes the yield stretch s_y = sigma_y/E and the hardening H_b/k_e = H/E of bonds for each pair of materials in
+ * *tables and *source, with yield stress sigma_y, Young's modulus E and plastic modulus H of that material which yields
+ * first. (H_b: hardening modulus, k_e: elastic stiffness of a bond.) A bar of one material then has the uniaxial
+ * stress-strain curve of that material. Does nothing if no material yields. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -95,8 +96,8 @@ static void make_yields(const struct scene *s, struct material_tables *tables, s
     source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
 }
 
-/* Computes the moduli of state-based models for each material, A and B of kernels/pd/state_laws.h, and sets the options
- * of these models. Does nothing for bond-based models. */
+/* Computes the moduli of state-based models for each material (A and B of kernels/pd/state_laws.h) and stores them in
+ * *tables; sets the options of these models in *source. Does nothing for bond-based models. */
 static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     if (s->model == MODEL_BOND) return;
@@ -118,8 +119,8 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Creates the constants of all materials that the kernels use, tables->elastic[materials], and the stretches at which
- * bonds of these materials break, soften and yield. */
+/* Creates the table of elastic constants that the kernels use, tables->elastic[materials], and the tables of stretches
+ * at which bonds of these materials break, soften and yield, to which *source then refers. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
@@ -147,8 +148,8 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
-/* Creates the planes of symmetry of the scene, and the mirror images of pre-cracks, which cut bonds across these
- * planes, in `source` and `tables`. */
+/* Lists the planes of symmetry of the scene for the bonds, and creates the mirror images of pre-cracks, which cut bonds
+ * across these planes. Both are owned by *tables; *source refers to them. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -279,8 +280,8 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
-/* Creates materials, kernels and particles. Returns REFUSED, with a message, if their memory is not available or a body
- * cannot be filled. */
+/* Creates the materials, kernels and particles of run e. Returns REFUSED, with a message, if there is not enough memory
+ * or a body cannot be filled with particles. */
 static status make_particles(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -297,8 +298,8 @@ static status make_particles(struct run *e)
         s, engine_check_memory(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
-/* Creates crack tips, crack growth, static solver, diagnostics and probes. Returns REFUSED, with a message, if growth
- * or a probe does not fit the scene. */
+/* Creates the parts of run e that observe it or act on cracks: crack tips, crack growth, static solver, diagnostics and
+ * probes. Returns REFUSED, with a message, if growth or a probe does not fit the scene. */
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;

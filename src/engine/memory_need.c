@@ -11,8 +11,8 @@
 #define BYTES_PER_BOND_LATTICE 3.0
 #define EXACT_MOST 6000.0 /* [spacings] in longer bodies positions may be rounded (fill.c), and bonds are stored */
 
-/* Returns the fraction of the box from[dim] .. to[dim] [m] that is inside a shape [1], from evenly spaced sample
- * points. */
+/* Returns the fraction of the box with the corners from[dim] and to[dim] [m] that is inside the region `shape`,
+ * estimated from evenly spaced sample points. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
 {
     enum { ACROSS = 24 };

@@ -55,8 +55,8 @@ static void nodes_take(struct run *e, struct run *old)
     bonded_points_update_strain(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
-/* Moves the remaining state from run `old` to run e: motion of nodes, output files, timers and warnings, which the
- * state functions of struct part do not transfer. */
+/* Moves from run `old` to run e the state that the state functions of struct part do not transfer: motion of nodes,
+ * output files, timers and warnings. */
 static void rest_take(struct run *e, struct run *old)
 {
     nodes_take(e, old);

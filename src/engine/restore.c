@@ -4,9 +4,9 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Creates run e again without the particles of the hollow cells of a checkpoint, and keeps its report, warnings and
- * timers. absent: 1 for each cell without particles; the run owns this array from now on. Returns REFUSED or FAILED,
- * with a message, if the run cannot be created. */
+/* Creates run e again without the particles of the hollow cells (inside a body, replaced by coarse cells) of a
+ * checkpoint; its report, warnings and timers are kept. absent[cells]: 1 for each cell without particles; the run owns
+ * this array from now on. Returns REFUSED or FAILED, with a message, if the run cannot be created. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;

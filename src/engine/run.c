@@ -8,8 +8,8 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Stores position and radius of the integration contours of all probes of stress-intensity factors in the frame f.
- * Cells inside these contours are not made coarser. seen: view of the run for probes. */
+/* Stores position and radius of the integration contours of all SIF probes (stress-intensity factors) in the reference
+ * frame f, whose cells inside these contours are not made coarser. seen: view of the run for probes. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed_run *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
@@ -18,8 +18,9 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
         f->rings += probes_locate_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Adapts the refinement levels of cells to cracks and stress. If refined cells lack particles, the run is first
- * replaced by one that has them; returns FAILED, with a message, if that is not possible. */
+/* Adapts the levels of the mesh cells of run e (0: finest; the edge doubles with each level) to cracks and stress. If
+ * cells that become finer lack particles, the run is first replaced by a run that has these particles. Returns FAILED,
+ * with a message, if that is not possible. */
 static status refine(struct run *e)
 {
     if (!mesh_levels_may_change_before_step(&e->frame->levels, e->clock.step)) return OK;

@@ -49,8 +49,8 @@ static void put_warnings(struct json *j, const struct warnings *w)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if fragments are reported: for a peridynamic body with broken bonds or pre-cracks, except in static
- * problems. */
+/* Returns true if the run reports fragments: bodies have bonds, some of which are broken or cut by pre-cracks, and the
+ * problem is not static. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
     return scene->method == METHOD_PD && !scene_is_single_equilibrium(scene) &&
@@ -69,8 +69,8 @@ static void put_fragments(struct json *j, const struct fragments *f)
     json_close(j, '}');
 }
 
-/* Prints fragments.csv to file: a header, and a line with body, particles, mass, position and velocity for each
- * fragment, the heaviest first. */
+/* Prints the contents of fragments.csv to `file`: a header, and for each fragment of f, the heaviest first, a line with
+ * body, number of particles, mass, position and velocity. part: particles of the run. */
 static void fragments_print(FILE *file, const struct particles *part, const struct fragments *f)
 {
     static const char axis[] = "xyz";
@@ -88,8 +88,8 @@ static void fragments_print(FILE *file, const struct particles *part, const stru
     }
 }
 
-/* Writes fragments.csv into the folder of the run. Returns FAILED, with a message, if memory is exhausted or the file
- * cannot be written. */
+/* Writes fragments.csv, a table of the fragments f, into the folder of the run. Returns FAILED, with a message, if
+ * memory is exhausted or the file cannot be written. */
 static status fragments_write(const struct particles *part, const struct run_report *report, const struct fragments *f)
 {
     char *text = NULL;

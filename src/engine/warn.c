@@ -11,7 +11,7 @@
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
-/* Returns true if a boundary or an initial state of scene s rotates a body. */
+/* Returns true if a boundary condition or an initial state of scene s makes a body rotate. */
 static bool spins(const struct scene *s)
 {
     bool any = false;
@@ -76,7 +76,8 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
             s->cell);
 }
 
-/* Adds warnings to *to about keys for coarse cells and slits that have no effect in this scene. */
+/* Adds warnings to *to about keys for coarse mesh cells and for slits (pre-cracks as gaps in the mesh) that have no
+ * effect in the scene s. frame: reference frame of the run with its mesh. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
@@ -115,8 +116,8 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
-/* Returns true if a region contains a particle. Also returns true if the run has cells whose particles are not created
- * (hollow cells), because these may be in the region. */
+/* Returns true if `region` contains a particle of the run. Also returns true if the run has cells whose particles are
+ * not created (hollow cells), because these cells may be in the region. */
 static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
                           const struct region *region)
 {
@@ -159,7 +160,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
         warnings_add_if_new(to, "output.fields: no material yields, so frames will have no plastic_strain");
 }
 
-/* Adds warnings to *to about output regions that contain no particle. */
+/* Adds warnings to *to about regions for which the scene requests frames of their own but which contain no particle. */
 static void warn_of_regions(const struct scene *s, const struct reference_frame *frame, const struct particles *p,
                             struct warnings *to)
 {

@@ -44,8 +44,8 @@ static void flights_of_rigids(const struct scene *s, struct flight *f)
     }
 }
 
-/* Returns true if a body moves in one direction as a whole: along one axis all its particles move in the same
- * direction, each with more than half of the largest speed. */
+/* Returns true if the body that f describes moves in one direction as a whole: along one axis all particles move in the
+ * same direction, each with more than half of the largest speed. */
 static bool flies(const struct flight *f, int dim)
 {
     bool any = false;

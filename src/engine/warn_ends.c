@@ -19,7 +19,7 @@ struct supported {
     real end, inner_nodes; /* positions along the axis: of the end; of the nodes half a cell before it [m] */
 };
 
-/* Returns true if mirror plane of the scene s is at the end of the body in *a. */
+/* Returns true if the scene s has a plane of symmetry at the end of the body that *a describes. */
 static bool mirror_at_end(const struct scene *s, const struct supported *a)
 {
     bool any = false;
@@ -29,8 +29,9 @@ static bool mirror_at_end(const struct scene *s, const struct supported *a)
     return any;
 }
 
-/* Sets *a for load l along axis a->axis. Returns false if the load drives other particles than material points, more
- * than one layer of them along the axis, or none at the end of its body alone. */
+/* Describes in *a the end of a body that the load l supports, along the axis a->axis, which the caller has set. Returns
+ * false if the load drives particles other than material points, more than one layer of points along the axis, or not
+ * exactly one end of its body. */
 static bool supported_end_find(const struct scene *s, const struct load *l, const struct particles *p,
                                struct supported *a)
 {
@@ -52,7 +53,8 @@ static bool supported_end_find(const struct scene *s, const struct load *l, cons
     return a->side != 0;
 }
 
-/* Returns true if the load l drives nodes half a cell before the end, because they are in its region. */
+/* Returns true if the load l also drives the grid nodes half a cell before the end of the body, a->inner_nodes, because
+ * they are in the region of the load. */
 static bool region_has_inner_nodes(const struct scene *s, const struct load *l, const struct particles *p,
                                    const struct grid *g, const struct supported *a)
 {
@@ -68,9 +70,9 @@ static bool region_has_inner_nodes(const struct scene *s, const struct load *l, 
     return any;
 }
 
-/* Adds the warning to *to that the support `boundary` holds the body named `body` as if it were longer by `off`
- * spacings than its `length` [spacings]. The stiffness of a bar in tension varies as 1/length, in bending as its cube.
- */
+/* Adds a warning to *to that the support `boundary` holds the body named `body` as if its length were `length` + `off`
+ * [spacings] instead of `length`, with the resulting errors of the stiffness, which varies as 1/length for a bar in
+ * tension and as 1/length^3 in bending. */
 static void warn_of_end(const struct supported *a, const char *boundary, const char *body, real length, int off,
                         struct warnings *to)
 {

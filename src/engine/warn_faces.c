@@ -9,7 +9,7 @@
 #define ROWS_ENOUGH 5 /* rows of the spacing that is named as a remedy */
 #define UNSOLVED 1e-8 /* residual of the weights from which on they are doubted: solved ones have 1e-13 */
 
-/* Adds a warning to *to about body b if it has at most ROWS_FEW rows of particles along an axis. */
+/* Adds a warning to *to about the body with the index b if it is at most ROWS_FEW particles thick along an axis. */
 static void warn_of_thin(const struct scene *s, const struct particles *p, int b, struct warnings *to)
 {
     real low[DIM_MAX], high[DIM_MAX], rows = INFINITY;

@@ -42,8 +42,9 @@ static unsigned components_apart(const struct scene *s, const struct particles *
     return apart & a->boundary->components & b->boundary->components;
 }
 
-/* Adds a warning to *to if loads a and b prescribe different motions in the same components of the same particles: the
- * later load moves them, but the work of both is on the account, some ten percent of it for an edge of two faces. */
+/* Adds a warning to *to if the loads a and b prescribe different motions in the same components of the same particles.
+ * The later load then moves these particles, but the energy balance counts the work of both loads; at an edge that two
+ * loaded faces share the error is some ten per cent of the work. */
 static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
                              const struct load *b, struct warnings *to)
 {

@@ -192,8 +192,8 @@ static void units_of_brittleness(const struct scene *s, real longest, struct war
 
 /* ---- times of loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns the largest magnitude of the function of time f from time 0 to t_end [s] [1]. t_end: INFINITY for all
- * times. */
+/* Returns the largest absolute value of the function of time f, a factor on a load, between the times 0 and t_end [s].
+ * t_end: INFINITY for all times. */
 static real factor_largest_until(const struct time_function *f, real t_end)
 {
     real most = fabs(time_function_value(f, t_end));
@@ -244,8 +244,8 @@ struct load_figures {
     int supports;
 };
 
-/* Returns the stress that the applied load l causes at its k-th particle at time t [Pa]: the magnitude of a traction or
- * pressure, or that of a body force times the longest edge of the box around all particles. */
+/* Returns the stress that the applied load l causes at time t [s] at particle number k of its list [Pa]: the magnitude
+ * of a traction or pressure, or that of a body force times the longest edge of the box around all particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
@@ -257,8 +257,8 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
            particles_bounding_box_longest_edge(p);
 }
 
-/* Updates the largest values *f by the stress or displacement that load l prescribes at its k-th particle at time t
- * [s]. */
+/* Updates the largest values in *f by the stress or displacement that the load l prescribes at time t [s] at particle
+ * number k of its list. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {
@@ -348,9 +348,10 @@ static void units_of_growth(const struct scene *s, const struct particles *p, re
     units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
 }
 
-/* Warns if the largest stress of the run cannot break any material, or is far above the strength. The stress is
- * estimated from tractions, from rho c v of speeds v and from E u/L of displacements u of bodies of length L. In a body
- * in motion displacements may grow after the first bonds have broken, so they are not reported as too large. */
+/* Adds a warning to *to if the largest stress of the run cannot break any material, or is far above the strength. The
+ * stress is estimated from tractions, as rho c v from speeds v, and as E u/L from displacements u of bodies of length L
+ * (rho: density, c: wave speed, E: Young's modulus). Displacements in dynamic runs are not reported as too large, since
+ * they may grow after the first bonds have broken. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {

@@ -28,8 +28,8 @@ static void *copy_of(const void *from, int64_t n, size_t size)
     return to;
 }
 
-/* Returns true if the particles of a frame are those of the particle set s: their number, reference positions and sizes
- * are equal. A particle set is what consecutive frames have in common until particles are added or removed. */
+/* Returns true if the particles of a frame are those of the particle set s (the particles that consecutive frames have
+ * in common): number, reference positions and sizes are equal. */
 static bool set_is_of(const struct film_set *s, const struct output_frame *frame)
 {
     bool same = s->n == frame->n && !s->size == !frame->spacing;
@@ -150,7 +150,8 @@ static void film_group(struct film *f)
     for (int k = 0; k < f->sets; k++) film_particle_set_form_groups(&f->set[k], f);
 }
 
-/* Returns true if the film, with the frames, fields and groups that are selected now, takes at most `budget` bytes. */
+/* Returns true if the film, with the frames, fields and groups (particles shown as one) that are selected now, takes at
+ * most `budget` bytes on the page. */
 static bool fits(const struct film *f, int64_t budget)
 {
     const int64_t each = 2 * f->dim + film_bytes_per_group_and_frame(f), once = 2 * f->dim + 6;
@@ -160,8 +161,8 @@ static bool fits(const struct film *f, int64_t budget)
     return bytes <= budget;
 }
 
-/* Uses the part of the budget that the selected contents of the film do not need: first for the extra fields, then for
- * more frames. budget: largest size of the film in the page [byte]. */
+/* Adds contents to the film as far as the budget allows: first the fields that are left out if the budget is short,
+ * then more frames. budget: largest size of the film on the page [byte]. */
 static void film_fill(struct film *f, int64_t budget)
 {
     const int used = f->used;
@@ -193,8 +194,9 @@ void film_select_within_byte_budget(struct film *f, int64_t byte_budget)
 
 /* ---- second reading ---------------------------------------------------------------------------------------------- */
 
-/* Writes the reference positions of the shown groups of the particle set s along axis d: the means over the particles
- * of each group, as numbers of 16 bits between the smallest and the largest mean. */
+/* Writes the coordinate along axis d of the reference positions of all shown groups (particles shown as one) of the
+ * particle set s to the page: the means over the particles of each group, as 16-bit numbers between the smallest and
+ * the largest mean. */
 static void write_positions(struct page *p, const struct film_set *s, int d)
 {
     double *mean = NEW("report.mean", s->groups, double), low = INFINITY, high = -INFINITY;
@@ -215,9 +217,9 @@ static void write_positions(struct page *p, const struct film_set *s, int d)
     memory_free(stored), memory_free(mean);
 }
 
-/* Writes the displacements of a frame along axis d for the shown groups of the particle set s. A value is the mean of u
- * over the particles of a group, divided by the largest displacement f->reach[d], as a signed 16-bit number. u[s->n]:
- * displacements of the particles [m]. */
+/* Writes the displacements of a frame along axis d for all shown groups (particles shown as one) of the particle set s
+ * to the page: the mean of u over the particles of each group, divided by the largest displacement f->reach[d], as a
+ * signed 16-bit number. u[s->n]: displacements of the particles [m]. */
 static void write_displacements(struct page *p, const struct film *f, const struct film_set *s, const float *u, int d)
 {
     int16_t *stored = NEW("report.stored", s->shown, int16_t);

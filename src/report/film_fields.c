@@ -106,9 +106,9 @@ int film_bytes_per_group_and_frame(const struct film *f)
     return bytes;
 }
 
-/* Returns the value of a field for group g of the particle set s as a stored number. It is the mean of value[s->n] over
- * the group, as 0..254 over the range of the field, or 255 for no value. Categories such as materials are stored
- * unchanged, fragments in 16 bits; both are those of one particle of the group. */
+/* Returns the number that the page stores for a field and group g (particles shown as one) of the particle set s: the
+ * mean of value[s->n] over the group, as 0..254 over the stored range of the field, or 255 for no value. Categories
+ * such as materials are stored unchanged, fragments in 16 bits; both are those of one particle of the group. */
 static unsigned value_stored(const struct film_field *field, const struct film_set *s, const float *value, int64_t g)
 {
     double sum = 0;

@@ -6,11 +6,11 @@
 #include "base/memory.h"
 #include "film.h"
 
-/* A number that identifies a cell holds the cell's index along each axis in KEY_BITS bits; KEY_MOST is the largest
- * index. */
+/* KEY_BITS: number of bits for the index of a cell along each axis in the number that identifies the cell; KEY_MOST:
+ * largest such index. */
 enum { KEY_BITS = 20, KEY_MOST = (1 << KEY_BITS) - 1 };
 
-/* A particle and the cell that it is in. */
+/* A particle, and the number of the cell in which it is (cell_key). */
 struct member {
     uint64_t key;
     int32_t index;

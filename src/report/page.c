@@ -32,7 +32,7 @@ status page_begin_in_memory(struct page *p)
     return OK;
 }
 
-/* Writes `length` bytes in base64 (RFC 4648). */
+/* Writes bytes[length] to the file `to` in base64 (RFC 4648). */
 static void write_base64(FILE *to, const unsigned char *bytes, size_t length)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -86,7 +86,7 @@ void page_add_time(struct page *p, const char *entry_name, time_t moment)
         json_write_text(&p->json, entry_name, text);
 }
 
-/* Writes a text as the content of an HTML element, with < and & escaped. */
+/* Writes `text` to the file `to` as the content of an HTML element, with < and & escaped. */
 static void write_escaped(FILE *to, const char *text)
 {
     for (const char *c = text; *c; c++) {

@@ -101,7 +101,8 @@ static bool run_is_done(const char *folder)
     return strcmp(state, "done") == 0;
 }
 
-/* Adds why runs of the study in `folder` have failed to the page, by their names, at most REASONS_MOST. */
+/* Adds the reasons for which runs of the study in `folder` have failed to the page, with the names of the runs, at most
+ * REASONS_MOST. */
 static void write_reasons(struct page *p, const char *folder)
 {
     char **log, text[MESSAGE_ROOM];
@@ -121,8 +122,8 @@ static void write_reasons(struct page *p, const char *folder)
     folder_names_free(log, n);
 }
 
-/* Adds the units of the columns of sweep.csv to the page: of the varied keys those of numbers without a unit, of
- * figures those in the header of the history of the first run that has one. folder: folder of the study. */
+/* Adds the units of the columns of sweep.csv to the page: for varied keys the units of numbers without a unit, for
+ * figures the units in the header of history.csv of the first run that has such a file. folder: folder of the study. */
 static void write_study_units(struct page *p, const char *folder)
 {
     char **name, header[HEADER_ROOM] = "", unit[UNIT_ROOM], *table = NULL;

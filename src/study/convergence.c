@@ -82,8 +82,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a figure at the three finest spacing levels l[3]
- * (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) of the means m0, m1, m2 of a figure (scalar result) at the three finest spacing
+ * levels l[3] (l[0] the finest) that would result if the error were proportional to h^p, with the spacing h. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -107,8 +107,8 @@ static double order_find(const struct level_figures *l, double ratio)
     return 0.5 * (low + high);
 }
 
-/* Orders of convergence: the smallest and the largest one that are consistent with the means and their errors, and the
- * observed order `seen`. The observed order is NAN if the means oscillate. */
+/* Orders of convergence. low, high: smallest and largest order that are consistent with the means of the levels and the
+ * errors of these means; seen: observed order, NAN if the means oscillate. */
 struct orders {
     double low, seen, high;
 };
@@ -130,8 +130,9 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
-/* Sets verdict, observed order and grid convergence index (Roache 1998) of a figure from its three finest spacing
- * levels. Order and index are NAN if they have no meaning. A figure is a number in summary.json of the runs. */
+/* Determines verdict, observed order and grid convergence index (Roache 1998) of a figure (a number in summary.json of
+ * the runs) from its three finest spacing levels, and stores them in *c. The order is NAN if the means oscillate or
+ * differ by no more than their errors; the index is NAN if the order is NAN or below 1/2. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

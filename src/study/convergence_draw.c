@@ -18,7 +18,8 @@
 enum { SHOWN_MOST = 6, SHOWN_WIDE = 3, TIPS_MOST = 16, TICS_MOST = 7 };
 #define FLICKER 3.0 /* largest apparent motion of a tip that does not grow [spacings] */
 
-/* Returns the path of picture `key` of the study in `folder`, with the ending of the format that was chosen. */
+/* Returns the path FOLDER/pictures/KEY.png of a picture of the study in `folder`, with KEY = key, or with the ending of
+ * another format that picture_size_set has set. */
 static struct path convergence_picture(const char *folder, const char *key)
 {
     char name[PICTURE_NAME_ROOM];
@@ -57,14 +58,15 @@ static void send_figure(FILE *to, const struct convergence_study *s, const struc
             f->c.level[0].mean / factor, f->c.uncertainty[0] / factor);
 }
 
-/* Returns true if a curve to the value at spacing 0 is drawn. */
+/* Returns true if the picture shows a curve from the means of the figure c to the extrapolated value at spacing 0: if
+ * the figure converges, even slowly, and its order is known. */
 static bool is_extrapolated(const struct convergence *c)
 {
     return (c->verdict == VERDICT_CONVERGES || c->verdict == VERDICT_SLOW) && isfinite(c->order_likely);
 }
 
-/* Plots the figure f: its runs, the means with their intervals and, if it converges, the curve to spacing 0. metre:
- * unit of the spacings [m]. */
+/* Plots the figure f (a scalar result) in panel number `panel` from the data blocks of send_figure: its runs, the means
+ * with their intervals and, if it converges, the curve to spacing 0. metre: unit of the spacings [m]. */
 static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel, double metre)
 {
     const struct convergence *c = &f->c;
@@ -87,8 +89,8 @@ static void plot_figure(FILE *to, const struct scalar_result_study *f, int panel
             panel, panel, curve_colour[5], panel, curve_colour[0]);
 }
 
-/* Sends the distances of the tics of a panel of wide x high pixels that shows the figure f, so that their numbers do
- * not touch. coarsest: in the unit of the horizontal axis. */
+/* Sends the distances between tics (labelled marks) of a panel of wide x high pixels that shows the figure f to
+ * gnuplot, such that the numbers do not touch. coarsest: coarsest spacing, in the unit of the horizontal axis. */
 static void send_tics_of_panel(FILE *to, const struct convergence_study *s, const struct scalar_result_study *f,
                                double coarsest, double wide, double high)
 {
@@ -152,7 +154,7 @@ static struct figures_layout figures_layout_make(int shown, const struct gnuplot
     return best;
 }
 
-/* Writes the gnuplot commands for the margins of panel number k. */
+/* Writes the gnuplot commands for the margins of panel number k, from 0, in the layout l. */
 static void figure_place(FILE *to, const struct figures_layout *l, int k)
 {
     const double x = k % l->columns * l->cell_wide, y = l->height - k / l->columns * l->cell_high;
@@ -163,8 +165,9 @@ static void figure_place(FILE *to, const struct figures_layout *l, int k)
             (y - l->cell_high + l->below) / l->height);
 }
 
-/* Draws the key of all panels, on their right or in a narrow picture below them. It is a panel of its own, as large as
- * the picture, because gnuplot makes no key wider than its panel. extrapolated: a panel has a curve to spacing 0. */
+/* Draws the common key (legend) of all panels, on their right or in a narrow picture below them. The key is drawn as a
+ * panel of its own, as large as the picture, because gnuplot makes no key wider than its panel. extrapolated: true if a
+ * panel has a curve to spacing 0. */
 static void draw_figures_key(FILE *to, const struct figures_layout *l, bool extrapolated)
 {
     fputs("unset border\nunset tics\nunset title\nunset xlabel\nunset grid\nset offsets\nset lmargin at screen 0\n"
@@ -230,10 +233,11 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the crack tip to which the i-th position of *l belongs. The history contains only the position
- * of the longest tip, which is not always the same one. It is the tip whose last position is nearest, among those that
- * can have moved to position i: from its last position, k, it can have moved by 2 (l->grown[i] - l->grown[k]) + FLICKER
- * * spacing. If there is none, returns a new index. spacing: lattice spacing of the run [m]. */
+/* Finds the crack tip to which position number i of *l belongs, since the history contains only the position of the
+ * longest crack, which is not always the same crack. Among the tips that can have moved to this position, it is the one
+ * whose last position is nearest: since position number k, a tip can have moved by at most 2 (l->grown[i] -
+ * l->grown[k]) + FLICKER * spacing. Returns the index of the tip, a new index if there is no such tip. spacing: lattice
+ * spacing of the run [m]. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};
@@ -326,7 +330,8 @@ struct paths_layout {
     int key_columns, key_lines;
 };
 
-/* Returns the layout of a picture of paths. levels: number of entries of the key, one for each spacing. */
+/* Returns the layout of a picture of crack paths. levels: number of entries of the key (legend), one for each spacing.
+ */
 static struct paths_layout paths_layout_make(int levels)
 {
     if (!picture_is_too_narrow_for_key())
@@ -338,7 +343,8 @@ static struct paths_layout paths_layout_make(int levels)
     return l;
 }
 
-/* Returns the height of a picture of the given width [pixel] in which the paths fill the panel. */
+/* Returns the height of a picture of crack paths in which the bounding box e of the paths fills the panel [pixel].
+ * width: width of the picture [pixel]. */
 static int paths_height(const struct extent *e, const struct paths_layout *l, int width)
 {
     const double aspect = (e->high[1] - e->low[1]) / (e->high[0] - e->low[0]);
@@ -376,8 +382,9 @@ static void paths_send(FILE *to, const struct convergence_study *s, struct exten
     }
 }
 
-/* Writes the margins of the panel of paths, the ranges of its axes, which have one scale, their labels, and their tics,
- * so far apart that numbers do not touch; and the place of the key. */
+/* Writes the gnuplot commands for the panel of crack paths: margins, ranges of the axes (one scale for both, such that
+ * the bounding box e is visible), labels, tics so far apart that numbers do not touch, and position of the key
+ * (legend). */
 static void paths_write_axes(const struct gnuplot *g, const struct extent *e, const struct paths_layout *l)
 {
     const bool narrow = picture_is_too_narrow_for_key();

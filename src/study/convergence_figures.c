@@ -104,8 +104,8 @@ static bool figure_make(struct scalar_result_study *f, const struct convergence_
     return true;
 }
 
-/* Returns true if a number of summary.json differs between the runs of a study. For example, energies of mechanisms
- * that the scene does not have are constant. */
+/* Returns true if the means of the figure f (a number in summary.json) differ between the spacing levels or runs of a
+ * study. Energies of mechanisms that the scene does not have are an example of constant ones. */
 static bool figure_moves(const struct scalar_result_study *f)
 {
     bool moves = false;
@@ -299,7 +299,7 @@ static void order_print(const struct scalar_result_study *f)
     printf(", %s%s", limit_is_impossible(f) ? "no limit, which would be negative: " : "limit ", text);
 }
 
-/* Returns the figure f in the unit in which it is printed. */
+/* Returns a copy of the figure f (scalar result) with all values converted to the unit in which it is printed. */
 static struct scalar_result_study figure_in_printed_unit(const struct scalar_result_study *f)
 {
     const struct unit unit = scalar_result_unit(f);
@@ -314,8 +314,8 @@ static struct scalar_result_study figure_in_printed_unit(const struct scalar_res
     return p;
 }
 
-/* Prints the means of a figure at all spacings, how it converges, and its value with its interval. own: level of the
- * scene's own spacing, -1 if there is none; metre: unit of the spacings. */
+/* Prints the means of a figure (scalar result) at all spacings, how it converges, and its value with its 95 % interval.
+ * own: level with the spacing of the scene, -1 if there is none; metre: unit of the spacings. */
 static void figure_print(const struct scalar_result_study *figure, int own, const struct unit *metre)
 {
     const struct scalar_result_study shown = figure_in_printed_unit(figure), *f = &shown;

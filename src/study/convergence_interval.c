@@ -19,7 +19,7 @@ enum { ORDERS = 7, MISFITS = 10 };
 #define ORDER_FIRST 0.5   /* range of the order p, sampled in equal steps */
 #define ORDER_LAST 2.0    /* end of the range */
 #define MISFIT_LEAST 1e-3 /* smallest t; sampled from here to 1 in equal steps of its logarithm */
-#define VAGUE 100.0       /* standard deviation of the prior of v over S */
+#define VAGUE 100.0       /* standard deviation of the prior of v, divided by S */
 
 /* Posterior of (v - m_0)/S as a mixture of normal distributions, one for each order and misfit: weight, mean, standard
  * deviation, and order p. v: value at spacing 0; m_0: mean of the finest level; S: range of the means. */
@@ -44,10 +44,10 @@ static double range_scale(const struct convergence *c)
 }
 
 /* Fits m_k = v + a (h_k/h_0)^p to the means m_k of a result at the spacing levels k with spacings h_k (level 0 is the
- * finest), by Bayesian linear regression with broad normal priors of v and a. p: order of convergence; t: standard
- * deviation, over `scale`, of the means about this law in addition to their own errors. Stores the mean of the
- * posterior of (v - m_0)/scale in *centre and its standard deviation in *deviation. Returns the logarithm of the
- * likelihood of the means for this p and t, up to a constant. */
+ * finest), by Bayesian linear regression with broad normal priors of v and a. c: means and their errors; scale: scale
+ * of the means (range_scale); p: order of convergence; t: standard deviation of the means about this law in addition to
+ * their own errors, divided by `scale`. Stores the mean of the posterior of (v - m_0)/scale in *centre and its standard
+ * deviation in *deviation. Returns the logarithm of the likelihood of the means for this p and t, up to a constant. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -123,7 +123,7 @@ static double mixture_half_width(const struct mixture *m, double about, double s
 }
 
 /* Returns the half-width of the interval around 0 that contains a normal variable of mean 0 with the probability
- * `share`. The standard deviation is such that the interval of 95 % has half-width 1. */
+ * `share`, divided by the half-width for 95 %. */
 static double normal_half_width(double share)
 {
     double low = 0, high = 10;

@@ -23,9 +23,9 @@ struct places {
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Appends the distance |distance| [m] of a face or crack to *p if it fits the lattice of the scene: if it is n or n +
- * 1/2 spacings, with a whole number n. Ignores other distances, distances below one spacing and duplicates. spacing: of
- * the scene [m]. */
+/* Appends |distance|, the distance of a face or crack from the corner of its body [m], to the list *p if it fits the
+ * lattice of the scene: if it is n or n + 1/2 spacings, with a whole number n. Ignores other distances, distances below
+ * one spacing and duplicates. spacing: particle spacing of the scene [m]. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -76,9 +76,9 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the spacing [m] between wanted (1 - reach) and wanted (1 + reach) at which the distances p of faces and
- * cracks fit the lattice best. Of equally good spacings it is the nearest to `wanted` [m]. Excludes the spacings
- * taken[n] [m]. Returns 0 if there is none. */
+/* Returns the spacing between wanted (1 - reach) and wanted (1 + reach) at which the distances p of faces and cracks
+ * fit the lattice best; of equally good spacings the nearest to `wanted` [m]. reach: relative half-width of the search;
+ * taken[n]: spacings that are excluded [m]. Returns 0 if there is none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {
     double longest = 0, best = 0, least = INFINITY;

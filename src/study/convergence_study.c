@@ -20,9 +20,9 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the time step for run number `run` of the `runs` runs of a spacing level. Run 0 has the time
- * step of the scene. The others have alternately shorter and longer steps, beginning with the largest deviations. Steps
- * that would be unstable are excluded. */
+/* Returns the factor on the time step of the scene for run number `run`, from 0, of the `runs` runs of a spacing level.
+ * Run 0 has the factor 1. The others have alternately shorter and longer steps, beginning with the largest deviations;
+ * steps that would be unstable are excluded. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -58,8 +58,8 @@ static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM]
     ++*n;
 }
 
-/* Adds a run with the parameters p to the study. Its overrides are those of the user, followed by spacing, horizon,
- * time step and seed of random numbers of this run. */
+/* Adds a run with the parameters p to the study s. The overrides of the run are those of the user, followed by spacing,
+ * horizon, time step and seed of random numbers of this run. */
 static void point_add(struct convergence_study *s, struct study_point p)
 {
     char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
@@ -107,7 +107,7 @@ static double cost_beside(const struct convergence_study *s, double spacing)
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
 
-/* Returns the predicted duration of all planned runs of a study [s], if `jobs` of them run at a time. */
+/* Returns the predicted duration of all planned runs of the study s together [s], if `jobs` runs run at a time. */
 static double cost_of_all(const struct convergence_study *s, int jobs)
 {
     double sum = 0, longest = 0;
@@ -132,9 +132,9 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Chooses the largest number of runs of each spacing level, at most `runs`, with which the study takes at most `left`
- * [s] with `jobs` runs at a time. If even RUNS_LEAST runs take longer, plans only one run at the finest level. Returns
- * false if this takes too long as well. Stores the predicted time in s->expected. */
+/* Chooses the largest number of runs of each spacing level, at most `runs`, with which the study takes no longer than
+ * `left` [s] if `jobs` runs run at a time. If even RUNS_LEAST runs per level take longer, plans only one run at the
+ * finest level. Stores the predicted time in s->expected. Returns false if even this plan takes too long. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {

@@ -11,10 +11,10 @@
 /* Capacities of the last part of a figure's name, and of the whole name [byte]. */
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
-/* Returns true if the runs of a scene have figures on contact in summary.json. */
+/* Returns true if summary.json of runs of the scene s contains numbers on contact. */
 static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_can_meet(s); }
 
-/* Returns true if the runs of a scene have figures on fragments in summary.json. */
+/* Returns true if summary.json of runs of the scene s contains numbers on fragments. */
 static bool of_fragments(const struct scene *s) { return scene_is_dynamic(s) && scene_can_crack(s); }
 
 /* Names of the numbers in summary.json, grouped by the part of the name before the last point. group: this part, with #
@@ -85,8 +85,8 @@ struct nearest {
     int distance;
 };
 
-/* Compares the known name group.leaf with the misspelt name n->to. Stores it in n->name if it is more similar (by the
- * edit distance) than the name stored there so far. */
+/* Compares the known name GROUP.LEAF, with GROUP = group and LEAF = leaf, with the misspelt name n->to. Stores the
+ * known name in n->name if it is more similar (by the edit distance) than the name stored there so far. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];

@@ -22,7 +22,8 @@ enum { REFUSED_MOST = 4 }; /* largest number of refinements after spacings at wh
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
-/* Copies a key and its value to to->key[*n] and to->value[*n], the keys chosen by pilot runs, and increments *n. */
+/* Appends a key that pilot runs have chosen, and its value, to the lists to->key and to->value, which have *n entries,
+ * and increments *n. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -31,8 +32,8 @@ static void chosen_put(struct pilot *to, int *n, const char *key, const char *va
     ++*n;
 }
 
-/* Sets to->override to the overrides of the user followed by the keys of a candidate method: method, model, solver and
- * the given spacing [m]. */
+/* Sets to->override to the overrides of the user followed by those that select the candidate method c: keys method,
+ * model and solver, and the particle spacing `spacing` [m]. p: scene and overrides of the user. */
 static void candidate_write(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *c,
                             double spacing)
 {
@@ -153,8 +154,9 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a candidate method whose value of the figure differs from that of c by more than the uncertainties of both
- * and the requested accuracy, so that one of the two values must be wrong. Returns NULL if there is none. */
+/* Returns a candidate method whose value of the figure (scalar result) differs from that of the method c by more than
+ * the uncertainties of both and the requested accuracy together, so that one of the two values must be wrong. Returns
+ * NULL if there is none. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {

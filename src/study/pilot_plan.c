@@ -47,7 +47,8 @@ static void candidates_find(struct pilot_search *p)
         candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
 }
 
-/* Returns true if boundary b drives, loads or turns particles. A support that only holds them does not act. */
+/* Returns true if the boundary condition b moves or loads particles; false if it only holds them at rest. dim:
+ * dimension of the space. */
 static bool boundary_acts(const struct boundary *b, int dim)
 {
     bool acts = b->rotates || b->time_unit;

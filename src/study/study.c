@@ -274,8 +274,8 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads how the run in `folder` ended, such as "done" or "failed", from its summary into ended[capacity]. Stores "" if
- * the folder contains no finished run, or a run of another scene than scene_text. */
+/* Reads from its summary how the run in `folder` ended, such as "done" or "failed", into ended[capacity]. Stores "" if
+ * the folder contains no finished run, or a run of a scene other than that with the text scene_text. */
 static void ended_as(char *ended, size_t capacity, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) ||
@@ -302,9 +302,9 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
     return OK;
 }
 
-/* Marks run `number` if an earlier run of the study has the same scene: looks up `text`, the scene of the run, in the
- * hash table `seen`. Sets the state of the run to CASE_SAME if it is found, else enters it. Returns REFUSED or FAILED
- * if the scene of an earlier run cannot be read. */
+/* Looks up `text`, the scene of run number `number` of the study, in the hash table `seen` of the scenes of earlier
+ * runs. If an earlier run has the same scene, sets the state of the run to CASE_SAME; otherwise enters the scene in the
+ * table. Returns REFUSED or FAILED if the scene of an earlier run cannot be read. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -324,9 +324,9 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
-/* Reads the scene of run `number`, and sets the state of the run if it equals an earlier run or if its folder contains
- * its results already. collect: true if runs that failed before are marked as failed; false if they are to be run
- * again. seen: scenes of the runs checked before. Returns REFUSED if the scene is invalid. */
+/* Reads the scene of run number `number`, and sets the state of the run if its scene equals that of an earlier run or
+ * if its folder contains its results already. collect: true to mark runs that failed before as failed, false to run
+ * them again; seen: scenes of the runs checked before. Returns REFUSED if the scene is invalid. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

@@ -11,7 +11,7 @@ enum { DECADES = 100, DIGITS_LEAST = 4, DIGITS_MOST = 12 };
 /* Largest number of intervals of a horizontal axis; least distance of the tics of a vertical axis [pixel]. */
 enum { STEPS_MOST = 4, TICS_UP = 31 };
 
-/* Values nearer to even distances than this share of their distance are evenly spaced [1]. */
+/* Largest deviation from even distances, relative to the distance, at which values count as evenly spaced. */
 static const double EVEN = 1e-6;
 
 /* Margin of a logarithmic axis at either end, as a share of its length [1]. */
@@ -23,7 +23,7 @@ double study_value_across(const struct study_picture *p, int value_index)
     return p->numbers ? value_read_number_and_unit(p->key[p->across].shown.value[value_index], &unit) : value_index;
 }
 
-/* Returns true if value number v of the key across has a point in panel number `panel`. */
+/* Returns true if value number v of the key along the horizontal axis has a point in panel number `panel`. */
 static bool value_is_drawn(const struct study_picture *p, int panel, int v)
 {
     const int values = p->key[p->across].shown.values;
@@ -56,8 +56,8 @@ struct study_axis study_axis_of_figure(const struct study_picture *p, int panel)
     return axis;
 }
 
-/* Returns the distance of the tics of an axis, for a logarithmic one the factor between them; 0 if all values are
- * equal or there are none. most: largest number of intervals. */
+/* Returns the distance between the tics (labelled marks) of an axis, for a logarithmic axis the factor between them; 0
+ * if all values are equal or there are none. most: largest number of intervals between tics. */
 static double tic_step(const struct study_axis *axis, int most)
 {
     if (!(axis->high > axis->low)) return 0;
@@ -67,8 +67,8 @@ static double tic_step(const struct study_axis *axis, int most)
 
 static double first_power_of_ten(const struct study_axis *axis) { return pow(10, ceil(log10(axis->low) - EVEN)); }
 
-/* Returns the number of significant digits with which the numbers at the tics of an axis are distinct. most: largest
- * number of intervals. */
+/* Returns the number of significant digits with which the numbers at the tics (labelled marks) of an axis are distinct.
+ * most: largest number of intervals between tics. */
 static int digits_of(const struct study_axis *axis, int most)
 {
     const double step = tic_step(axis, most), largest = fmax(fabs(axis->low), fabs(axis->high));
@@ -99,8 +99,8 @@ int study_intervals_across(const struct study_picture *p, const struct study_axi
     return most;
 }
 
-/* Sends the range of an axis to gnuplot: that of its data, to which gnuplot adds a margin; for a logarithmic axis,
- * which gnuplot gives none, the range with its margin. */
+/* Sends the range of the axis called `name` (`x`, `y` or `cb`) to gnuplot: the range of the data, to which gnuplot adds
+ * a margin, or for a logarithmic axis, to which gnuplot adds none, the range extended by a margin. */
 static void range_send(FILE *gnuplot, const char *name, const struct study_axis *axis)
 {
     const double margin = *name == 'c' ? 0 : MARGIN * log10(axis->high / axis->low);

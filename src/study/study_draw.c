@@ -25,8 +25,9 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Sends the labels of a key's values as tics of an axis, at the positions 0, 1, 2 and so on. If there are many values,
- * some labels are omitted. axis: "x" or "y"; rotated: labels are slanted. */
+/* Sends the labels of the values of a varied key to gnuplot as tics (labelled marks) of an axis, at the positions 0, 1,
+ * 2 and so on. If there are many values, some labels are omitted. axis: "x" or "y"; rotated: true for slanted labels.
+ */
 static void send_tics(FILE *to, const char *axis, const struct varied_key *key, bool rotated)
 {
     const int each = (key->values + STUDY_TICS_MOST - 1) / STUDY_TICS_MOST;
@@ -117,7 +118,8 @@ static void plot_mean_of_seeds(FILE *to, const struct study_picture *p, int pane
                 k == 0 ? 1 : 2);
 }
 
-/* Plots the points of panel number `panel`, joined by lines if the values across are numbers. */
+/* Writes the gnuplot command that plots the points of panel number `panel`, joined by lines if the values along the
+ * horizontal axis are numbers. */
 static void plot_panel(FILE *to, const struct study_picture *p, int panel)
 {
     fputs("plot ", to);
@@ -135,9 +137,9 @@ static void plot_panel(FILE *to, const struct study_picture *p, int panel)
     putc('\n', to);
 }
 
-/* Draws the key of the lines and its heading, the names of their keys: on the right of the panels or, in a narrow
- * picture, below them. It is a panel of its own, as large as the picture, because gnuplot makes no key wider than its
- * panel. */
+/* Draws the legend of the lines with its heading, the names of the varied keys that distinguish lines: on the right of
+ * the panels or, in a narrow picture, below them. The legend is drawn as a panel of its own, as large as the picture,
+ * because gnuplot makes no legend wider than its panel. */
 static void draw_key(FILE *to, const struct study_picture *p)
 {
     char text[256];
@@ -161,7 +163,8 @@ static void draw_key(FILE *to, const struct study_picture *p)
     putc('\n', to);
 }
 
-/* Sends the axis with the figure of panel number `panel`. name: `y`, or `cb` for the colour bar of a map. */
+/* Sends range and tics of the axis for the figure that panel number `panel` shows to gnuplot. name: `y`, or `cb` for
+ * the colour bar of a map. */
 static void send_figure_axis(FILE *to, const struct study_picture *p, int panel, const char *name)
 {
     struct study_axis axis = study_axis_of_figure(p, panel);
@@ -234,9 +237,9 @@ static status draw_study_map(struct study_picture *p, int up)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Finds the two keys of a map: the varied keys with a physical meaning if they are two, else all varied keys. Stores
- * the index of the key along the vertical axis in *up, along the horizontal axis in *across. Returns false if there are
- * not two. */
+/* Finds the two varied keys that form the axes of a map: those with a physical meaning if there are two, else all
+ * varied keys. Stores the index of the key along the vertical axis in *up, and of that along the horizontal axis in
+ * *across. Returns false if there are not exactly two. */
 static bool map_keys(const struct study_picture *p, int *up, int *across)
 {
     for (int all = 0; all < 2; all++) {

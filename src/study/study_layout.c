@@ -76,7 +76,8 @@ static int tics_shown(const struct varied_key *key)
     return key->values < STUDY_TICS_MOST ? key->values : STUDY_TICS_MOST;
 }
 
-/* Returns true if the labels of a key's values, written along the horizontal axis of a panel, would overlap. */
+/* Returns true if the labels of the values of a varied key would overlap when written along the horizontal axis of a
+ * panel of p. */
 static bool words_touch(const struct study_picture *p, const struct varied_key *key)
 {
     return tics_shown(key) * (study_longest_label_length(key) + 2) * study_character_width() > p->wide;
@@ -86,8 +87,8 @@ static bool words_touch(const struct study_picture *p, const struct varied_key *
 
 static int panel_rows(const struct study_picture *p) { return (p->panels + p->columns - 1) / p->columns; }
 
-/* Returns the largest number of characters of the numbers at the axes of all panels: at the axis of the key across if
- * `across` is true, else at that of the figure, with at most `most` intervals. */
+/* Returns the number of characters of the longest number at the axes of all panels: at the horizontal axes if `across`
+ * is true, else at the axes of the figures, which have at most `most` intervals between tics. */
 static int numbers_length(const struct study_picture *p, bool across, int most)
 {
     int longest = 0;
@@ -99,8 +100,8 @@ static int numbers_length(const struct study_picture *p, bool across, int most)
     return longest;
 }
 
-/* Computes the size of the picture from the size of a panel, its margins and the notes. If the user has chosen the size
- * of the picture, computes the size of a panel from it instead. */
+/* Computes the size of the picture p from the size of a panel, the margins and the notes. If the user has chosen the
+ * size of the picture, computes the size of a panel from that size instead. */
 static void size_settle(struct study_picture *p)
 {
     const struct picture_size given = picture_size_get();
@@ -120,8 +121,8 @@ static void size_settle(struct study_picture *p)
     }
 }
 
-/* Sets the margins of the panels for the texts at their axes. up: key along the vertical axis of a map; NULL for a
- * picture with lines. */
+/* Sets the margins of the panels of p such that the texts at the axes fit. up: varied key along the vertical axis of a
+ * map; NULL for a picture with lines. */
 static void margins_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
@@ -137,8 +138,8 @@ static void margins_find(struct study_picture *p, const struct varied_key *up)
     if (p->slanted && p->left < (int)(run * along)) p->left = (int)(run * along);
 }
 
-/* Computes the space of the key of the lines: its width beside the panels, or in a narrow picture its columns and its
- * height below them. */
+/* Computes the space for the legend of the lines: its width beside the panels, or in a narrow picture its number of
+ * columns and its height below the panels. */
 static void key_space_find(struct study_picture *p)
 {
     char text[256];
@@ -160,8 +161,8 @@ static void key_space_find(struct study_picture *p)
     }
 }
 
-/* Computes the layout with p->columns columns of panels. up: key along the vertical axis of a map; NULL for a picture
- * with lines. */
+/* Computes the complete layout of the picture p for p->columns columns of panels. up: varied key along the vertical
+ * axis of a map; NULL for a picture with lines. */
 static void columns_try(struct study_picture *p, const struct varied_key *up)
 {
     p->wide = WIDE, p->high = HIGH;

@@ -56,8 +56,8 @@ void study_grow_name_table(struct study *s)
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a text to name[CASE_NAME_ROOM]. Leaves out blanks, brackets and quotes, and replaces characters that file
- * systems or shells treat specially by _. */
+/* Appends `text` to name[CASE_NAME_ROOM] as part of the name of a folder. Leaves out blanks, brackets and quotes, and
+ * replaces characters that file systems or shells treat specially by _. A longer text is cut. */
 static void name_append(char *name, const char *text)
 {
     size_t n = strlen(name);
@@ -89,7 +89,8 @@ static const char *key_last(const char *key)
     return dot ? dot + 1 : key;
 }
 
-/* Returns the last part of key[k], or the whole key if another varied key of key[keys] has the same last part. */
+/* Returns the text by which names of runs mention the varied key key[k]: its last part, or the whole key if another of
+ * key[keys] has the same last part. */
 static const char *key_label(const struct varied_key *key, int keys, int k)
 {
     const char *own = key_last(key[k].key);

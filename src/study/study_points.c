@@ -18,8 +18,9 @@ static int line_of(const struct study_picture *p, int run)
     return line;
 }
 
-/* Computes the points of a panel as an array [lines][values of the key along the horizontal axis], which the caller
- * releases with memory_free. value: [runs] the figure of the panel; factor: unit of the panel. */
+/* Computes the points of a panel: mean and scatter over the runs of each point. Returns an array [lines][values of the
+ * key along the horizontal axis], which the caller releases with memory_free. value[runs]: figure of the panel in each
+ * run, in SI units; factor: unit of the panel in SI units. */
 static struct study_point *means_find(const struct study_picture *p, const double *value, double factor)
 {
     const int across = p->key[p->across].shown.values;
@@ -42,7 +43,7 @@ static struct study_point *means_find(const struct study_picture *p, const doubl
     return point;
 }
 
-/* Returns the unit in which a figure is drawn. figure: column of the figure in the table of the study. */
+/* Returns the unit in which the picture p shows a figure. figure: index of the figure in p->table. */
 static struct unit figure_unit(const struct study_picture *p, int figure)
 {
     const double *value = p->table->value[figure];

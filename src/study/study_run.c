@@ -243,7 +243,8 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     if (stat(log.text, &info) == 0 && info.st_size < (off_t)sizeof log_mark) unlink(log.text);
 }
 
-/* Finds the processes of a study that have ended since the last call, and records state and duration of their runs. */
+/* Finds the child processes that have ended since the last call, and records state and duration of their runs
+ * (case_end). Does not wait. */
 static void cases_take(struct runner *r)
 {
     for (int k = 0; k < r->study->n; k++) {
@@ -253,7 +254,8 @@ static void cases_take(struct runner *r)
     }
 }
 
-/* Returns the smallest number of a share of the processor cores that no running process of the study uses. */
+/* Returns the smallest slot number, from 0, that no running process of the study uses. Each slot is an equal part of
+ * the processor cores. */
 static int slot_free(const struct runner *r)
 {
     for (int slot = 0;; slot++) {
@@ -311,9 +313,10 @@ static status cases_run(struct runner *r)
 
 /* ---- whole study ------------------------------------------------------------------------------------------------- */
 
-/* Returns the options `how` of a study with numbers in place of zeros. The number of runs at a time becomes the number
- * of cores over the threads of a run if these are given. Otherwise it is the number of cores or of waiting runs,
- * whichever is smaller. The number of threads becomes an equal share of the cores for each run. */
+/* Returns a copy of the options `how` of a study in which numbers of runs and threads that are 0 have been chosen. The
+ * number of parallel runs becomes the number of cores divided by the threads of a run if these are given, else the
+ * number of cores or of waiting runs, whichever is smaller. The number of threads becomes an equal share of the cores
+ * for each run. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
     const int cores = machine_physical_core_count();
@@ -326,8 +329,9 @@ static struct study_options options_filled(struct study_options how, const struc
     return how;
 }
 
-/* Claims the folder of a study and writes the scene of the study into it. Returns REFUSED if the folder contains other
- * files or, unless `overwrite` is true, the study of another scene. Returns FAILED if it cannot be written. */
+/* Writes the scene of the study s into its folder as the file STUDY_SCENE, by which the folder is recognised. Returns
+ * REFUSED if the folder contains other files or, unless `overwrite` is true, the study of another scene. Returns FAILED
+ * if the file cannot be written. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_mark_as_study(s->folder));

@@ -64,8 +64,8 @@ static int component_that_varies(const struct varied_key *key, int dim)
     return varies;
 }
 
-/* Removes the common unit of the values of a shown key, which are numbers, and stores it in its unit; if the numbers
- * have none, the SI unit of the given key. Leaves values unchanged that are no numbers with a common unit. */
+/* If all shown values of the key k are numbers with a common unit, removes the unit from the values and stores it in
+ * k->unit; if the numbers have no unit, stores the SI unit of the key there. Otherwise leaves the values unchanged. */
 static void unit_part(struct shown_key *k)
 {
     const char *unit;
@@ -87,7 +87,8 @@ static void text_swap(char **a, char **b)
     *a = *b, *b = text;
 }
 
-/* Sorts the values of a key whose values are numbers, in ascending order. */
+/* Sorts the values of the key k, which must be numbers, in ascending order: the given values together with the shown
+ * ones. */
 static void values_sort(struct shown_key *k)
 {
     const char *unit;
@@ -102,8 +103,9 @@ static void values_sort(struct shown_key *k)
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the index of the entry of a list of the scene that `part` of a key names, a number or a name; -1 if there is
- * none. name_of: returns the name of entry k; n: number of entries. */
+/* Returns the index of the entry of a list of the scene s to which a key refers; -1 if there is none. part: the part of
+ * the key that identifies the entry, an index or a name; n: number of entries; name_of(s, k): returns the name of entry
+ * k. */
 static int list_entry_index(const struct scene *s, const char *part, int n,
                             const char *(*name_of)(const struct scene *, int))
 {
@@ -119,9 +121,10 @@ static const char *boundary_name(const struct scene *s, int k) { return s->bound
 static const char *material_name(const struct scene *s, int k) { return s->material[k].name; }
 static const char *body_name(const struct scene *s, int k) { return s->body[k].name; }
 
-/* Writes what follows the words of a key: the face or the name of what it belongs to. part: second part of the key;
- * normal: receives the axis of the face, -1 if there is none. Returns false if the key belongs to no entry of a list of
- * the scene. */
+/* Writes the end of the words of a key, such as ` on y+` or ` of glass`, to text[capacity]: the face or the name of the
+ * boundary condition, material or body to which the key belongs. group, part: first and second part of the key; normal:
+ * receives the axis of the face, -1 if there is none. Returns false if the key belongs to no entry of a list of the
+ * scene s. */
 static bool owner_write(char *text, size_t capacity, const struct scene *s, const char *group, const char *part,
                         int *normal)
 {
@@ -141,8 +144,8 @@ static bool owner_write(char *text, size_t capacity, const struct scene *s, cons
     return k >= 0;
 }
 
-/* Appends the words of the parts of a key after its group or the entry of its list: `energy_release_rate` becomes
- * `energy release rate`. */
+/* Appends the words for `parts`, the rest of a key after its group or the entry of its list, to text[capacity]:
+ * `energy_release_rate` becomes `energy release rate`. */
 static void parts_append(char *text, size_t capacity, const char *parts)
 {
     const size_t used = strlen(text);
@@ -154,8 +157,9 @@ static void parts_append(char *text, size_t capacity, const char *parts)
         if (*c == '_' || *c == '.') *c = ' ';
 }
 
-/* Writes the words of a given key to text[capacity]. component: the component of its vectors that varies; -1: none. s:
- * scene of the study, NULL if it cannot be read. */
+/* Writes the words by which pictures name the key `key`, such as `traction on y+`, to text[capacity]. component: index
+ * of the component that varies if the values are vectors, -1 if they are not; s: scene of the study, NULL if it cannot
+ * be read. */
 static void key_words(char *text, size_t capacity, const char *key, int component, const struct scene *s)
 {
     char group[NAME_MAX_LENGTH], part[NAME_MAX_LENGTH], owner[NOTE_ROOM] = "";
@@ -177,7 +181,8 @@ static void key_words(char *text, size_t capacity, const char *key, int componen
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Makes the shown key *k of a varied key. s: scene of the study, NULL if it cannot be read. */
+/* Initialises *k, the varied key `key` as pictures show it: its words and its values without common parts. s: scene of
+ * the study, NULL if it cannot be read. */
 static void shown_key_make(struct shown_key *k, const struct varied_key *key, const struct scene *s)
 {
     const int n = key->values;
@@ -197,7 +202,8 @@ static void shown_key_make(struct shown_key *k, const struct varied_key *key, co
     if (k->numbers) values_sort(k);
 }
 
-/* Gives shown keys that have the same words the names by which -s sets them. */
+/* Replaces the words of those of the shown keys k[keys] that have the same words as another one by their full names, as
+ * in the option -s, so that all are distinct. */
 static void words_part(struct shown_key *k, int keys)
 {
     for (int a = 0; a < keys; a++)

@@ -158,8 +158,9 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
 
-/* Returns REFUSED if the table sweep.csv or a picture of the study would replace a file that Cleave did not write.
- * key[keys]: keys of the study. Returns OK for folders that are no study, which study_lock_folder reports. */
+/* Checks that the table sweep.csv and the pictures of the study replace no file that Cleave did not write. key[keys]:
+ * varied keys of the study. Returns REFUSED if one would; OK for folders of no study, which study_lock_folder refuses.
+ */
 status study_check_output_files_replaceable(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};
