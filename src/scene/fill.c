@@ -143,8 +143,9 @@ static status lattice_axes(const struct particle_draft *d, int body, struct axis
     return OK;
 }
 
-/* Counts in d->skipped a particle that is inside the body with the index `body` but not created. Extends d->low,
- * d->high, the bounding box of these particles, by its position place[dim] [m]. Returns OK. */
+/* Counts in d->skipped a particle of the body with the index `body` that is not created, since coarse cells replace it,
+ * and extends the bounding box d->low, d->high of these particles by the position place[dim] of the particle [m].
+ * Returns OK. */
 static status place_skip(struct particle_draft *d, int body, const real *place)
 {
     particle_draft_record_material(d, body, place, d->scene->body[body].material);
@@ -157,9 +158,9 @@ static status place_skip(struct particle_draft *d, int body, const real *place)
 }
 
 /* Adds a particle to d, the list of particles to be created, if the lattice position place[dim] [m] is in the shape of
- * the body with the index `body`. Its position is shifted at random by up to half of `particles.irregularity` spacings
- * along each axis (Imachi et al. 2019, eq. 49). volume: of the particle [m^3]. Returns REFUSED if the list cannot take
- * it. */
+ * the body with the index `body`. The position is then shifted at random by up to half of `particles.irregularity`
+ * spacings along each axis (Imachi et al. 2019, eq. 49). volume: volume of the particle [m^3]. Returns REFUSED if there
+ * would be too many particles. */
 static status lattice_point(struct particle_draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -234,9 +235,9 @@ static real spacing_of(const struct particle_draft *d)
                1.0 / s->dim);
 }
 
-/* Creates the particles p from d, the list of particles to be created. If d leaves a velocity or mass NAN, it follows
- * from the body's velocity or the material's density. The method of the scene determines the kind of the particles.
- * optional: optional arrays to create (WITH_*). */
+/* Creates the particles p from d, the list of particles to be created. A velocity that is NAN in d becomes that of the
+ * body, a mass that is NAN follows from the density of the material. The method of the scene determines the kind of the
+ * particles (peridynamic or material points). optional: optional arrays to create (WITH_*). */
 static void take_draft(struct particles *p, const struct particle_draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -259,8 +260,8 @@ static void take_draft(struct particles *p, const struct particle_draft *d, int 
     }
 }
 
-/* If particles were left out (d->skipped), sets p->n_body to the number of particles including these, and p->low,
- * p->high to the bounding box of all [m]. */
+/* If particles were left out (d->skipped), sets p->n_body to the number of particles including those left out, and
+ * p->low, p->high to the bounding box of all of them [m]. */
 static void take_skipped(struct particles *p, const struct particle_draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
@@ -344,9 +345,9 @@ static status check_distances(const struct particles *p, const struct particle_d
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* Returns df_a/dx_b at X[dim] [1/s], where f_a is the formula of velocity component a of the initial state s, as a
- * central difference over one spacing [m]. Returns 0 if component a has no formula, or if the formula has no finite
- * value on both sides of X. */
+/* Returns the derivative of velocity component a of the initial state s along axis b at the position X[dim] [1/s], as a
+ * central difference of the formula of the component over the length `spacing` [m]. Returns 0 if component a has no
+ * formula, or if the formula has no finite value on both sides of X. */
 static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
     real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
@@ -401,8 +402,8 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
     p->volume[i] = p->volume0[i] * growth;
 }
 
-/* Adds the plane wave w to the displacement, velocity, stress, stretch and volume of particle i (small strain). m:
- * material of the particle, for wave speed and stiffness. X[dim]: its reference position [m]. */
+/* Adds the plane wave pulse w to the displacement, velocity, stress, stretch and volume of particle i (small strain).
+ * m: material of the particle, for wave speed and stiffness; X[dim]: reference position of the particle [m]. */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {

@@ -55,8 +55,9 @@ static bool shares_file(const struct scene *s, int k, const char *file)
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
 }
 
-/* Finds *material, the index in the scene s of the material of entry i: the one that the list l gives, or that of
- * the body b if the list has no materials. Returns REFUSED if the scene does not have it. */
+/* Finds the material of entry i of the particle list l, the one that the list gives or that of the body b if the list
+ * has no materials, and stores its index in the scene s in *material. Returns REFUSED if the scene has no such
+ * material. */
 static status entry_material(const struct scene *s, const struct particle_list *l, const struct scene_body *b,
                              int64_t i, int *material)
 {
@@ -111,8 +112,9 @@ static status take_list(struct particle_draft *d, int body, const struct particl
     return OK;
 }
 
-/* Rounds the positions of the particles `first` .. d->n - 1 of d to lattice sites, if they form a lattice to the
- * precision of the decimals in their file. Planes of symmetry of the scene are then on sites or midway between two. */
+/* Rounds the positions of the particles `first` .. d->n - 1 of the draft d to exact lattice sites, if they form a
+ * lattice within the rounding of the decimals in their file, such that planes of symmetry of the scene are on sites or
+ * midway between two sites. Changes nothing otherwise. */
 static void take_lattice(struct particle_draft *d, int64_t first)
 {
     const struct scene *s = d->scene;

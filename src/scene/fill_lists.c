@@ -126,10 +126,10 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Returns a guess of the unit of a particle list as text for a message, such as " (is it in mm?)", or "". ratio: a
- * length in the list over its expected value, such as 1e3 for mm; by_volume: the same ratio as computed from the
- * volumes in the list [m^3], NAN without volumes. If the lengths fit both cm and mm, by_volume decides; without it the
- * text names both. */
+/* Returns a guess of the unit of length of a particle list as text for a message, such as " (is it in mm?)"; "" if
+ * there is none. ratio: a length in the list divided by its expected value, such as 1e3 for mm; by_volume: this ratio
+ * as computed from the volumes in the list, NAN without volumes. If `ratio` suits both cm and mm, by_volume decides;
+ * without it the text names both. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {

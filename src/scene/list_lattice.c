@@ -66,7 +66,7 @@ bool particle_list_is_lattice(const struct particle_list *l, real spacing, real 
     return lattice;
 }
 
-/* Returns 2^(ceil(log2 most) - 53), a power of two whose multiples up to `most` are all exact doubles. */
+/* Returns the power of two 2^(ceil(log2 most) - 53), whose multiples up to `most` are all exact doubles. */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
 void coordinates_round_to_lattice(real *coordinate, int64_t count, real spacing, real plane_coordinate)

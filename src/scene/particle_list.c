@@ -170,7 +170,8 @@ static status hdf5_read(struct particle_list *l, const char *path)
 
 /* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
-/* Returns true if `path` ends with `ending` and is longer than it. Capitals are equal to small letters. */
+/* Returns true if `path` ends with the text `ending` and has further characters before it. Capitals are equal to small
+ * letters. */
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), tail = strlen(ending);

@@ -132,8 +132,8 @@ static status header_read(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Overwrites with blanks what precedes the column names in a header line: # of a comment (Peridigm) and `header:`
- * (PeriLab). */
+/* Overwrites the words that precede the column names in the header line `text` with blanks: # of a comment (Peridigm)
+ * and `header:` (PeriLab). */
 static void header_bare(char *text)
 {
     static const char word[] = "header:";
@@ -326,8 +326,8 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line, converts it to SI and stores it as entry l->n of its list column. field: text of the
- * field. Returns REFUSED if it is no valid value. */
+/* Reads the text `field`, field number k of the current line of c, converts its value to SI units and stores it as
+ * entry l->n of the list column to which this field belongs. Returns REFUSED if the text is no valid value. */
 static status csv_value(struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];
@@ -375,8 +375,8 @@ static status csv_entry(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Returns REFUSED for a list without names whose fourth and fifth columns are both whole numbers: either may be the
- * block. */
+/* Returns REFUSED if the list l has no column names and the numbers in its fourth and in its fifth column are all
+ * whole: it is then unknown which column is the block (the material) and which the volume. */
 static status unnamed_check(const struct csv *c, const struct particle_list *l)
 {
     if (!l->head.unnamed || !c->whole || l->n == 0) return OK;

@@ -220,11 +220,11 @@ status resolve_default_contact_bodies(struct reader *r, const struct yaml_node *
     return OK;
 }
 
-/* Returns the default of pd.surface, the correction of bonds near surfaces. Only with `method: pd` do bonds fill
- * whole bodies, whose surfaces need the correction; families with a given normalisation are corrected already.
- * Scenes in load steps with growing cracks use the rule that ignores pre-cracks: they compare the loads of pre-crack
- * and grown crack, and surfaces of a growing crack get no weights (`cleave bench slow`: double cantilevers of 10
- * layers deviate by 1 %, with moments by 5 %). root: tree of the scene. */
+/* Returns the default of pd.surface, the rule by which bonds near surfaces are corrected. The correction is needed only
+ * with `method: pd`, since only then bonds fill whole bodies up to their surfaces; state-based families with a given
+ * normalisation are corrected already. Scenes in load steps with growing cracks use the rule that ignores pre-cracks,
+ * because surfaces of a growing crack get no weights and the loads of pre-crack and grown crack are compared (`cleave
+ * bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %). root: tree of the scene. */
 static enum surface_rule surface_by_default(const struct scene *s, const struct yaml_node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
@@ -296,7 +296,7 @@ static void resolve_defaults(struct reader *r, const struct yaml_node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
-/* Returns true if a material of the body yields. body: index in the scene. */
+/* Returns true if a material of the body with the index `body` yields (has a yield stress). */
 static bool body_yields(const struct scene *s, int body)
 {
     for (int m = 0; m < s->materials; m++)
@@ -343,9 +343,9 @@ const char *scene_why_reference_frame_is_no_remedy(const struct scene *s)
     return why;
 }
 
-/* Returns, as part of a message, the reason why the scene requires the frame `current`, in which shape functions are
- * evaluated at the present positions of material points: a key that this frame alone has. Returns NULL if the scene has
- * no such key. */
+/* Returns the reason why the scene requires the frame `current`, in which shape functions are evaluated at the present
+ * positions of material points: a key that only this frame supports, as part of a message. Returns NULL if the scene
+ * gives no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";

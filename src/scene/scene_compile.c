@@ -43,8 +43,8 @@ bool quantity_is_dimensionless(const struct quantity *q) { return same_unit(q, &
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
-/* Appends a step to the expression: the operation `op`, with `value` if it pushes a number. Returns false, with the
- * fault as message in c, if the expression has too many steps. */
+/* Appends a step to the compiled expression: the operation `op`, with the number `value` if it pushes a number. Returns
+ * false, with a message in c->what, if the expression has too many steps. */
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)

@@ -41,8 +41,8 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Decodes the UTF-8 character at c to its code point *code, and returns its number of bytes. An invalid byte counts
- * as one character with the value of the byte. */
+/* Decodes the UTF-8 character at c and stores its code point in *code. An invalid byte counts as one character with the
+ * value of the byte. Returns the number of bytes of the character. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -89,7 +89,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
-/* Writes the words of key k whose bits are set in `bits` as a YAML list, or `none`. */
+/* Writes the words of key k whose bits are set in `bits` as a YAML list; `none` if no bit is set. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -288,7 +288,8 @@ static void write_material_law(struct writer *w, const struct material *m)
     if (law->kinematic.modulus > 0) yaml_write_group_as_mapping(w, "kinematic", "material.kinematic", law);
 }
 
-/* Writes how the tensile strength of a material grows with the strain rate, if it does. */
+/* Writes the key `rate` of a material, the table by which its tensile strength grows with the strain rate. Writes
+ * nothing if the strength does not depend on the rate. */
 static void write_rate(struct writer *w, const struct strength_rate *rate)
 {
     if (rate->points == 0) return;

@@ -1,7 +1,8 @@
 /* Writes the boundary conditions of the scene as run. */
 #include "scene_echo.h"
 
-/* Writes the key `time` of boundary b whose factor of time is read from a file: name and column of the file. */
+/* Writes the key `time` of the boundary condition b for a function of time that is read from a file: name and column of
+ * the file. */
 static void write_time_file(struct writer *w, const struct boundary *b)
 {
     writer_begin_key(w, "time");

@@ -45,7 +45,7 @@ static const struct function functions[] = {
 
 /* ---- text -------------------------------------------------------------------------------------------------------- */
 
-/* Advances c->at over blanks. */
+/* Advances c->at, the position of the next character to compile, over blanks. */
 static void skip(struct compile *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
@@ -246,8 +246,9 @@ static bool compile_number(struct compile *c, bool power)
         letters < 30 ? letters : 30, rest, compile_character_number(c, rest));
 }
 
-/* Compiles what begins at c->at: a number, a variable, a function call or an expression in brackets. power: true in
- * an exponent, where a number has no unit. Returns false, with a message in c, if nothing of these begins there. */
+/* Compiles the operand that begins at c->at: a number, a variable, a function call or an expression in brackets. power:
+ * true in an exponent, where a number has no unit. Returns false, with a message in c->what, if none of these begins
+ * there. */
 static bool compile_primary(struct compile *c, bool power)
 {
     struct quantity q;
@@ -260,8 +261,9 @@ static bool compile_primary(struct compile *c, bool power)
     return unit ? compile_append_push_of_operand(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
-/* Compiles an operand with its power, if any. Powers are right-associative: a^b^c is a^(b^c). An exponent may have a
- * sign. power: true if the operand is itself an exponent. Returns false with a message in c if it is invalid. */
+/* Compiles an operand and the exponent that follows it, if any. Powers are right-associative: a^b^c is a^(b^c). An
+ * exponent may have a sign. power: true if the operand is itself an exponent. Returns false, with a message in c->what,
+ * if the text is invalid. */
 static bool compile_power(struct compile *c, bool power)
 {
     if (!compile_primary(c, power)) return false;

@@ -321,7 +321,7 @@ static bool words_have(const char *words, const char *word)
     return has;
 }
 
-/* Returns the row of the table `foreign` that contains a word, or NULL. */
+/* Returns the row of the table `foreign` (words of other programs) that contains `word`, or NULL. */
 static const struct foreign *foreign_row(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(foreign); k++)

@@ -44,8 +44,8 @@ status read_grey_values(struct reader *r, const struct yaml_node *values_node, s
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the value of a node is the word `void`: pixels with the grey values of this entry are left out of
- * the body. */
+/* Returns true if the value of node n, an entry of `materials` of an image, is the word `void`: pixels with the grey
+ * values of this entry are left out of the body. */
 static bool is_void(const struct yaml_node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
 /* Returns REFUSED if a voxel of v has a grey value for which the scene names no material. in[GREY_MAX + 1]: true for

@@ -71,8 +71,8 @@ static status merge(struct reader *r, struct yaml_node *under, struct yaml_node 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a file is one of those that are being read, so that it would include itself. chain: these files, the
- * innermost first; file: status of the file, from stat. */
+/* Returns true if the file with the status `file` (from stat) is one of the files that are being read, so that it would
+ * include itself. chain: the files that are being read, the innermost first. */
 static bool is_open(const struct chain *chain, const struct stat *file)
 {
     for (; chain; chain = chain->up)

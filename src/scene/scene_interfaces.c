@@ -56,9 +56,9 @@ static status material_apart(struct reader *r, const struct yaml_node *n, struct
 
 /* Computes face->critical_stretch, the critical stretch of bonds across the interface `face`, if the interface has an
  * energy release rate. With model bond it is the critical stretch of a material with the harmonic mean of both Young's
- * moduli, this energy release rate, and the other properties of the softer body. State-based bonds have the mean of the
- * energies of both materials. n: node of the interface. Returns REFUSED for
- * bodies of several materials or with softening bonds. */
+ * moduli, this energy release rate, and the other properties of the softer body; state-based bonds have the mean of the
+ * energies of both materials. n: node of the interface. Returns REFUSED for bodies of several materials or with bonds
+ * that soften. */
 static status interface_strength(struct reader *r, const struct yaml_node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

@@ -89,8 +89,8 @@ status read_vector_of_formulas(struct reader *r, const struct key *k, const stru
     return OK;
 }
 
-/* Reads component d of the vector that boundary b prescribes, a number or a formula, from node n. k: key, for unit and
- * range. */
+/* Reads component d of the vector that the boundary condition b prescribes, a number or a formula, from node n into
+ * b->value and b->formula. k: key of the vector, for unit and range. Returns REFUSED if it is neither. */
 static status read_load_value(struct reader *r, const struct key *k, const struct yaml_node *n, struct boundary *b,
                               int d)
 {
@@ -248,7 +248,8 @@ static status kind_of_boundary(struct reader *r, const struct yaml_node *map, co
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", words_for_message(r, words));
 }
 
-/* Returns true if node n is a number or formula with a unit, other than 0. value: the number as read from n. */
+/* Returns true if the text of node n, a number or a formula, contains a unit and is not 0. value: the number that was
+ * read from n. */
 static bool carries_unit(struct reader *r, const struct yaml_node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");

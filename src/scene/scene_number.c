@@ -15,8 +15,9 @@ struct variable {
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */
 
-/* Evaluates the variable v, after the variables on which it depends. Returns false on failure, with the fault in
- * message[capacity] as the rest of a sentence that begins with the text of the variable. */
+/* Evaluates the variable v of the scene, after the variables on which it depends, and stores its value in *v. On
+ * failure returns false and writes the fault to message[capacity], as the rest of a sentence that begins with the text
+ * of the variable. */
 static bool evaluate(struct reader *r, struct variable *v, char *message, size_t capacity)
 {
     bool fine = true;

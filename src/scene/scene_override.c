@@ -57,8 +57,8 @@ static const char *item_name(const struct yaml_node *list, const struct yaml_nod
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Sets the origin of node n to override number `origin`, so that the error message that follows names the override.
- * Returns n. The tree must not be used afterwards. */
+/* Sets the origin of node n to override number `origin`, so that the message of the refusal that follows names this
+ * override. Returns n. The tree must not be used afterwards. */
 static const struct yaml_node *blamed(struct yaml_node *n, int origin)
 {
     n->origin = origin;
@@ -186,7 +186,8 @@ static bool is_new_item(const struct yaml_node *list, const char *key, size_t le
     return next && (value->kind != NODE_SCALAR || (list->key && strcmp(list->key, "probes") == 0));
 }
 
-/* Replaces the value of node n by that of the node `value`. Key and position of n in the tree do not change. */
+/* Replaces the value of node n (text, or entries) by that of the node `value`. The key of n and its position in the
+ * tree do not change. */
 static void replace(struct yaml_node *n, const struct yaml_node *value)
 {
     struct yaml_node whole = *value;

@@ -103,7 +103,8 @@ static status scene_parts_read_body(struct reader *r, const struct yaml_node *n,
     return OK;
 }
 
-/* Sorts the n bodies of the scene, deformable before rigid ones; counts both in s->bodies and s->rigids. */
+/* Sorts the n bodies of the scene, deformable ones before rigid ones, and stores their numbers in s->bodies and
+ * s->rigids. */
 static void sort_bodies(struct scene *s, int n)
 {
     struct scene_body *sorted = NEW("bodies", n, struct scene_body);
@@ -226,8 +227,9 @@ static status read_initial_velocity(struct reader *r, const struct yaml_node *n,
                                    initial->formula);
 }
 
-/* Reads an initial state from n. Returns REFUSED for wrong values, and for displacements with relaxation on the grid,
- * where the stress of points is added up from a start that counts as unloaded: the equilibrium would depend on it. */
+/* Reads an initial state from node n into *initial. Returns REFUSED for invalid values, and for initial displacements
+ * with relaxation on the grid: there the stress of points is accumulated from a start that counts as unloaded, so that
+ * the equilibrium would depend on the initial state. */
 static status read_initial(struct reader *r, const struct yaml_node *n, struct scene_initial *initial)
 {
     initial->body = -1;
@@ -324,8 +326,8 @@ status read_crack_growths(struct reader *r, const struct yaml_node *root)
 
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
-/* Reads the region of node n for which frames are written at intervals of their own (`output.regions`). number: its
- * index. Returns REFUSED for a name whose files are used already, and for too many frames. */
+/* Reads entry number `number` of `output.regions` from node n into r->scene: a region for which frames are written at
+ * intervals of their own. Returns REFUSED for a name whose files are used already, and for too many frames. */
 static status read_frame_region(struct reader *r, const struct yaml_node *n, int number)
 {
     struct scene *s = r->scene;

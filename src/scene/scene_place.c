@@ -45,7 +45,8 @@ void scene_store_key_locations(const struct reader *r, const struct yaml_node *r
 /* ---- the place of a refusal ----------------------------------------------------------------------------------------
  */
 
-/* Returns true if `text` begins with `kind` and then `name`, followed by a colon or a blank. */
+/* Returns true if `text`, a message, begins with the word `kind` and the name `name`, followed by a colon or a blank.
+ */
 static bool begins_with(const char *text, const char *kind, const char *name)
 {
     const size_t first = strlen(kind), second = strlen(name);

@@ -3,8 +3,8 @@
 
 #include "scene_internal.h"
 
-/* Writes a text as a cell of a Markdown table, with escapes for the characters | * <, and the bar that ends the
- * cell. */
+/* Writes `text` to `out` as a cell of a Markdown table, with escapes for the characters | * <, followed by the bar that
+ * ends the cell. */
 static void cell(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {

@@ -58,8 +58,8 @@ static bool has_rigid_bodies(const struct yaml_node *root)
     return rigid;
 }
 
-/* Returns the features of the scene that not every method supports (bits HAS_...). Materials that have not been read
- * yet are assumed to have the Poisson's ratio of bond-based peridynamics. */
+/* Returns the features of the scene (bits HAS_...) that are not supported by every method. Materials that have not been
+ * read yet are assumed to have the Poisson's ratio of bond-based peridynamics. */
 static unsigned scene_has(const struct reader *r)
 {
     const struct scene *s = r->scene;

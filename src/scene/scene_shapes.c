@@ -110,8 +110,9 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Finds *spacing, the spacing that the scene gives [m], or NAN if it gives none. n: any node of the scene's tree.
- * Returns REFUSED if the spacing is no length in its range. */
+/* Reads the particle spacing that the scene gives into *spacing [m]; NAN if it gives none. It is read here since shapes
+ * are read before it. n: any node of the tree of the scene. Returns REFUSED if the spacing is no length in its range.
+ */
 static status read_spacing(struct reader *r, const struct yaml_node *n, real *spacing)
 {
     *spacing = NAN;

@@ -332,14 +332,14 @@ status read_region(struct reader *r, const struct yaml_node *region_node, struct
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Allocates the n corners of a crack c and sets its width to 0. */
+/* Allocates an array for the n corners of the crack c and sets the width of the crack to 0. */
 static void crack_make(struct crack *c, int n)
 {
     c->corner = memory_new("cracks", n, sizeof *c->corner);
     c->n = n, c->width = 0;
 }
 
-/* Computes n = (b - a) x (c - a) for three points in space. */
+/* Computes the vector product n = (b - a) x (c - a) for the points a, b and c in space, a normal of their plane. */
 static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) {

@@ -39,7 +39,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / unit_energy);
 }
 
-/* Returns the energy per area of the bonds of material m across a plane over the square of their stretch [J/m^2]. */
+/* Returns the elastic energy of the bonds of material m that cross a plane of the lattice, per area of the plane and
+ * divided by the square of the stretch of the bonds [J/m^2]. */
 static real energy_over_stretch_squared(const struct scene *s, const struct material *m)
 {
     struct material unit = *m;

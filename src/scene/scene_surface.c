@@ -9,8 +9,8 @@
 /* Ratio kappa = (critical stretch/onset stretch)^2 of bonds that soften by themselves before a strength surface is
  * reached [1]. With a smaller ratio, lattices stop cracks. */
 #define OWN_RATIO 2
-/* Default radius within which strains are averaged for the strength surface, over E G_c/sigma_t^2 [1]. With it, a
- * crack tip at the toughness K_c is at 0.8 of the surface; measured. */
+/* Default radius within which strains are averaged for the strength surface, divided by E G_c/sigma_t^2. With this
+ * radius, the stress at a crack tip loaded to the toughness K_c is 0.8 of the strength; measured. */
 #define RADIUS_PLANE_STRESS 0.65
 #define RADIUS_ELSE 0.9
 
@@ -22,8 +22,8 @@ status check_strength_below_tenth_of_modulus(struct reader *r, const struct yaml
                  node_text(r, strength_node), 0.1 * material->young);
 }
 
-/* Returns REFUSED unless low sigma_t < value <= high sigma_t, with the tensile strength sigma_t of material m. n:
- * node from which `value` has been read [Pa]. */
+/* Returns REFUSED unless low sigma_t < value <= high sigma_t, with the tensile strength sigma_t of material m. value: a
+ * strength [Pa]; n: node from which it was read, for the message. */
 static status check_fraction(struct reader *r, const struct yaml_node *n, const struct material *m, real value,
                              real low, real high)
 {

@@ -123,9 +123,9 @@ static status time_number(const struct time_columns *c, const char *field, const
     return csv_report_fault(&c->in, field, "'%s' %s", field, what);
 }
 
-/* Reads the text `line` as entry f->n of the times f->t and the values f->value; does not change f->n. Returns
- * REFUSED for a wrong number of values, for a text that is no number, and for a time not later than the previous
- * one. */
+/* Reads the text `line` of a CSV file into entry f->n of the times f->t and the values f->value, without changing f->n.
+ * c: columns of the file. Returns REFUSED for a wrong number of values, for a text that is no number, and for a time
+ * not later than the previous one. */
 static status time_entry(const struct time_columns *c, char *line, struct time_function *f)
 {
     int k = 0, found = 0;

@@ -251,8 +251,9 @@ static real number_value(const char *c, size_t length, int twice_ten)
     return half ? sqrt(10) * strtod(text, NULL) : strtod(text, NULL);
 }
 
-/* Returns a message if the number at c has a notation of other languages: grouped digits, decimal comma, base 60,
- * hexadecimal or octal. Returns NULL otherwise. length: number of characters that have been read as a number. */
+/* Returns a message if the number at c has a notation that scenes do not have and that could be misread: grouped
+ * digits, decimal comma, base 60, hexadecimal or octal. Returns NULL otherwise. length: number of characters at c that
+ * have been read as a number. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -325,8 +326,8 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     return complain(c, wrong, unit);
 }
 
-/* Returns the number of seconds in min and h, which are no powers of ten and cannot be combined with other units; 0 if
- * `text` is neither or `unit` is not the time. */
+/* Returns the number of seconds in the unit `text` if it is min or h, which are no powers of ten and cannot be combined
+ * with other units; 0 if `text` is neither or the kind of unit `unit` is not time. */
 static int clock_seconds(const char *text, enum unit unit)
 {
     static const struct {
@@ -338,7 +339,8 @@ static int clock_seconds(const char *text, enum unit unit)
     return 0;
 }
 
-/* Returns the radians in a rad or deg; 0 for another text. An angle needs its unit, since 30 could mean either. */
+/* Returns the number of radians in the unit `text`, rad or deg; 0 for another text. An angle must have a unit, since 30
+ * alone could mean either. */
 static real angle_radians(const char *text)
 {
     if (strcmp(text, "rad") == 0) return 1;

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes to text[capacity] why node n, which is no key of `group`, is refused, and the key that is meant if one is. */
+/* Writes to text[capacity] why node n, which is no key of the group `group`, is refused, and which key is probably
+ * meant if there is a similar one. */
 static void describe_unknown_key(const struct yaml_node *n, const char *group, char *text, size_t capacity)
 {
     char instead[400];

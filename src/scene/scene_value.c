@@ -203,7 +203,8 @@ status read_point(struct reader *r, const struct key *k, const struct yaml_node 
     return OK;
 }
 
-/* Reads dim x dim numbers, by rows or in one list, from node n into matrix[dim * dim] in the unit of key k. */
+/* Reads dim x dim numbers, as a list of rows or as one list, from node n into matrix[dim * dim] in the unit of key k.
+ * Returns REFUSED for another form. */
 static status read_matrix(struct reader *r, const struct key *k, const struct yaml_node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -243,7 +244,8 @@ static status fault_reference(struct reader *r, const struct yaml_node *n, const
     return fault(r, n, "there is no %s %s; the nearest is %s", what, node_text(r, n), nearest);
 }
 
-/* Sets *index to the material that node n names. Returns REFUSED, with the nearest name, if there is none. */
+/* Stores the index of the material that node n names in *index. Returns REFUSED, with the most similar name in the
+ * message, if there is no such material. */
 static status scene_value_read_material(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -257,7 +259,8 @@ static status scene_value_read_material(struct reader *r, const struct yaml_node
     return fault_reference(r, n, "material", m[nearest].name);
 }
 
-/* Sets *index to the body that node n names. Returns REFUSED for a rigid body and, with the nearest name, for none. */
+/* Stores the index of the body that node n names in *index. Returns REFUSED if it is rigid or, with the most similar
+ * name in the message, if there is no such body. */
 static status scene_value_read_body(struct reader *r, const struct yaml_node *n, int *index)
 {
     const struct scene *s = r->scene;

@@ -69,7 +69,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
  * [m]. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
-/* Returns true if `length` is a whole number of times `unit`, to a relative 1e-6. */
+/* Returns true if `length` is a whole multiple of `unit`, to a relative tolerance of 1e-6. */
 static bool length_divides(real unit, real length)
 {
     const real count = length / unit;
