@@ -8,9 +8,10 @@
 enum { LEFT = 100, RIGHT = 24, AXIS = 100, ABOVE = 60, BELOW = 74 };
 enum { LEFT_NARROW = 80, RIGHT_NARROW = 18, AXIS_NARROW = 80, ABOVE_NARROW = 42, BELOW_NARROW = 60, UNTITLED = 18 };
 
-/* Sizes in a picture of curves [pixel]. sample: width of an entry of the key without its text; letter: mean width of a
- * letter; row: distance of the lines of the key; tics: least distance of tics of a vertical axis; lower: least height
- * of the lower one of two panels. WIDE: for a picture as wide as a text page; NARROW: for a narrower one. */
+/* Sizes in a picture of curves [pixel]. sample: width of an entry of the key (legend) without its text; letter: mean
+ * width of a letter; row: distance between the lines of the key; tics: least distance between tics of a vertical axis;
+ * lower: least height of the lower one of two panels. WIDE: for a picture as wide as a text page; NARROW: for a
+ * narrower picture. */
 static const struct sizes {
     double sample, letter, row, tics, lower;
 } WIDE = {58, 9, 24, 30, 96}, NARROW = {48, 7.4, 20, 24, 68};

@@ -234,7 +234,8 @@ static int letters_of(const char *text, size_t n)
     return letters;
 }
 
-/* Returns the index of the blank nearest to the middle of a text, or its length if it has none. */
+/* Returns the index of the blank nearest to the middle of `text`, at which a title is broken into two lines; the length
+ * of the text if it has no blank. */
 static size_t break_of(const char *text)
 {
     const size_t length = strlen(text);
@@ -244,8 +245,8 @@ static size_t break_of(const char *text)
     return best;
 }
 
-/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]; if they are more than `most`
- * characters, as many as fit before `...`. */
+/* Writes the first `length` bytes of `text`, a line of a title, into part[TITLE_ROOM]. If they are more than `most`
+ * characters, cuts them and appends `...`. */
 static void write_title_line(char *part, const char *text, size_t length, int most)
 {
     const bool cut = letters_of(text, length) > most;

@@ -46,7 +46,8 @@ static struct bar_scale bar_scale_of(const struct view *view, enum map map)
     return s;
 }
 
-/* Returns the distance of the tics of a vertical bar of the given length [pixel]. */
+/* Returns the distance between the tics (labelled marks) of a vertical colour bar with the scale s, in the unit of its
+ * label. length: length of the bar [pixel]. */
 static double bar_tics(const struct bar_scale *s, int length)
 {
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
@@ -61,8 +62,8 @@ static int bar_length(const struct bar_scale *s, int panels, int room)
     return panels >= BAR_HIGHEST ? BAR_HIGHEST : panels > label ? panels : label;
 }
 
-/* Returns the unit in the label of a vertical bar that is written in a line of its own, because the label is longer
- * than the bar; NULL if it is not. length: of the bar [pixel]. */
+/* Returns the part of the label of a vertical colour bar, its unit, that is written in a second line because the label
+ * is longer than the bar; NULL if the label fits into one line. length: length of the bar [pixel]. */
 static const char *bar_second_line(const struct bar_scale *s, int length)
 {
     return letter_wide() * (double)strlen(s->label) > length ? strstr(s->label, " [") : NULL;
@@ -91,8 +92,9 @@ static void draw_beyond(FILE *to, const struct layout *l, const struct view *vie
             percent < 99 ? 2 : 3, percent, end ? "above" : "below", x / l->width, 1 - y / l->height, adjust);
 }
 
-/* Writes the label of a vertical bar, and its unit in a second line if the label is longer than the bar. x, y: centre
- * of the first line, from the upper left corner of the picture; length: of the bar [pixel]. */
+/* Writes the gnuplot commands for the label of a vertical colour bar, with the unit in a second line if the label is
+ * longer than the bar. x, y: centre of the first line, from the upper left corner of the picture [pixel]; length:
+ * length of the bar [pixel]. */
 static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_scale *s, double x, double y, int length)
 {
     const char *unit = bar_second_line(s, length);
@@ -104,7 +106,8 @@ static void draw_bar_label(FILE *to, const struct layout *l, const struct bar_sc
                 (x + letter_wide() * (2 * line - 0.2 * !!unit)) / l->width, 1 - y / l->height);
 }
 
-/* Draws the colour bar as a narrow panel on the right, beside the first row. */
+/* Writes the gnuplot commands that draw the colour bar as a narrow panel on the right of the first row of panels. s:
+ * scale of the bar; particles: number of particles of a frame. */
 static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                             int64_t particles)
 {
@@ -127,7 +130,8 @@ static void draw_bar_beside(FILE *to, const struct layout *l, const struct maps_
     panel_write_image(to, pixel, BAR_ACROSS, BAR_STEPS, from, step, "");
 }
 
-/* Draws the colour bar below the panels, as wide as these, with its label below the numbers. */
+/* Writes the gnuplot commands that draw the colour bar below the panels and as wide as all of them, with its label
+ * below the numbers. s: scale of the bar; particles: number of particles of a frame. */
 static void draw_bar_under(FILE *to, const struct layout *l, const struct maps_shown *m, const struct bar_scale *s,
                            int64_t particles)
 {
@@ -185,8 +189,8 @@ void map_key_make(struct map_key *key, enum map map, const struct view *view, bo
     if (has_rigid_bodies) map_key_add(key, rigid_body_colour(map), "rigid");
 }
 
-/* Draws an entry of the key: a square in its colour, unless that is transparent, and its text. x, y: position from the
- * upper left corner of the picture [pixel]. */
+/* Draws the entry e of the key (legend): a square in the colour of the entry, unless that is transparent, and its text.
+ * x, y: position of the entry from the upper left corner of the picture [pixel]. */
 static void key_entry(FILE *to, const struct layout *l, double x, double y, const struct category *e)
 {
     if (e->colour.alpha > 0)

@@ -17,7 +17,7 @@ enum { BELOW_NARROW = 62, BELOW_OUTSIDE_NARROW = 78 };
 
 /* Size of the whole picture [pixel]: printed on a text page, its letters have the size of the text. */
 enum { WIDTH = 1280, WIDTH_SINGLE = 1000, HEIGHT_MAX = 1180, PANEL_MIN = 24 };
-static const double SHAPE_WANTED = 0.72;  /* height over width of the picture */
+static const double SHAPE_WANTED = 0.72;  /* height of the picture divided by its width */
 static const double TALL_MOST = 1.5;      /* the same of a narrow picture of which the width alone is given */
 static const double BESIDE_BETTER = 0.03; /* a bar below must make panels larger by 6 % of their area */
 
@@ -68,8 +68,8 @@ static void strip_set(struct layout *l, int width)
     l->below = l->axes + (l->bar_under ? BAR_STRIP : 0) + (lines > 0 ? lines * KEY_ROW + KEY_UNDER : 0);
 }
 
-/* Returns the layout of a picture with the given numbers of columns and of panels. aspect: height over width of a
- * panel; margins: layout with the margins of the panels. */
+/* Returns the layout of a picture with `panels` panels in `columns` columns. aspect: height of a panel divided by its
+ * width; margins: layout in which the margins of the panels are set. */
 static struct layout layout_of(int columns, int panels, double aspect, const struct layout *margins)
 {
     struct layout l = *margins;
@@ -92,9 +92,9 @@ static struct layout layout_of(int columns, int panels, double aspect, const str
     return l;
 }
 
-/* Returns the layout of a picture of `panels` panels in `columns` columns. It is computed twice, because the width of a
- * colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
- * the colour bar or key is below the panels; aspect: height over width of a panel. */
+/* Returns the layout of a picture with `panels` panels in `columns` columns. It is computed twice, because the width of
+ * a colour bar on the right depends on the height of the panels: beside low panels its unit needs a second line. under:
+ * true if the colour bar or key (legend) is below the panels; aspect: height of a panel divided by its width. */
 static struct layout layout_settled(const struct maps_shown *m, bool under, int columns, int panels, double aspect)
 {
     struct layout margins = margins_of(m, under, NULL), l = layout_of(columns, panels, aspect, &margins);

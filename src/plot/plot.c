@@ -13,7 +13,8 @@
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the path of the standard picture `which` in the folder for pictures and format of the request. */
+/* Returns the path of the standard picture `which`, in the folder for pictures and with the ending of the format that
+ * the request r gives. */
 static struct path sheet_path(const struct plot_request *r, enum picture which)
 {
     return picture_path(r->pictures, which, picture_ending[r->format]);
@@ -51,9 +52,9 @@ static struct contents contents_of(const struct plotted_particles *cloud, int cl
     return has;
 }
 
-/* Draws, for each of the frames of a run, the maps of damage, kinds of particles and the chosen field. A map is omitted
- * if the selected frames do not contain its quantity. view: shown rectangle and colours; has: contents of the selected
- * frames. Returns FAILED if a frame cannot be read or gnuplot fails. */
+/* Draws, for every frame of a run, a picture of each of the maps of damage, kinds of particles and the chosen field. A
+ * map is omitted if the selected frames do not contain its quantity. view: shown rectangle and colours; has: quantities
+ * that the selected frames contain. Returns FAILED if a frame cannot be read or gnuplot fails. */
 static status draw_every(const struct plot_request *r, const struct run_frames *frames, const struct view *view,
                          const struct contents *has)
 {

@@ -70,7 +70,7 @@ bool run_find_exact_probe(const char *folder, char probe_name[NAME_MAX_LENGTH])
 
 /* ---- scales ------------------------------------------------------------------------------------------------------ */
 
-/* Scale of the vertical axis of a panel. factor: unit of the axis over the SI unit; low, high: ends of the axis in its
+/* Scale of the vertical axis of a panel. factor: unit of the axis in SI units; low, high: ends of the axis in this
  * unit; zero: all values are 0. */
 struct scale {
     double factor, low, high;
@@ -129,7 +129,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
-/* Sends the number `a` to gnuplot. If it is not finite, sends NaN, which leaves a gap in a curve. */
+/* Writes the number a to the stream `to` of gnuplot; NaN if a is not finite, which leaves a gap in a curve. */
 static void send_number(FILE *to, double a)
 {
     if (isfinite(a))
@@ -176,8 +176,9 @@ static bool tint_kinds(FILE *to, const struct history *h, double metre, double h
     return true;
 }
 
-/* Plots the curves of panel q for the frames show[frames], with the exact solution dashed. tinted: the background shows
- * peridynamic parts, which the key then explains. */
+/* Writes the gnuplot commands that plot the curves of panel q (a row of the table `quantity`) for the frames
+ * show[frames], with the exact solution dashed. tinted: true if the background shows the peridynamic parts of the bar,
+ * so that the key (legend) has an entry for them. */
 static void plot_bar_panel(FILE *to, int q, const struct listed_frame *show, int frames, bool tinted)
 {
     struct unit second = unit_for_largest_value(show[frames - 1].time, "s");

@@ -7,7 +7,7 @@
 #include "plot/plot.h"
 #include "shading.h"
 
-/* Half size of a cube over the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
+/* Half edge of a cube divided by the spacing; slightly more than 0.5 to close the gaps of a strained lattice. */
 static const double HALF = 0.52;
 
 static const double STRAIGHT = 0.999; /* cosine of the angle to an axis below which a view is along this axis */
@@ -50,7 +50,8 @@ static int leaves_cube(const struct camera *eye, const struct cube *b, const dou
     return enters < leaves ? face : -1;
 }
 
-/* Computes the deformed cube b of particle i. A cube smaller than a pixel is enlarged to one pixel. */
+/* Computes the deformed cube by which the picture shows particle i of c, and stores it in *b. A cube smaller than a
+ * pixel of the canvas v is enlarged to one pixel. */
 static void cube_of(const struct scene_canvas *v, const struct plotted_particles *c, int64_t i, struct cube *b)
 {
     const double least = 0.6 / v->per_metre[0], own = HALF * (c->size ? c->size[i] : c->spacing);
@@ -65,7 +66,7 @@ static void cube_of(const struct scene_canvas *v, const struct plotted_particles
     }
 }
 
-/* Returns half the extent of the deformed cube b along the unit vector direction[3] [m]. */
+/* Returns half of the extent of the deformed cube b along `direction`, a unit vector of 3 components [m]. */
 static double cube_reach(const struct cube *b, const double *direction)
 {
     double reach = 0;

@@ -16,8 +16,8 @@ struct colour category_colour(const struct plot_field *field, float category_val
                                                 : colour_of_material_or_body((int)category_value);
 }
 
-/* Writes the name of a value of a field into name[capacity]. The names of bodies and materials are those of the scene
- * s; NULL: the scene is unknown, and they are numbered. */
+/* Writes the name of the value `value` of the field called `field` into name[capacity]. s: scene of the run, for the
+ * names of bodies and materials; NULL: unknown, bodies and materials are numbered. */
 static void category_name(char *name, size_t capacity, const char *field, int value, const struct scene *s)
 {
     const char *known = NULL;

@@ -10,13 +10,14 @@
  * number of distance comparisons limits it. */
 enum { SAMPLES = 200, SAMPLES_MIN = 9 };
 static const double COMPARISONS = 2e7;
-/* Difference of the distances of two layers from a plane up to which they are equally near [spacings]. */
+/* Largest difference between the distances of two layers of particles from a plane at which both count as equally near
+ * [spacings]. */
 static const double TIE = 1e-3;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
-/* Returns how many of n particles are sampled to estimate the spacing. The number is such that the distance
- * comparisons, samples * n, are at most about COMPARISONS. */
+/* Returns how many of n particles are sampled to estimate the spacing: so few that the number of distance comparisons,
+ * samples times n, is at most about COMPARISONS. */
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));
@@ -91,7 +92,8 @@ static bool is_aligned(float *const *X, int64_t n)
 
 /* ---- slices ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the extent *from..*to of the reference positions of all particles along axis d [m]. */
+/* Computes the smallest and the largest coordinate along axis d of the reference positions of all particles of the
+ * frame f, and stores them in *from and *to [m]. */
 static void frame_extent(const struct output_frame *f, int d, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;

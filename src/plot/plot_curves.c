@@ -69,8 +69,8 @@ void curves_write_time_axis(FILE *gnuplot, const struct series *series)
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
 
-/* Writes the commands for a vertical axis ("y" or "y2") from zero to `top`, with its label and tics in the colour of
- * its curve. colour: index in curve_colour; pixels: height of the panel. */
+/* Writes the gnuplot commands for the vertical axis `axis` ("y" or "y2") from 0 to `top`, with label and tics in the
+ * colour of its curve. colour: index of the colour in curve_colour; pixels: height of the panel [pixel]. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top, double pixels)
 {
     fprintf(to,
@@ -80,7 +80,7 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
     curves_write_tics(to, axis, 0, top, pixels);
 }
 
-/* Upper end of the axis of the share of peridynamic particles at most [%]. */
+/* Largest upper end of the axis for the share of peridynamic particles [%]. */
 static const double SHARE_TOP = 104;
 
 /* Returns true if the values in a column of the history are not all equal. */
@@ -177,7 +177,8 @@ static void plot_energies(FILE *to, const struct energies *e)
     fputs(") with lines lw 1.6 dt (6,4) lc rgb '#000000' title 'sum'\n", to);
 }
 
-/* Returns a distance of tics, 1, 2 or 5 times a power of ten, with which one or two tics are between 0 and `top`. */
+/* Returns a distance between tics (labelled marks), 1, 2 or 5 times a power of ten, with which an axis from 0 to `top`
+ * has one or two tics above 0. */
 static double coarse_tic_distance(double top)
 {
     const double decade = pow(10, floor(log10(top))), lead = top / decade;
@@ -187,7 +188,7 @@ static double coarse_tic_distance(double top)
 /* Position of the label of the balance error, whose numbers may be wide, and in narrow pictures [pixel]. */
 static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 
-/* The axis of the balance error extends to at least this percentage either way: what is less is round-off. */
+/* Least extent of the axis of the balance error in both directions [%]; smaller errors are round-off. */
 static const double BALANCE_LEAST = 0.0012;
 
 /* Plots the relative error of the energy balance over time in a panel below the energies. l: layout of the picture;

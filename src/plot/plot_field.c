@@ -74,8 +74,9 @@ static bool lacks_component(const struct plot_field *field, int dim)
     return false;
 }
 
-/* Returns REFUSED for a name that is no field. The message lists the components of the field `name`, or if it has none,
- * the field with a similar name and the names of all fields. names[COUNT_OF(fields)]: names of all fields. */
+/* Returns REFUSED with the message that there is no field called `name`. If `name` is a field with components, the
+ * message lists these; otherwise it contains the most similar name and the names of all fields.
+ * names[COUNT_OF(fields)]: names of all fields. */
 static status field_unknown(const char *name, const char *const *names)
 {
     char all[1024] = "", components[256] = "";

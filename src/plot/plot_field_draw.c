@@ -48,7 +48,8 @@ static void field_title(char *title, const struct plot_request *r, const struct 
     picture_compose_title(title, r, name, c, view);
 }
 
-/* Prints the first named values of a field, such as the names of materials, and the number of further ones. */
+/* Prints the named values k of a field, such as the names of materials, to standard output: the first ones by name,
+ * then the number of further ones. */
 static void say_categories(const struct categories *k)
 {
     for (int i = 0; i < k->n; i++) printf("%s%s", i ? ", " : ": ", k->of[i].name);
@@ -150,8 +151,8 @@ static status projection_check(const struct plot_request *r, int dim)
                       r->projection.outside ? "--view" : "--slice", dim, dim > 1 ? "s" : "");
 }
 
-/* Returns REFUSED if the request has the ends or the table of a scale of colours for a field of named values, which has
- * a colour for each value. */
+/* Returns REFUSED if the request r gives the ends or the table of a colour scale although its field consists of named
+ * values, such as materials, each of which has a fixed colour. */
 static status scale_check(const struct plot_request *r)
 {
     if (r->projection.field->scale != CATEGORY || (!r->table && !r->range[0])) return OK;

@@ -62,10 +62,10 @@ static void face_add_motion(struct faces *f, const struct plotted_particles *c, 
     f->end = fmax(f->end, fmin(s + 0.5 * reach / BESIDE, f->length));
 }
 
-/* Computes the drawn position x[2] [m] of a point of one face of the pre-crack: s [m] along the pre-crack, displaced by
- * the mean displacement of the particles beside the face. This mean is interpolated linearly between the middles of the
- * sections into which the face is divided. side: face, 0 or 1. Returns false if no particle is beside the section at
- * s. */
+/* Computes the drawn position x[2] [m] of the point at the distance s [m] along a pre-crack on one of its faces: the
+ * initial position plus the mean displacement of the particles beside the face, which is interpolated linearly between
+ * the middles of the sections into which the face is divided. side: face, 0 or 1. Returns false if no particle is
+ * beside the section at s. */
 static bool face_at(const struct faces *f, int side, double s, double *x)
 {
     const double middle = s / f->section - 0.5;

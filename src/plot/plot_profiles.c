@@ -82,8 +82,9 @@ static struct value_range profiles_range(const struct bar_profile *profile, int 
     return e;
 }
 
-/* Returns the range of the axis along the bar: the positions of all particles that are not loose, and of loose ones
- * that are at most BESIDE of their extent away, with half a spacing at both ends [m]. */
+/* Returns the range of the axis along the bar [m]: it contains, with half a spacing at both ends, all particles that
+ * are not loose (in a piece of at most LOOSE_MOST particles), and loose particles whose distance from these is at most
+ * BESIDE of the extent of the others. */
 static struct value_range profiles_axis(const struct bar_profile *profile, int profiles, double spacing)
 {
     const struct value_range bulk = profiles_range(profile, profiles, -1, false);
@@ -99,7 +100,8 @@ static struct value_range profiles_axis(const struct bar_profile *profile, int p
     return (struct value_range){axis.low - more, axis.high + more};
 }
 
-/* Writes the range of a vertical axis with a margin; gnuplot chooses one for a range without extent. */
+/* Writes the gnuplot command for the range of a vertical axis: the range `of` of the values, divided by `factor`, the
+ * unit of the axis, with a margin. If all values are equal, gnuplot chooses the range. */
 static void write_value_range(FILE *to, struct value_range of, double factor)
 {
     const double margin = 0.06 * (of.high - of.low);
@@ -109,8 +111,8 @@ static void write_value_range(FILE *to, struct value_range of, double factor)
         fputs("set autoscale y\n", to);
 }
 
-/* Returns the largest number of particles of a profile that are outside axis along the bar, or outside the ranges
- * of[columns] of their values with the margin of write_value_range. */
+/* Returns the largest number of particles of one of profile[profiles] that the picture does not show: their position is
+ * outside the range `axis` [m], or a value is outside its range in of[columns] with the margin of write_value_range. */
 static int64_t profiles_outside(const struct bar_profile *profile, int profiles, struct value_range axis,
                                 const struct value_range *of, int columns)
 {
@@ -158,7 +160,7 @@ static bool profile_has_loose(const struct bar_profile *p)
     return any;
 }
 
-/* Returns a value of a range that is largest in magnitude. */
+/* Returns the largest absolute value in the range `of`. */
 static double range_magnitude(struct value_range of) { return fmax(fabs(of.low), fabs(of.high)); }
 
 /* Plots value number `column` of profile[profiles] over the position, each with its time in the key. */

@@ -9,8 +9,8 @@
 #include "base/memory.h"
 #include "plot/plot.h"
 
-/* SQUARE: half width of a square particle over the spacing. It is slightly more than 0.5 to close the gaps of a
- * strained lattice. DISC: radius of a disc-shaped particle over the spacing. It is more than half the diagonal of a
+/* SQUARE: half width of a square particle, divided by the spacing; slightly more than 0.5 to close the gaps of a
+ * strained lattice. DISC: radius of a disc-shaped particle, divided by the spacing; more than half the diagonal of a
  * lattice cell to close the gaps of rotated or irregular particles. */
 static const double SQUARE = 0.55, DISC = 0.9;
 
@@ -45,7 +45,7 @@ static struct outline outline_of(const struct plotted_particles *c, int64_t i)
     return s;
 }
 
-/* Returns half the height or width of a deformed particle along axis k of the map [m]. */
+/* Returns half of the extent of the deformed particle with the shape s along axis k of the map [m]. */
 static double outline_reach(const struct outline *s, int k)
 {
     return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));

@@ -9,7 +9,7 @@
 
 static const struct colour RIGID = {120, 120, 126, 255};
 
-/* Largest extension of a picture to show rigid bodies beside the particles, over its longer side [1]. */
+/* Largest extension of a picture to show rigid bodies beside the particles, relative to its longer side. */
 #define BESIDE 0.3
 enum { MARCH_MOST = 300 };
 
@@ -49,8 +49,9 @@ void plotted_particles_add_rigid_bodies(struct plotted_particles *c, const struc
     memory_free(at);
 }
 
-/* Returns the level set of a rigid body at the present position x[3] [m]: the distance from its surface [m], negative
- * inside. dim: dimension of the run; cut: true to cut an unbounded body to its box r->low..r->high. */
+/* Returns the distance of the position x[3] [m] from the surface of the rigid body r in its present placement [m],
+ * negative inside (level set). dim: dimension of the run; cut: true to cut an unbounded body to its box
+ * r->low..r->high. */
 static double level_at(const struct rigid_shown *r, int dim, const double *x, bool cut)
 {
     real X[DIM_MAX] = {0};

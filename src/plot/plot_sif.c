@@ -10,8 +10,9 @@
 /* Largest numbers of probes and of crack paths that are drawn; least number of samples for a picture. */
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
-/* Finds the columns of the history whose names are the name of a probe followed by `quantity`, for example ".K_I".
- * Stores the names of the first `most` probes in name[]. Returns their number. */
+/* Finds the probes whose values of `quantity` are in the history h: for each there is a column called by the name of
+ * the probe followed by `quantity`, such as ".K_I". Stores the names of the first `most` probes in name[]. Returns how
+ * many names are stored. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);

@@ -12,7 +12,7 @@
 /* The axis of displacements ends where the force stays below this fraction of its largest value: afterwards the broken
  * body only moves apart. */
 #define FORCE_LEFT 0.01
-#define LINE_WIDE 0.002 /* width of a line over the length of an axis */
+#define LINE_WIDE 0.002 /* width of a line, relative to the length of an axis */
 enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3, POINTS_SHOWN = 200 };
 
 bool run_has_load_steps(const char *folder)
@@ -85,7 +85,7 @@ struct reactions {
     double force, displacement; /* largest force [N]; largest displacement while there is a force [m] */
 };
 
-/* Returns the row of the history in which the magnitude of a force is largest. */
+/* Returns the row of the history h in which the magnitude of the force with the components `force` is largest. */
 static int64_t peak_of(const struct history *h, const struct components *force)
 {
     int64_t at = 0;
@@ -166,7 +166,8 @@ static void reactions_find(struct reactions *r, const struct history *h)
     }
 }
 
-/* Returns true if two curves are nowhere further apart than the width of a line. */
+/* Returns true if the curves a and b (force over displacement) are nowhere further apart than the width of a line. r:
+ * all curves, for the ends of the axes; h: history with the values. */
 static bool curves_coincide(const struct reactions *r, const struct history *h, const struct reaction *a,
                             const struct reaction *b)
 {
@@ -230,8 +231,8 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints why the picture `path` of load over displacement is not drawn. r: the curves found. Returns FAILED if standard
- * output cannot be written. */
+/* Prints the reason why the picture `path` of load over displacement is not drawn. r: the curves that were found.
+ * Returns FAILED if standard output cannot be written. */
 static status say_missing_load(const char *path, const struct reactions *r)
 {
     if (r->n > 0)

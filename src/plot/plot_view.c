@@ -148,8 +148,9 @@ void view_set_field_and_colour_range(struct view *v, const struct plot_field *fi
     v->field = field, v->low = field->scale == BOTH_SIGNS ? -high : low, v->high = low + high;
 }
 
-/* Reads an end of the colour scale of a field, a number with a unit of the field, from the request r into *value. end:
- * 0 for the lower, 1 for the upper one; one without a unit has that of the other. Returns REFUSED for other texts. */
+/* Reads an end of the colour scale of a field, a number with a unit of the field, from the request r into *value, in SI
+ * units. end: 0 for the lower end, 1 for the upper end; an end without a unit has the unit of the other end. Returns
+ * REFUSED for other texts. */
 static status range_end_read(real *value, const struct plot_request *r, int end, const struct plot_field *field)
 {
     char what[256], text[128];

@@ -11,7 +11,8 @@ enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 16
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
-/* Appends words to text[TEXT], whose length is `length`, and returns the new length. Cuts what does not fit. */
+/* Appends `words` to text[TEXT], whose present length is `length`; words that do not fit are cut. Returns the new
+ * length. */
 static int add_words(char *text, int length, const char *words)
 {
     const int more = snprintf(text + length, (size_t)(TEXT - length), "%s", words);
@@ -200,7 +201,7 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the stride with which at most `most` of n elements are selected. */
+/* Returns the smallest stride with which at most `most` of n elements are selected. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
 /* Selection of the particles of a load that are drawn: those on every `every`-th layer of the lattice along each axis,

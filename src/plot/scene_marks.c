@@ -234,8 +234,8 @@ void marks_draw_boxes_of_named_regions(struct marks *m)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a fine cell is the one at the lower corner of the coarse cell that contains it. Stores the indices of
- * the fine cell along the axes in k[dim]. */
+/* Returns true if the finest cell number `cell` is the one at the lower corner of the coarse cell that contains it, so
+ * that each coarse cell is drawn once. Stores the indices of the finest cell along the axes in k[dim]. */
 static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -247,7 +247,8 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
     return corner;
 }
 
-/* Draws the outlines of all coarse cells of the refinement level `level`. Returns their number. */
+/* Draws the outlines of all coarse mesh cells of the level `level` >= 1, whose edge is 2^level times that of the finest
+ * cells. Returns the number of these cells. */
 static int64_t level_cells_draw(struct marks *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;

@@ -31,7 +31,7 @@ enum { TEXT_ROOM = 200 };
 /* Brightness of peridynamic particles relative to material points of the same body [1]. */
 static const double PERIDYNAMIC = 0.72;
 
-/* Half height of the particles of a bar over its length. */
+/* Half height with which the particles of a bar are drawn, relative to the length of the bar. */
 static const double BAR_HALF = 0.02;
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
@@ -43,8 +43,8 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
     return s->materials > 1 ? p->material[i] : p->body[i];
 }
 
-/* Appends a square particle to the cloud c, at the position x[dim] [m] projected on the picture plane. size: its edge
- * [m]. */
+/* Appends a square to the cloud c, the particles of the picture, at the position x[dim] [m] projected on the picture
+ * plane. size: edge of the square [m]. */
 static void cloud_add(struct plotted_particles *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
@@ -75,8 +75,8 @@ static void cloud_add_particles(struct plotted_particles *c, const struct scene 
     }
 }
 
-/* Adds the rigid bodies of the scene at their places at the start to the cloud c; in one dimension each is a particle
- * of its length. */
+/* Adds the rigid bodies of the scene s in their initial positions to the cloud c, the particles of the picture. In 1D
+ * each rigid body is drawn as one particle of the length of the body. part: particles of the run. */
 static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s, const struct particles *part)
 {
     struct rigid_placement *at = NEW("plot.rigid", s->rigids, struct rigid_placement);
@@ -93,8 +93,9 @@ static void cloud_add_rigids(struct plotted_particles *c, const struct scene *s,
     memory_free(at);
 }
 
-/* Collects everything in a run that is drawn as a square or cube: its particles and the points of coarse cells; and
- * rigid bodies. Release c with plotted_particles_free. */
+/* Collects everything in the run e that the picture shows as squares, cubes or bodies in the cloud c: the particles,
+ * the points of coarse mesh cells, and the rigid bodies. camera: direction of the view of a body in 3D. Release c with
+ * plotted_particles_free. */
 static void scene_cloud(struct plotted_particles *c, struct run *e, const struct camera *camera)
 {
     const struct scene *s = e->scene;
@@ -190,8 +191,9 @@ static double arrow_length(const struct plotted_particles *c)
     return 0.07 * fmax(c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
-/* Returns how many entries of the key of m fit into one row below a panel of the width `wide` [pixel]; at least 1. It
- * follows from the longest entry. (In several columns, gnuplot does not make the key wider than the panel.) */
+/* Returns how many entries of the key (legend) of m fit into one row below a panel of the width `wide` [pixel], at
+ * least 1, from the length of the longest entry. (In several columns, gnuplot makes the key no wider than the panel.)
+ */
 static int key_columns(const struct marks *m, double wide)
 {
     return (int)fmax(floor(wide / (SAMPLE_NARROW + LETTER_NARROW * fmax(m->letters, 1))), 1);
@@ -291,7 +293,8 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     memory_free(pixel);
 }
 
-/* Collects the marks of a scene and the lines of its key. */
+/* Collects all marks of a scene (loads, supports, velocities, pre-cracks, probes, cells, regions) and their entries in
+ * the key (legend) in *m. */
 static void draw_marks(struct marks *m)
 {
     key_of_parts(m);

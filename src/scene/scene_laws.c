@@ -108,9 +108,9 @@ static status read_johnson_cook(struct reader *r, const struct yaml_node *materi
                  law->johnson_cook.T_melt, law->johnson_cook.T_room);
 }
 
-/* Reads the heating of a material by plastic work into `law`: specific heat, and the fraction of the plastic work that
- * becomes heat, 0.9 unless given. material: node of the material. Returns REFUSED if the material has no flow law that
- * depends on temperature. */
+/* Completes the heating of a material by plastic work in `law`: sets the fraction of the work that becomes heat to 0.9
+ * unless it is given. material: node of the material. Returns REFUSED if this fraction is given without specific heat,
+ * or specific heat without a flow law that depends on temperature. */
 static status read_heat(struct reader *r, const struct yaml_node *material, struct law *law)
 {
     const struct yaml_node *heat = yaml_node_find(material, "specific_heat"),

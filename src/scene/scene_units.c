@@ -339,8 +339,7 @@ static int clock_seconds(const char *text, enum unit unit)
     return 0;
 }
 
-/* Returns the number of radians in the unit `text`, rad or deg; 0 for another text. An angle must have a unit, since 30
- * alone could mean either. */
+/* Returns the number of radians in the unit `text`, rad or deg; 0 for another text. Every angle must have a unit. */
 static real angle_radians(const char *text)
 {
     if (strcmp(text, "rad") == 0) return 1;
