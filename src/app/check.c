@@ -140,9 +140,9 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Continues the printed line of the estimated run time: prints which steps were measured (all steps of the scene with
- * larger particles, or only the first steps), and what the run time would be if all particles were peridynamic. c:
- * estimated cost. */
+/* Prints the end of the line with the estimated run time: which steps were measured (all steps of the scene with larger
+ * particles, or only the first steps), and what the run time would be if all particles were peridynamic. c: estimated
+ * cost. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -155,9 +155,9 @@ static void say_basis(const struct scene *scene, const struct cost *c)
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
-/* Bounds of the estimated time of a step of a static equilibrium: estimate/REST_BELOW and estimate * REST_ABOVE. Only
- * the time of the forces is estimated. Plates of 10,000 and 80,000 particles with a crack took up to 4.3 times as long
- * with both solvers on a busy machine. */
+/* Bounds of the time of a step of a static equilibrium: estimate/REST_BELOW and estimate * REST_ABOVE. The estimate
+ * contains only the time of the forces; plates of 10,000 and 80,000 particles with a crack took up to 4.3 times as
+ * long, with both solvers on a busy machine. */
 #define REST_BELOW 1.5
 #define REST_ABOVE 4.5
 

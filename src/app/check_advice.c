@@ -102,8 +102,8 @@ void print_stiffness_error(const struct scene *s, enum surface_rule surface, dou
         fprintf(out, "about %d %% in bending and tension, %d %% in twisting", off[OFF_SOLID], off[OFF_TWISTED]);
 }
 
-/* Appends to the remark `out` the largest error of the stiffness of a peridynamic part that is `layers` particles
- * thick. */
+/* Writes to `out`, as part of a remark, the largest error of the stiffness of a peridynamic part that is `layers`
+ * particles thick. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -211,7 +211,8 @@ static real rise_time(const struct time_function *f)
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
 }
 
-/* Returns true if b is a load or support with the rise time `rise` [s] (see rise_time). */
+/* Returns true if the boundary condition b is a load or support whose function of time has the rise time `rise` [s]
+ * (rise_time). */
 static bool rises_in(const struct boundary *b, real rise)
 {
     return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
@@ -404,8 +405,8 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Adds a hint to *to for each body whose shape functions are evaluated at the present positions of its material points,
- * if the faster evaluation at their reference positions would be possible. */
+/* Adds a hint to *to for each body whose shape functions are evaluated at the present positions of its material points
+ * although the faster evaluation at reference positions would be possible. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);

@@ -136,9 +136,9 @@ static double all_steps(struct run *e)
     return engine_run_mpm_baseline_for_pulse_probe(e) == OK ? thread_cpu_clock_seconds() - start : NAN;
 }
 
-/* Runs the scene of `a` with the additional override key=value (none if key is NULL) and returns the processor time of
- * all its steps [s], or NAN if a step fails. whole: all steps are run and measured; otherwise the time is extrapolated
- * from the first steps. The warnings of the run are appended to *found, which may be NULL. */
+/* Runs the scene of the arguments `a` with the additional override key=value (none if key is NULL). whole: true to run
+ * and measure all steps; false to extrapolate the time from the first steps. Appends the warnings of the run to *found,
+ * which may be NULL. Returns the processor time of all steps [s], or NAN if a step fails. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -179,8 +179,8 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 
 /* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of neighbours within the horizon that a particle far from surfaces has: the volume of its family
- * over that of a lattice cell. */
+/* Returns the number of neighbours within the horizon of a particle far from surfaces: the volume of its family (all
+ * its neighbours) divided by that of a lattice cell. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
 /* Returns an estimate of the time for writing the output of a run [s]: all frames including the one at the start, two
@@ -228,8 +228,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the processor time of one step over the number of particles [s]. It is measured with the scene that is read
- * by the arguments `a`, with all particles peridynamic and the spacing `spacing` [m]. Returns NAN if the steps fail. */
+/* Returns the processor time of one step per particle [s], measured with the scene that is read by the arguments `a`,
+ * but with all particles peridynamic and the spacing `spacing` [m]. Returns NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};

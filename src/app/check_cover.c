@@ -18,9 +18,9 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at_position(p->scene, b, X, b->material) == p->material);
 }
 
-/* Returns true if the point X[dim] [m] is inside the piece p of a body or within `distance` [m] of it. Always returns
- * false for the piece of the body's basic material: this piece is what remains of the body outside its parts of other
- * materials, so that it has no shape of its own. */
+/* Returns true if the point X[dim] [m] is inside the piece p (a body, or its part of one material) or within `distance`
+ * [m] of it. Always returns false for the part of the basic material of a body: it is the remainder of the body outside
+ * the parts of other materials, so that it has no shape of its own. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -124,8 +124,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the share of a cell of c that is inside `shape` [1]. X[dim]: centre of the cell [m]. The surface in the cell
- * is approximated by a plane, from the distance and the normal of the surface at X. */
+/* Returns the fraction of a lattice cell of c that is inside the region `shape`. X[dim]: centre of the cell [m]. The
+ * surface in the cell is approximated by a plane, from the distance and the normal of the surface at X. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
@@ -135,9 +135,10 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Returns the share of the cell number `cell` that is inside the piece p [1]. plane: true if only one face crosses the
- * cell. The face is then approximated by a plane; otherwise PLACES points in the cell are tested. The points form a
- * Weyl sequence (constants of Roberts) with a different start in each cell. */
+/* Returns the fraction of the lattice cell number `cell` of c that is inside the piece p (a body, or its part of one
+ * material). plane: true if only one face crosses the cell; the face is then approximated by a plane. Otherwise PLACES
+ * points in the cell are tested, which form a Weyl sequence (constants of Roberts) with a different start in each cell.
+ */
 static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},

@@ -70,10 +70,10 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Returns the absolute slope [1] of a face at the column of particles with the index `place`, along the axis
- * c->axis[k]. The slope is the difference between the height of this column and that of the column AWAY columns
- * further, over AWAY. It is computed on both sides, and the smaller one is returned, so that a single step does not
- * count as a slope. */
+/* Returns the absolute slope of a face at the column of particles with the index `place`, along the axis c->axis[k]:
+ * the difference between the height of this column and that of the column AWAY columns further, divided by AWAY. It is
+ * computed on both sides, and the smaller slope is returned, so that a single step of the face does not count as a
+ * slope. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -161,9 +161,10 @@ struct part_of_face {
     double at, area;
 };
 
-/* Prints where the face f of boundary b lies along its axis if its particles are at several places, with more than
- * PLACE_GAP spacings between them, as on both steps of an L; and the region that leaves the outermost one alone. Places
- * with less than SHARE_LEAST of the area are left out. */
+/* If the particles of the face f of boundary b are in several planes normal to the axis of the face, more than
+ * PLACE_GAP spacings apart, as on both steps of an L, prints the coordinates of these planes, and a region that selects
+ * only the outermost plane. Planes with less than SHARE_LEAST of the area are left out. p: particles; spacing: their
+ * spacing [m]. */
 static void print_places_of_face(const struct particles *p, real spacing, const struct boundary *b,
                                  const struct exposed_face *f)
 {

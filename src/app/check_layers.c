@@ -58,9 +58,9 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive filled sites along `axis`, at most RUNS_MOST. Counting begins at the neighbour of
- * the site with the indices from[dim] in the direction `way` (1 or -1). Sets *mirrored to true if the filled sites end
- * at a plane of symmetry. */
+/* Counts the consecutive lattice sites with particles along `axis` in the direction `way` (1 or -1), from the neighbour
+ * of the site with the indices from[dim] on, up to RUNS_MOST. Sets *mirrored to true if the sites end at a plane of
+ * symmetry. Returns their number. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -137,11 +137,12 @@ double count_layers_across_thin_parts(const struct run *e, int body_index, doubl
  * layers, in static bending with the models ospd and mospd, and decreases as 1/layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
-/* Returns by how much material points bend too much if the points of each cell have one dilatation [%]. Such cells
- * resist the bending of a thin body less than cells of linear functions. The error is a/N^2 + b/N^4 for N layers, an
- * odd number counting as the next even one, with a = 170 and b = 760 + 6100 (nu - 0.3), or b = 760 for smaller
- * Poisson's ratios nu. It is an empirical fit to load steps of cantilevers in plane strain, of length 80, height 8 and
- * 2 to 24 layers with nu = 0.3, 0.45 and 0.49, within a sixth of the error; bars of square section bend less. */
+/* Returns the relative error of the deflection in bending of a body of material points if all points of a cell have one
+ * dilatation [%]: such cells resist the bending of a thin body less than cells of linear functions. layers: particle
+ * layers across the body; poisson: Poisson's ratio. The error is a/N^2 + b/N^4 for N layers, an odd number counting as
+ * the next even one, with a = 170 and b = 760 + 6100 (nu - 0.3), or b = 760 for smaller Poisson's ratios nu. It is an
+ * empirical fit to load steps of cantilevers in plane strain, of length 80, height 8 and 2 to 24 layers with nu = 0.3,
+ * 0.45 and 0.49, within a sixth of the error; bars of square section bend less. */
 static double soft_cells(double poisson, double layers)
 {
     const double even = 2 * ceil(0.5 * layers), square = even * even;
@@ -150,8 +151,10 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported for families */
 #define SOFT_MOST 2.0     /* least error that is reported [%] */
 
-/* Returns the largest Poisson's ratio of those materials of a body to which print_advice_on_incompressible_bodies
- * refers: all in families, those with one dilatation of the points of a cell otherwise. Returns 0 if there are none. */
+/* Returns the largest Poisson's ratio of those materials of the body with the index `body_index` on which
+ * print_advice_on_incompressible_bodies reports: if `families` is true (peridynamics), of all materials, and 0 if it is
+ * at most SOFT_FAMILIES; otherwise of those with one dilatation for all points of a cell. Returns 0 if there are none.
+ */
 static real largest_poisson_ratio(const struct scene *s, int body_index, bool families)
 {
     real poisson = 0;

@@ -19,7 +19,8 @@ void print_coarse_cells(const struct run *e)
                (long long)levels_count_cells_of_level(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
-/* Writes the number n into text[32], in full or, if `millions` is true, as in "52 million". Returns text. */
+/* Writes the number n into text[32]: with all digits or, if `millions` is true, in millions, such as "52 million".
+ * Returns text. */
 static const char *many(double n, bool millions, char text[static 32])
 {
     if (millions)

@@ -18,7 +18,8 @@ struct instant {
     const char *why;
 };
 
-/* Replaces *best by the time t [s] and *most by |f(t)|, if |f(t)| is larger than *most and t is in 0..duration. */
+/* If the time t [s] is between 0 and `duration` [s], and |f(t)| of the function of time f is larger than *most, stores
+ * t in *best and |f(t)| in *most. */
 static void instant_try(const struct time_function *f, real t, real duration, real *best, real *most)
 {
     if (t < 0 || t > duration || !(fabs(time_function_value(f, t)) > *most)) return;
@@ -133,8 +134,8 @@ struct faced {
     bool unknown;    /* for one of the bodies no distance is known */
 };
 
-/* Returns true if a body has a shape of its own, not shared with joined bodies, to whose surface distances can be
- * computed. */
+/* Returns true if distances from the surface of the body with the index `body` can be computed: it has a shape of its
+ * own, not shared with joined bodies. */
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
@@ -225,7 +226,8 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
-/* Prints the total force and moment of a load, and the time for which they are computed, as part of a sentence. */
+/* Prints the total force and moment of the load l, and the time for which they are computed with the reason for this
+ * time, as part of a sentence. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;

@@ -37,7 +37,8 @@ struct necks {
     int measured;
 };
 
-/* The width of a piece along an axis, on one line. */
+/* The width of a piece (a body, or its part of one material) on one line along an axis: midpoint and length of the part
+ * of the line inside the piece [m]. */
 struct chord {
     real middle, width;
 };
@@ -250,8 +251,8 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the index of the grid cell that contains the centre u->at of a neck. Returns -1 if the cell is outside the
- * grid, or if k->rows is 0 there. */
+/* Returns the index of the lattice cell that contains u->at, the centre of a neck. Returns -1 if the centre is outside
+ * all cells of k, or if k->rows of the cell is 0, since it contains no particle. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -263,9 +264,9 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Moves the point X[dim] [m] along `axis` in the direction `way` (-1 or 1) in steps of 1/FINE spacing, until the piece
- * ends or X has moved two spacings. Returns true if the width of the piece at the last point inside is less than 0.95
- * times `width` [m]. */
+/* Tests whether a neck is narrower beside the point X[dim] [m]: moves X along `axis` in the direction `way` (-1 or 1)
+ * in steps of 1/FINE spacing, until the piece ends or X has moved two spacings. Returns true if the width of the piece
+ * at the last point inside is less than 0.95 times `width`, the width of the neck [m]. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};

@@ -8,8 +8,7 @@
 #include "fracture/fracture_part.h"
 #include "fracture/tips.h"
 
-/* Length of a pre-crack below which its critical load depends on the horizon [horizons]. Determined by the separate
- * program */
+/* Length of a pre-crack below which its critical load depends on the horizon [horizons]; measured. */
 #define HORIZONS_LEAST 3
 
 /* Returns true if `end` (coordinates [m]), an end of a pre-crack, is a crack tip inside the material and not at a face
@@ -22,8 +21,8 @@ static bool is_tip(const struct fracture_state *fracture, const real *end)
     return false;
 }
 
-/* Returns the share of the straight crack between the points `from` and `to` (coordinates [m]) that is inside bodies
- * [1], from 1000 points on it. */
+/* Returns the fraction of the straight crack between the points `from` and `to` (coordinates [m]) that is inside
+ * bodies, from 1000 points on the crack. */
 static real crack_share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
@@ -67,7 +66,7 @@ void advise_on_close_crack_tips(const struct scene *s, const struct fracture_sta
     }
 }
 
-/* Returns the index of the body to which particle i belongs. For joined bodies it is the same index. */
+/* Returns the index of the body to which particle i belongs; for joined bodies the index of the first of them. */
 static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
 {
     return scene->body[part->body[i]].joined;

@@ -66,7 +66,8 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* Returns the index of the larger one of the sections a and b, by area. An index of -1 denotes no section. */
+/* Returns the index of that one of the sections with the indices a and b which has the larger area. An index of -1
+ * denotes no section. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
@@ -117,9 +118,9 @@ static bool goes_on_alike(const struct sections *s, int32_t k, real area)
            fabs(s->section[k].area - area) <= ALIKE * area;
 }
 
-/* Returns the mean width [cells] of the section with the index `number`, along the axis s->across[k]: its area over the
- * number of lines of cells along this axis that it occupies. filled: true for the area of the particles, false for the
- * area of the shape. */
+/* Returns the mean width of the section with the index `number` along the axis s->across[k] [cells]: its area divided
+ * by the number of lines of cells along this axis that it occupies. filled: true for the area of the particles, false
+ * for the area of the shape. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
     const struct cover *c = s->cover;

@@ -38,7 +38,7 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance over which bodies extend from a crack tip in a straight line [m]. side: 1 for the distance ahead
+/* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
  * of the tip, -1 for the distance back along the crack. Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
@@ -103,8 +103,8 @@ void print_load_step_solver(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
-/* Writes a remark to `out` on loads that have a peak at time t [s] between the load steps of s: its time and the least
- * larger number of steps of which one ends there. */
+/* Writes a remark to `out` that the loads have a peak at time t [s], between two load steps of the scene s, with the
+ * time of the peak and the smallest larger number of load steps with which a step ends at this time. */
 static void print_missed_peak(const struct scene *s, real t, FILE *out)
 {
     int number = s->steps.number + 1;
@@ -239,8 +239,8 @@ static double equilibria_of_advance(const struct run *e)
 }
 
 /* Returns an estimate of the number of crack increments in run e: the number of load steps if the steps are controlled
- * by the released energy, else the distance that all crack tips can grow over the length of an increment. Returns 0 if
- * no bond can break. */
+ * by the released energy, else the distance that all crack tips can grow, divided by the length of an increment.
+ * Returns 0 if no bond can break. */
 static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -29,8 +29,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Returns true if the value a[i] of each of n particles equals a[twin[i]], or -a[twin[i]] if `odd` is true. twin[i]:
- * index of the mirror image of particle i. */
+/* Returns true if the values a[n] of all particles are symmetric: a[i] equals a[twin[i]], or -a[twin[i]] if `odd` is
+ * true, with the mirror image twin[i] of particle i. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -60,8 +60,8 @@ static bool voids_agree(const struct voids *v, const int32_t *twin, int64_t n)
     return true;
 }
 
-/* Returns a number computed from the kind of a load and its function of time. Different loads have different numbers,
- * so that sums of them are equal by chance only in rare cases. */
+/* Returns a number that identifies the boundary condition b: it is computed from its kind and its function of time,
+ * such that different loads have different numbers and sums of these are rarely equal by chance. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;

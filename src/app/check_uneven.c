@@ -83,8 +83,8 @@ real piece_distance_to_surface_along_axis(const struct piece *p, const real *X, 
     return fabs(inside);
 }
 
-/* Computes the coordinates *low and *high [m] at which the piece p ends below and above the point u->at, along the axis
- * u->axis of the width. */
+/* Computes the coordinates at which the piece p (a body, or its part of one material) ends below and above the point
+ * u->at, along the axis u->axis of the width, and stores them in *low and *high [m]. */
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
@@ -176,8 +176,8 @@ static void say_place(const real *at, int dim, FILE *out)
     fprintf(out, dim > 1 ? "(%s) m" : "%s m", position_text(at, dim, 4).text);
 }
 
-/* Prints the beginning of a remark on the narrow part u of piece p: the name of the body and, if the part was found in
- * a piece of one material, the name of the material. */
+/* Prints the beginning of a remark on the narrow part u of the piece p (a body, or its part of one material) to `out`:
+ * the name of the body and, if the piece is of one material, the name of the material. */
 static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);

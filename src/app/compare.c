@@ -28,7 +28,7 @@ struct pair {
     int dim;
 };
 
-/* Returns true if a folder contains at least one of the files of a run that are compared. */
+/* Returns true if `folder` contains at least one of the files of a run that `cleave compare` reads. */
 static bool holds_run(const char *folder)
 {
     return run_has_file(folder, "summary.json") || run_has_file(folder, "history.csv") ||
@@ -37,7 +37,7 @@ static bool holds_run(const char *folder)
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
 
-/* Prints a number in a column of the table; a dash for NAN. */
+/* Prints the number a in a column of the table; a dash if it is NAN. */
 static void print_number(double a)
 {
     if (isnan(a))
@@ -155,7 +155,8 @@ static void print_fields(const struct output_frame *a, const struct output_frame
     printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
-/* Returns the reason why two frames cannot be compared particle by particle; NULL if they can. */
+/* Returns the reason why the frames a and b cannot be compared particle by particle, a static text for a message; NULL
+ * if they can. */
 static const char *particles_differ(const struct output_frame *a, const struct output_frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
@@ -208,8 +209,8 @@ static void compare_particles(struct pair *p, const struct output_frame *a, cons
     print_fields(a, b);
 }
 
-/* Compares the last frames at a common time of both runs particle by particle and prints the differences, or why frames
- * are not compared. Returns FAILED if frames cannot be read. */
+/* Compares the last frames that both runs p have at a common time, particle by particle, and prints the differences, or
+ * the reason why frames are not compared. Returns FAILED if frames cannot be read. */
 static status compare_frames(struct pair *p)
 {
     struct times t[2] = {{0}};
@@ -280,7 +281,8 @@ static status compare_energies(const struct pair *p)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number that is stored under a key of summary.json in a folder; NAN if there is none. */
+/* Returns the number called `key` (names joined by dots) of summary.json in `folder`, the folder of a run; NAN if there
+ * is none. */
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
@@ -379,8 +381,8 @@ static status read_words(struct pair *p, int argc, char **argv)
     return OK;
 }
 
-/* Prints name, method and state of the run in a folder, after the letter A or B. Returns FAILED if its summary exists
- * and cannot be read. */
+/* Prints name, method and state of the run in `folder`, after the letter `letter`, A or B, by which the table denotes
+ * the run. Returns FAILED if the summary of the run exists but cannot be read. */
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];

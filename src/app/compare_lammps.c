@@ -94,7 +94,7 @@ static status check_read(struct check *c, const char *folder, int64_t n)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if all reference positions have z = 0, so that the run is two-dimensional. */
+/* Returns true if all reference positions in the table c have z = 0, so that the run is two-dimensional. */
 static bool lies_in_plane(const struct check *c)
 {
     for (int64_t i = 0; i < c->h.rows; i++)

@@ -6,8 +6,7 @@
 #include "commands.h"
 #include "scene/scene.h"
 
-/* Writes the options of a command, each after a blank, as found in the text of its usage, and --help as the last
- * one. */
+/* Writes the options of the command c to `out`, each after a blank: those in the text of its usage, then --help. */
 static void options_of(FILE *out, const struct command *c)
 {
     for (const char *at = c->words; *at; at++) {

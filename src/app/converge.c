@@ -101,8 +101,9 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Sets the folder of the results, by default one named after the scene, and checks that it can be used. Returns REFUSED
- * if it contains files that do not belong to a study, or the study of another scene without --overwrite. */
+/* Determines the folder of the study from the arguments a, by default one named after the scene, and checks that it can
+ * be used. Returns REFUSED if it contains files that do not belong to a study or, without --overwrite, the study of
+ * another scene. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_request *w = &a->wish;

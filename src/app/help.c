@@ -58,8 +58,8 @@ static const char *topic_answer(const char *word)
     return NULL;
 }
 
-/* Prints where the manual treats a word, and the description of the key of this name. Returns REFUSED if the word is
- * neither a topic nor a key. */
+/* Prints where the manual treats `word`, if it is in the table `topics`, and the description of the key of this name.
+ * Returns REFUSED if the word is neither a topic nor a key. */
 static status help_topic(const char *word)
 {
     const char *answer = topic_answer(word);
@@ -80,8 +80,8 @@ static status help_scene(void)
     return scene_print_help_on_keys(stdout, NULL);
 }
 
-/* Returns REFUSED, with the nearest name in the message, if a word is no key or topic but similar to the name of a page
- * or command. Returns OK otherwise. */
+/* Returns REFUSED, with the most similar name in the message, if `word` is no key or topic but similar to the name of a
+ * page or command. Returns OK otherwise. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};

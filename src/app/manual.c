@@ -166,7 +166,7 @@ static const struct section sections[] = {
     SECTION("COPYRIGHT", copyright, false),
 };
 
-/* Prints a text in lines of at most 100 characters that begin with `indent` blanks. Breaks lines at blanks. */
+/* Prints `text` to `out`, broken at blanks into lines of at most 100 characters that begin with `indent` blanks. */
 static void wrapped(FILE *out, const char *text, int indent)
 {
     int column = 0;
@@ -194,8 +194,8 @@ void usage_print(FILE *out)
         "\n`cleave COMMAND --help` says what a command takes; `cleave help run` what a run leaves and how it ends.\n");
 }
 
-/* Returns true if the usage of a command contains an option. term: the option, which may be followed by a blank and its
- * value. */
+/* Returns true if the command c has an option, i.e. if its usage contains the option. term: the option, which may be
+ * followed by a blank and its value. */
 static bool takes_option(const struct command *c, const char *term)
 {
     size_t length = strcspn(term, " ");
@@ -204,7 +204,8 @@ static bool takes_option(const struct command *c, const char *term)
     return false;
 }
 
-/* Returns true if a manual entry applies to a command: its list of command names contains the command, or is NULL. */
+/* Returns true if the entry e of the manual applies to the command c: its list of command names contains c or is NULL.
+ */
 static bool is_of(const struct entry *e, const struct command *c)
 {
     const size_t length = strlen(c->name);
@@ -226,7 +227,7 @@ void usage_print_of_command(FILE *out, const struct command *c)
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a text and a line end, with escapes for characters that have a meaning in troff. */
+/* Writes `text` and a line break to `out`, with escapes for characters that have a meaning in troff. */
 static void troff_text(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -251,7 +252,8 @@ static void section_troff(FILE *out, const struct section *s)
     }
 }
 
-/* Returns true if an entry of a section belongs to `cleave help run`: it is no option, or an option of `cleave run`. */
+/* Returns true if the entry e of the section s belongs to the page `cleave help run`: it is no option, or an option of
+ * `cleave run`. */
 static bool is_of_run(const struct section *s, const struct entry *e)
 {
     const struct command *run = NULL;

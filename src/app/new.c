@@ -30,8 +30,8 @@ static status kinds_print(void)
     return OK;
 }
 
-/* Finds the kind of scene with the given name and stores it in *found. Returns REFUSED if there is none, with the
- * nearest name if it is similar. */
+/* Finds the kind of scene called `name` and stores a pointer to it in *found. Returns REFUSED if there is none, with
+ * the most similar name in the message. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;

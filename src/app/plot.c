@@ -97,8 +97,8 @@ static status read_format(struct plot_words *w, const char *text)
     return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", printable_name(text).text);
 }
 
-/* Reads the value of --range, LOW:HIGH, and stores both as texts. Their unit is that of the field and is checked when
- * the field is known. Returns REFUSED unless there are two texts. */
+/* Reads `text`, the value of --range, LOW:HIGH, into w as two texts, whose units are checked later, when the field is
+ * known. Returns REFUSED unless there are two texts. */
 static status read_range(struct plot_words *w, const char *text)
 {
     const char *colon = strchr(text, ':');
@@ -138,7 +138,7 @@ static status read_crop(struct plot_words *w, const char *text)
                                       printable_name(text).text, what);
 }
 
-/* Reads the value of --magnify, a number above 0. REFUSED for other texts. */
+/* Reads `text`, the value of --magnify, a number above 0, into w. Returns REFUSED for other texts. */
 static status read_magnify(struct plot_words *w, const char *text)
 {
     char *end;
@@ -176,7 +176,7 @@ static status read_colours(struct plot_words *w, const char *text)
     return OK;
 }
 
-/* Reads the value of --title. Returns REFUSED for one that no picture has space for. */
+/* Reads `text`, the value of --title, into w. Returns REFUSED for a title that is too long for a picture. */
 static status read_title(struct plot_words *w, const char *text)
 {
     w->request.title = text;

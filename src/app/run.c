@@ -71,7 +71,7 @@ static void print_breaks(const struct run *e)
         printf("  first broken bond of particles that a boundary moves: at %.4g s\n", w->driven_time);
 }
 
-/* Prints the energy that load steps released, and the area of the crack. */
+/* Prints the energy that the load steps have released so far, and the area of the crack, from the record r. */
 static void print_release(const struct steps_record *r)
 {
     const bool beside_mirror = r->face > r->area;

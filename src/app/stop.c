@@ -13,8 +13,8 @@ static void on_signal(int number)
     stop_asked = 1;
 }
 
-/* Handles the signals that batch systems send before the end of a job: requests the end of the run. Further signals
- * have no effect, since some systems send them every second. number: of the signal. */
+/* Handles the signals that batch systems send before the end of a job: requests the end of the run. Further such
+ * signals have no effect, since some systems send them every second. number: number of the signal. */
 static void on_notice(int number)
 {
     (void)number;

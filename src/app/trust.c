@@ -60,7 +60,7 @@ static const char not_promised[] = "Not promised: the same bits from another bui
                                    "want of memory; that HDF5 survives a damaged particle list "
                                    "(it may crash, which is said in one line).";
 
-/* Prints a text in lines of at most 100 characters that begin with `indent` blanks. Breaks lines at blanks. */
+/* Prints `text` to `out`, broken at blanks into lines of at most 100 characters that begin with `indent` blanks. */
 static void paragraph(FILE *out, const char *text, int indent)
 {
     int column = 0;

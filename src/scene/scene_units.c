@@ -251,9 +251,8 @@ static real number_value(const char *c, size_t length, int twice_ten)
     return half ? sqrt(10) * strtod(text, NULL) : strtod(text, NULL);
 }
 
-/* Returns a message if the number at c has a notation that scenes do not have and that could be misread: grouped
- * digits, decimal comma, base 60, hexadecimal or octal. Returns NULL otherwise. length: number of characters at c that
- * have been read as a number. */
+/* Returns a message if the number at c has a notation that scenes lack: grouped digits, decimal comma, base 60,
+ * hexadecimal or octal; else NULL. length: number of characters at c that have been read as a number. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
