@@ -60,7 +60,7 @@ struct accuracy_point {
     int at;         /* index of the case */
     int resolution; /* in the units of the problem */
     double horizon; /* horizon [spacings]; 0: no bonds */
-    double step;    /* time.safety: time step over the critical one */
+    double step;    /* time.safety: time step divided by the critical one */
 };
 
 /* Scene of a point: a file or a text, and overrides; keys of the method, the horizon and the time step are added
@@ -250,7 +250,7 @@ int accuracy_collect_times_and_errors(const struct accuracy_plan *plan, const st
                                       int case_index, int part_index, struct accuracy_dot *dot,
                                       const struct accuracy_entry **dot_entry);
 
-/* Returns the number of cases of a problem. */
+/* Returns the number of cases (entries of problem->cases) of the problem `problem`. */
 int accuracy_case_count(const struct accuracy_problem *problem);
 
 #endif

@@ -51,8 +51,8 @@ enum { CIRCLE_SPACINGS = 3, CIRCLE_LATTICES = 2, CIRCLE_OVERRIDES = 2, CIRCLE_LO
  * scene. spacing, turned: spacings of lattices along the axes and of rotated ones [mm], ending with 0; the first, the
  * coarsest, of most cases also runs with --quick. degrees: angles of the rotated lattices, ending with 0. crack: length
  * of the pre-crack [mm]; the expected value applies only if it is at least three horizons; 0: it always applies.
- * horizon: largest horizon over E G_c/strength^2 at which the expected value applies, 0: any. why: reason for which
- * there is no run, or NULL. */
+ * horizon: largest horizon, divided by E G_c/strength^2, at which the expected value applies; 0: any. why: reason for
+ * which there is no run, or NULL. */
 struct circle_case {
     const char *circle, *figure, *unit;
     double expected, tolerance;

@@ -10,9 +10,9 @@ struct mark {
     double time, share;
 };
 
-/* A scene with its model, spacing and goals. t_r = 1 - t_adaptive/t_PD is the computing time that an adaptive run
- * saves, over that of full peridynamics; paper: Zeng et al. 2022. mark[marks]: shares of peridynamic particles in the
- * paper. */
+/* A scene with its model, spacing and goals. t_r = 1 - t_adaptive/t_PD: computing time that an adaptive run saves,
+ * divided by the computing time of full peridynamics. paper: Zeng et al. 2022. mark[marks]: shares of peridynamic
+ * particles in the paper. */
 struct scene_case {
     const char *name, *path, *model;
     const char *tips;    /* conversion.tips of adaptive runs [horizons] */

@@ -135,16 +135,16 @@ enum { EXPERIMENT_DAMAGED = 35 }; /* damage that counts as crack, as for crack t
 
 /* ---- the experiments --------------------------------------------------------------------------------------------- */
 
-/* Runs Kalthoff's plate and branching in glass, and adds their results to x. Returns REFUSED or FAILED if a study
- * does. */
+/* Runs Kalthoff's plate and the branching of a crack in glass, and adds their results to the results x of the bench.
+ * Returns REFUSED or FAILED if a study does. */
 status experiments_run_plates(struct experiments *x);
 
 /* Runs a crack through a strip with displaced faces under several loads, and adds speed, stress-intensity factor and
- * energy to x. Returns REFUSED or FAILED if a study does. */
+ * energy to the results x of the bench. Returns REFUSED or FAILED if a study does. */
 status experiments_run_strip(struct experiments *x);
 
 /* Runs a crack that follows a prescribed moving displacement field (surfing, Hossain et al. 2014), and adds the energy
- * per crack area to x. Returns REFUSED or FAILED if a run does. */
+ * per crack area to the results x of the bench. Returns REFUSED or FAILED if a run does. */
 status experiments_run_surfing_crack(struct experiments *x);
 
 /* Results of surf_run_and_measure_crack. taken: energy of broken bonds, divided by the new crack area [J/m^2]; speed:
@@ -160,8 +160,8 @@ struct surf_figures {
 status surf_run_and_measure_crack(double spacing, double energy_share, double speed_ratio, double time_step_fraction,
                                   struct surf_figures *measured, double *rayleigh_speed);
 
-/* Runs a vortex with manufactured body force, after Kamojjala et al. 2015, at several spacings, and adds its errors and
- * their order to x. Returns REFUSED or FAILED if a run does. */
+/* Runs a vortex with a manufactured body force, after Kamojjala et al. 2015, at several spacings, and adds its errors
+ * and their order of convergence to the results x of the bench. Returns REFUSED or FAILED if a run does. */
 status experiments_run_vortex(struct experiments *x);
 
 /* Numerical methods of the vortex. */
@@ -172,11 +172,12 @@ enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
  * of the displacements. Returns REFUSED or FAILED if the run does. */
 status vortex_run_and_measure_error(enum vortex_method method, double spacing, double *error);
 
-/* Runs the notched beam of John & Shah 1990 and adds its results to x. Returns REFUSED or FAILED if a run does. */
+/* Runs the notched beam of John & Shah 1990 and adds its results to the results x of the bench. Returns REFUSED or
+ * FAILED if a run does. */
 status experiments_run_notched_beam(struct experiments *x);
 
 /* Runs a disc that is compressed across its diameter, and adds its stress and its largest load, each divided by the
- * closed form, to x. Returns REFUSED or FAILED if a run does. */
+ * closed form, to the results x of the bench. Returns REFUSED or FAILED if a run does. */
 status experiments_run_compressed_disc(struct experiments *x);
 
 #endif

@@ -56,8 +56,7 @@ struct law_points laws_points_at_rest(void);
 void laws_add_elastic_stress_of_increment(const struct law *law, struct law_points *points,
                                           const real *strain_increment, enum space space);
 
-/* Returns the elastic energy density of the first of the eight points in `points` with the material law `law` [J/m^3].
- */
+/* Returns the elastic energy density [J/m^3] of the first of the eight points in `points`. law: their material law. */
 real laws_elastic_energy_density(const struct law *law, const struct law_points *points);
 
 /* Strains an element with the material law `law` by 500 random increments of up to 0.2 %, with an explicit law update
@@ -66,40 +65,99 @@ real laws_elastic_energy_density(const struct law *law, const struct law_points 
  * has hardly yielded. */
 double laws_energy_error_of_random_strains(const struct law *law, enum space space);
 
-/* Measure the quantities of a case with a single element in tension, cycled or heated, in explicit steps.
- * measured[LAWS_FIGURES]: receives the quantities in the order and units of c->asked; given: meaning of c->given. */
-status laws_measure_hardening(const struct laws_case *c, double *measured); /* given: enum flow, with the constants of
-    laws_steel; measured: stress at the strains 0.01 and 0.05 [MPa], plastic work up to 0.05 [MJ/m^3] */
+/* Pulls a bar of laws_steel and measures, for the case c, the stress at the strains 0.01 and 0.05 [MPa] and the plastic
+ * work up to 0.05 [MJ/m^3] into measured[3]. c->given[0]: flow law (enum flow). Returns OK. */
+status laws_measure_hardening(const struct laws_case *c, double *measured);
+
+/* Pulls a bar of laws_steel with tabulated hardening, and stores its stress [MPa] at the strains 0.008, 0.04 and 0.2 in
+ * measured[3]. c: the case, without parameters. Returns OK. */
 status laws_measure_tabulated_hardening(const struct laws_case *c, double *measured);
+
+/* Loads a bar of steel with linear kinematic hardening (Prager) to the strains 0.01, -0.01, 0.01 and -0.01 in turn, and
+ * stores the stress [MPa] at each in measured[4]. c: the case, without parameters. Returns OK. */
 status laws_measure_prager_hardening(const struct laws_case *c, double *measured);
+
+/* Loads a bar of steel with kinematic hardening by Armstrong & Frederick. Stores in measured[3] the stress [MPa] when
+ * the strain is 0.01 for the first and, in cycles between -0.01 and 0.01, for the sixth time, and the growth of the
+ * strain [1e-3] in the fourth of four cycles between the stresses 300 and -200 MPa. c: the case, without parameters.
+ * Returns OK. */
 status laws_measure_armstrong_frederick_hardening(const struct laws_case *c, double *measured);
-status laws_measure_plane_strain_tension(const struct laws_case *c,
-                                         double *measured); /* given: hardening [MPa], strain */
-status laws_measure_johnson_cook_heating(const struct laws_case *c,
-                                         double *measured); /* given: 0 copper or 1 steel, m, plastic strain */
-status laws_measure_rate_sensitive_cycles(const struct laws_case *c,
-                                          double *measured); /* given: amplitude, frequency [Hz] */
-status laws_measure_stress_relaxation(const struct laws_case *c,
-                                      double *measured); /* given: two times after which it is held [s] */
+
+/* Stretches a sheet in plane strain. Stores in measured[4], at the final strain, the stress along the tension and the
+ * one normal to the plane [MPa] and the plastic strain [1e-3], and the largest stress before the first plastic strain
+ * [MPa]. Parameters of the case c: c->given[0] hardening modulus [MPa], c->given[1] final strain [1]. Returns OK. */
+status laws_measure_plane_strain_tension(const struct laws_case *c, double *measured);
+
+/* Stretches a point with the Johnson-Cook law, which its plastic work heats, at a plastic strain rate of 1000/s. Stores
+ * its equivalent stress [MPa] and its temperature [K] at the final plastic strain in measured[2]. Parameters of the
+ * case c: c->given[0] 0 for copper, 1 for steel; c->given[1] exponent m of the thermal softening; c->given[2] final
+ * plastic strain [1]. Returns OK. */
+status laws_measure_johnson_cook_heating(const struct laws_case *c, double *measured);
+
+/* Strains a bar of Johnson-Cook copper sinusoidally for five cycles, in 1000 and in 10000 steps per cycle, and stores
+ * the accumulated plastic strain [%] of both runs in measured[2]. Parameters of the case c: c->given[0] amplitude of
+ * the strain [1], c->given[1] frequency [Hz]. Returns OK. */
+status laws_measure_rate_sensitive_cycles(const struct laws_case *c, double *measured);
+
+/* Strains a bar with a rate-sensitive law to 0.01 at 1000/s and then keeps its strain constant. Stores in measured[3]
+ * the stress [MPa] at the end of the straining and at two later times. c->given[0], c->given[1]: these times, after the
+ * end of the straining [s]; c: the case. Returns OK. */
+status laws_measure_stress_relaxation(const struct laws_case *c, double *measured);
+
+/* Loads a point of ideally plastic steel to its yield stress in tension and then shears it. Stores in measured[4] the
+ * remaining tensile stress divided by the yield stress [1]: with 1000 explicit steps, and with 1, 4 and 16 load steps.
+ * c: the case, without parameters. Returns OK. */
 status laws_measure_tension_then_shear(const struct laws_case *c, double *measured);
+
+/* Stores in measured[3] the relative error of the energy under random strains (laws_energy_error_of_random_strains) of
+ * three laws: Voce in space, kinematic hardening in plane stress, and Johnson-Cook in plane strain. c: the case,
+ * without parameters. Returns OK. */
 status laws_measure_energy_of_random_strains(const struct laws_case *c, double *measured);
 
 /* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */
 
-/* Measure the quantities of a case with a body: bars that hit a wall, and bodies under static loads.
- * measured[LAWS_FIGURES]: receives the quantities in the order and units of c->asked. c->given of bars: [0] shape
- * functions, 0 gimp or 1 linear; [1] dilatation, 0 the mean of a cell or 1 that of each point. */
+/* Runs a bar of copper that hits a rigid wall at 227 m/s (Wilkins). Stores in measured[3] its length and its largest
+ * radius at the end [mm] and the error of the energy balance [%]. Parameters of the case c: c->given[0] shape
+ * functions, 0 gimp (of particles with extent), 1 linear; c->given[1] dilatation of a point, 0 the mean of its cell, 1
+ * its own. Returns REFUSED or FAILED if the run does. */
 status laws_measure_wilkins_bar_impact(const struct laws_case *c, double *measured);
+
+/* Runs a bar of copper that hits a rigid wall at 190 m/s. Stores in measured[5] its length and its largest radius at
+ * the end [mm], its largest plastic strain [1], the root mean square of its pressure [GPa] and the error of the energy
+ * balance [%]. c: the case; c->given as in laws_measure_wilkins_bar_impact. Returns REFUSED or FAILED if the run does.
+ */
 status laws_measure_copper_bar_impact(const struct laws_case *c, double *measured);
+
+/* Runs a bar of copper with the Johnson-Cook law that hits a rigid wall at 190 m/s. Stores in measured[4] its length
+ * and its largest radius at the end [mm], its highest temperature [K] and the error of the energy balance [%]. c: the
+ * case; c->given as in laws_measure_wilkins_bar_impact. Returns REFUSED or FAILED if the run does. */
 status laws_measure_johnson_cook_bar_impact(const struct laws_case *c, double *measured);
-status laws_measure_cook_membrane(const struct laws_case *c,
-                                  double *measured); /* given: 1 in space, 1 in the current frame, spacing [mm] */
-status laws_measure_torsion_moment(const struct laws_case *c,
-                                   double *measured); /* given: angle over that of first yield */
-status laws_measure_beam_bending(const struct laws_case *c,
-                                 double *measured); /* given: 1 in plane strain, curvature over first yield */
+
+/* Bends Cook's membrane, of a nearly incompressible material, and stores the displacement of its upper corner [um] in
+ * measured[0]. Parameters of the case c: c->given[0] 0 for plane strain, 1 for a slab in space; c->given[1] 0 for load
+ * steps on the reference grid, 1 for relaxation on the current grid; c->given[2] particle spacing [mm]. Returns REFUSED
+ * or FAILED if the run does. */
+status laws_measure_cook_membrane(const struct laws_case *c, double *measured);
+
+/* Twists a cylinder of ideally plastic steel, and stores its moment [N m] in measured[0]. c: the case; c->given[0]:
+ * angle divided by the angle of first yield [1]. Returns REFUSED or FAILED if the run does. */
+status laws_measure_torsion_moment(const struct laws_case *c, double *measured);
+
+/* Bends a beam of ideally plastic steel, and stores its moment divided by the moment of first yield [1] in measured[0].
+ * Parameters of the case c: c->given[0] 0 for plane stress, 1 for plane strain; c->given[1] curvature divided by the
+ * curvature of first yield [1]. Returns REFUSED or FAILED if the run does. */
+status laws_measure_beam_bending(const struct laws_case *c, double *measured);
+
+/* Loads a hollow sphere of ideally plastic steel by a pressure inside. Stores in measured[4] the radius of the plastic
+ * front from the stress outside it and from the plastic strain [inner radii], the outward displacement of the outer
+ * face [um], and the pressure of collapse divided by the yield stress [1]. c: the case, without parameters. Returns
+ * REFUSED or FAILED if a run does. */
 status laws_measure_hollow_sphere(const struct laws_case *c, double *measured);
-status laws_measure_thick_cylinder(const struct laws_case *c,
-                                   double *measured); /* given: radius of the front over the inner radius */
+
+/* Loads a thick cylinder of ideally plastic steel by a pressure inside. Stores in measured[2] the radius of the plastic
+ * front from the stress outside it and from the plastic strain [inner radii]. c: the case; c->given[0]: radius of the
+ * front that is expected from the pressure, divided by the inner radius [1]. Returns REFUSED or FAILED if a run does.
+ */
+status laws_measure_thick_cylinder(const struct laws_case *c, double *measured);
 
 #endif

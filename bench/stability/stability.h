@@ -19,7 +19,7 @@ struct stability_case {
     int offsets;   /* number of offsets tried between 0 and 1; 0: only `offset` */
     double horizon, poisson, irregularity;
     bool contact;   /* contact between crack faces */
-    double heavier; /* density of one half over that of the other; 0: one material */
+    double heavier; /* density of one half divided by that of the other; 0: one material */
     /* Peridynamic region of adaptive cases: one half; all but scattered balls; these balls; the middle half; the middle
      * half along each axis; a ball; the lower half along each axis; three quarters of the middle half, with a crack up
      * to the middle. */
@@ -108,7 +108,7 @@ struct stability_map {
     struct stability_row row[STABILITY_ROWS_MAX];
 };
 
-/* Required range of the automatic time step over the observed limit. */
+/* Required range of the automatic time step divided by the observed limit of stability [1]. */
 #define STABILITY_LEAST 0.6
 #define STABILITY_MOST 0.95
 

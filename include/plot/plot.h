@@ -278,7 +278,7 @@ double frame_particle_spacing(const struct output_frame *f);
 /* Quantity that a map shows. */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
-/* Returns the kind of map (MAP_...) in which a field is shown. */
+/* Returns the kind of map (MAP_...) that shows the field `field`, e.g. MAP_DAMAGE for the damage. */
 enum map map_of_field(const struct plot_field *field);
 
 /* Adds the rigid bodies of the scene s to c, the particles of frame number `frame_number` that a picture shows, with

@@ -15,11 +15,11 @@ struct energy_balance {
     real time; /* of the sample [s] */
     struct energy energy;
     real external_work;     /* work of loads and supports since the start [J] */
-    real balance_error;     /* (E - E_0 - work) over the largest |E| or |work| so far [1] */
+    real balance_error;     /* (E - E_0 - work) divided by the largest |E| or |work| so far [1] */
     real momentum[DIM_MAX]; /* of all bodies [kg m/s] */
-    real momentum_error;    /* largest |p - p_0 - impulse| so far over the largest sum |m v| so far [1] */
+    real momentum_error;    /* largest |p - p_0 - impulse| so far, divided by the largest sum |m v| so far [1] */
     real spin[DIM_MAX];     /* L: angular momentum of free bodies about their common centre of mass [kg m^2/s] */
-    real spin_error;        /* largest |L - L_0| so far over the largest sum |L_body| so far; NAN if not measured [1] */
+    real spin_error;        /* largest |L - L_0| so far, divided by the largest sum |L_body| [1]; NAN: not measured */
 };
 
 struct diagnostics {

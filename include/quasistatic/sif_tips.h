@@ -10,7 +10,7 @@
  * (statics_norm_of_prescribed_loads). */
 struct crack_increment {
     real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
-    real release; /* energy that the body releases, over the square of the load size [J/m^2, J/N^2] */
+    real release; /* energy that the body releases, divided by the square of the load size [J/m^2, J/N^2] */
 };
 
 /* The tip of a SIF-driven crack: the direction of its growth follows from its stress-intensity factors. In space the

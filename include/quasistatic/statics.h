@@ -34,8 +34,8 @@ struct break_list {
     struct broken_bond *bond; /* [n] */
 };
 
-/* Crack area and released energy at one instant. The energy release rate is the difference of the energies of two
- * instants over that of the areas. */
+/* Crack area and released energy at one instant. The energy release rate between two instants is the difference of the
+ * energies divided by the difference of the areas. */
 struct release_mark {
     real area;     /* crack area [m^2] */
     real released; /* energy released so far [J] */

@@ -21,8 +21,8 @@ bool value_read_in_unit(real *value, const char *text, const char *symbol, char 
  * beside `5 mm` becomes `-5mm`. Returns `joined`. */
 const char *number_text_with_unit_of(char *joined, size_t capacity, const char *text, const char *other);
 
-/* Returns the SI unit of numbers without a unit that are values of the key `path`, as it follows -s, such as
- * materials.glass.young: its symbol, "" if the key has none or is unknown. */
+/* Returns the symbol of the SI unit of numbers that a scene states without a unit for the key `path`, e.g. "Pa" for
+ * materials.glass.young; "" if the key has no unit or is unknown. */
 const char *scene_key_unit(const char *path);
 
 /* Returns the index of `text` in the words a|b|c, or -1. */

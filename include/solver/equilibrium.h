@@ -45,11 +45,11 @@ struct newton_solver {
     real lost;
 
     real bent; /* work of loads along the last increment beyond the mean of both equilibria times the increment [J] */
-    real residual;     /* norm of the residual over `scale` [1] */
+    real residual;     /* norm of the residual divided by `scale` [1] */
     real scale;        /* larger of the norms of applied forces and reactions [N] */
     real largest;      /* largest scale so far [N] */
     real applied;      /* norm of the applied forces, set by the caller [N] */
-    real strain_ratio; /* strain of the last direction over its largest component [1/m] */
+    real strain_ratio; /* strain of the last direction divided by its largest component [1/m] */
     int64_t worst;     /* node with the largest residual */
 };
 

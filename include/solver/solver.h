@@ -15,7 +15,7 @@
 struct static_solver {
     int dim;
     int64_t n;           /* number of particles */
-    real residual;       /* norm of the residual over `scale` [1] */
+    real residual;       /* norm of the residual divided by `scale` [1] */
     real scale;          /* larger of the norms of applied forces and reactions [N] */
     real noise;          /* norm of forces caused by round-off of positions [N] */
     real first;          /* largest residual of a body without loads [N] */
@@ -32,7 +32,7 @@ struct static_solver {
     struct field before; /* relaxation: forces of the previous step [N] */
     struct field u, r, d, q;    /* conjugate gradients: displacement, residual, direction d, K d */
     real rz;                    /* r . r/Lambda */
-    real strain_ratio, u_ratio; /* strain of the last direction, and of u, over the largest component [1/m] */
+    real strain_ratio, u_ratio; /* strain of the last direction, and of u, divided by the largest component [1/m] */
     real best;                  /* smallest residual of all restarts [1] */
     int stalls;                 /* successive restarts that did not halve the residual */
 };

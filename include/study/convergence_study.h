@@ -25,7 +25,7 @@ void spacings_choose_for_convergence_study(struct spacings *spacings, const stru
 /* Parameters in which a run of the study differs from the scene. */
 struct study_point {
     int level;                     /* index of its level; -1: a run at the spacing of level 1 with a longer horizon */
-    double spacing, step, horizon; /* spacing [m]; time step over that of the scene [1]; horizon [spacings] */
+    double spacing, step, horizon; /* spacing [m]; time step divided by that of the scene [1]; horizon [spacings] */
     int run;                       /* index among the runs of its level, from 0 */
 };
 
@@ -103,7 +103,7 @@ status scalar_results_write(const struct convergence_study *s, const struct scal
  * convergence of each figure, and the parameter of the discretisation to which it is most sensitive. */
 void scalar_results_print(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);
 
-/* Draws the figures (scalar results) figure[figures] over the particle spacing as pictures/convergence.png in the
+/* Draws the figures (scalar results) figure[figures] against the particle spacing as pictures/convergence.png in the
  * folder of the study s. If the runs have cracks, also draws the crack paths as pictures/path.png. Returns FAILED if a
  * picture cannot be drawn. */
 status scalar_results_draw(const struct convergence_study *s, const struct scalar_result_study *figure, int figures);

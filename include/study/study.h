@@ -241,9 +241,9 @@ status study_check_output_files_replaceable(const struct study *s, const struct 
 status study_print_means_over_seeds(FILE *to, const struct study_table *t, const struct study *s,
                                     const struct varied_key *key, int keys, const char *const *result, int results);
 
-/* Draws figures of a study (numbers in summary.json) over the values of each of its varied keys, as pictures/KEY.png in
- * the folder of the study, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the study
- * and their values; result[results]: names of the figures, up to six; if results is 0, the first ones that differ
+/* Draws figures of a study (numbers in summary.json) against the values of each of its varied keys, as pictures/KEY.png
+ * in the folder of the study, and over two keys as pictures/map.png. t: table of the results; key[keys]: keys of the
+ * study and their values; result[results]: names of the figures, up to six; if results is 0, the first ones that differ
  * between runs are drawn. Returns REFUSED if there is no such figure, FAILED if a picture cannot be drawn. */
 status study_draw_results_over_keys(const struct study_table *t, const struct study *s, const struct varied_key *key,
                                     int keys, const char *const *result, int results);

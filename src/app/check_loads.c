@@ -323,7 +323,7 @@ static void say_load(const struct run *e, int which)
 
 /* ---- balance ----------------------------------------------------------------------------------------------------- */
 
-#define UNBALANCED 0.01 /* net force from which on loads do not balance, over the sum of their forces */
+#define UNBALANCED 0.01 /* net force, divided by the sum of the forces, from which on loads do not balance */
 enum { INSTANTS = 64 }; /* times at which the net force is evaluated */
 
 /* Returns true if the scene has a single body that moves in time under loads alone: no support holds or drives it, and

@@ -1,5 +1,5 @@
 /* Remarks of `cleave check` on pre-cracks: on short ones, on ends that lie exactly on bonds, and on the length of the
- * shortest pre-crack over the horizon if bonds soften. */
+ * shortest pre-crack divided by the horizon if bonds soften. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 
 #define FRICTION_MOST 3.0   /* coefficient; dry metals in vacuum have 1 to 2 */
 #define EARTH 9.81          /* [m/s^2] */
-#define GRAVITY_MOST 1000.0 /* over that of the Earth; centrifuges of geotechnics have up to 300 */
+#define GRAVITY_MOST 1000.0 /* divided by that of the Earth; centrifuges of geotechnics have up to 300 */
 #define DAMPING_MOST 0.1    /* c times the time step */
 
 #define FRAME_BYTES 60.0 /* of a frame with its usual fields, per particle; measured in 2D and 3D: 54 and 63 */

@@ -12,11 +12,11 @@
 #define FALLS 1e-6       /* least relative decrease of a load that is not round-off */
 #define LOADS_LOOKS 64   /* number of times at which loads are evaluated */
 #define PEAK_LOOKS 240   /* number of times at which peaks between load steps are looked for */
-#define PEAK_MISSED 0.01 /* least height of a peak above the load steps beside it, over the largest loads */
+#define PEAK_MISSED 0.01 /* least height of a peak above the load steps beside it, divided by the largest loads */
 #define FEW 20.0         /* spacings of crack, or of material ahead, below which loads deviate from handbooks */
-#define NOTHING_BREAKS 0.8 /* tip stretch over critical stretch without an increment; 0.9 at Griffith's load */
+#define NOTHING_BREAKS 0.8 /* tip stretch divided by critical stretch without an increment; 0.9 at Griffith's load */
 #define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
-#define LEAST_SHARE 0.1    /* least run time over the largest: early separation, fewer iterations */
+#define LEAST_SHARE 0.1    /* least run time divided by the largest: early separation, fewer iterations */
 #define SPACINGS 2.0       /* length of a crack increment [spacings] */
 /* LED_EQUILIBRIA: estimated number of equilibria for one crack increment whose direction follows from stress-intensity
  * factors. PAIRS_AT_ONCE: number of pairs of bonds that one equilibrium breaks in 2D. */

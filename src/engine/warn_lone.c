@@ -65,7 +65,7 @@ static void lone_points_count(const struct scene *s, const struct cells *cells, 
 
 enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
 #define APART_MOST 1.25  /* largest median distance of nearest neighbours [spacings]; close packings have 1.12 */
-#define CROWDED_MOST 1.6 /* largest number of particles within NEAR, over that of a lattice */
+#define CROWDED_MOST 1.6 /* largest number of particles within NEAR, divided by that of a lattice */
 #define NEAR 2.5         /* radius in which neighbours are counted [spacings] */
 /* relative difference of the distances of nearest neighbours in a lattice, from the digits of lists */
 #define ALIKE 0.01

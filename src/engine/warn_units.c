@@ -8,11 +8,11 @@
 
 enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
 #define UNLIKE 30  /* factor between the densities of a rigid body and of materials in other units */
-#define EARLY 0.01 /* end of a function of time over the time step, below which the run does not see it */
+#define EARLY 0.01 /* end of a function of time divided by the time step, below which the run does not see it */
 #define STIFF 1e9  /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
 #define HARDENING_LEAST                                                                                                \
-    1e-6 /* hardening modulus over Young's modulus below which stress hardly grows with strain [1] */
+    1e-6 /* hardening modulus divided by Young's modulus below which stress hardly grows with strain [1] */
 
 enum { RULES = ACCEPT_TIMES + 1 };
 

@@ -100,11 +100,11 @@ void curves_write_title(struct gnuplot *gnuplot, const char *title, const char *
  * unless it is 0. */
 void title_compose_with_particles_outside(char *text, const char *title, int64_t outside);
 
-/* Writes the gnuplot commands for the horizontal axis of a picture, over time or over the number of the load step, with
- * range and label. series: history that is drawn. */
+/* Writes the gnuplot commands for the horizontal axis of a picture, with its range and label, to the stream `gnuplot`.
+ * The axis shows the time or the number of the load step. series: history that is drawn. */
 void curves_write_time_axis(FILE *gnuplot, const struct series *series);
 
-/* Draws the stress-intensity factors of all SIF probes over time and, in a panel below, the relative differences
+/* Draws the stress-intensity factors of all SIF probes against time and, in a panel below, the relative differences
  * between their integration contours, as the picture `sif` in the folder series->pictures. title: heading of the
  * picture; series: history of the run. Returns OK without a picture if the run has no SIF probe, FAILED if gnuplot
  * fails. */
@@ -119,14 +119,14 @@ status crack_paths_draw(const char *folder, const char *title, const struct seri
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_has_load_steps(const char *folder);
 
-/* Draws the force over the displacement of each support and rigid body that carries a force, with the largest force
+/* Draws the force against the displacement of each support and rigid body that carries a force, with the largest force
  * marked, to the file `sheet`. title: heading of the picture; history: history of the run. If no support or body
  * carries a force or moves, prints this instead of drawing, and names the probe that would record it. Returns FAILED if
  * gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *history);
 
-/* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve) to the file `sheet`, with
- * lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;
+/* Draws, for a run with load steps, the energy release rate against the new crack area (R-curve) to the file `sheet`,
+ * with lines at the fracture energies G_c of the materials. folder: folder of the run; title: heading of the picture;
  * history: history of the run. If no crack has grown, prints this instead of drawing. Returns FAILED if gnuplot fails.
  */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *history);
@@ -136,13 +136,13 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
  * picture. Returns FAILED if history.csv cannot be read or gnuplot fails. */
 status history_curves_draw(const struct plot_request *request, const char *title);
 
-/* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
+/* Draws velocity, stress and damage against the position along a one-dimensional bar, one curve for each of
  * frame[frame_count], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
 status bar_profiles_draw(struct sheet sheet, const char *title, const struct output_frame *frame, int frame_count);
 
-/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frame_count], to the file
- * `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the particles of frame k. Returns
- * FAILED if gnuplot fails. */
+/* Draws one field against the position along a one-dimensional bar, one curve for each of frame[frame_count], to the
+ * file `sheet`. title: heading of the picture; value_of_frame[k]: values of the field at the particles of frame k.
+ * Returns FAILED if gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field,
                            float *const *value_of_frame, const struct output_frame *frame, int frame_count);
 

@@ -91,8 +91,8 @@ static bool column_varies(const struct history *h, int column)
     return false;
 }
 
-/* Draws the growth of the longest crack and the share of peridynamic particles over time, each only if it changes. The
- * crack growth of a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
+/* Draws the growth of the longest crack and the share of peridynamic particles against time, each only if it changes.
+ * The crack growth of a bar is never drawn. Prints a message if neither changes. Returns FAILED if gnuplot fails. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
     const int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
@@ -191,7 +191,7 @@ static const double LABEL_AT = 16, LABEL_AT_NARROW = 10;
 /* Least extent of the axis of the balance error in both directions [%]; smaller errors are round-off. */
 static const double BALANCE_LEAST = 0.0012;
 
-/* Plots the relative error of the energy balance over time in a panel below the energies. l: layout of the picture;
+/* Plots the relative error of the energy balance against time in a panel below the energies. l: layout of the picture;
  * largest: largest magnitude of the error [1]. */
 static void plot_balance(FILE *to, const struct series *s, const struct curves_layout *l, double largest)
 {
@@ -209,7 +209,7 @@ static void plot_balance(FILE *to, const struct series *s, const struct curves_l
             1 - (l->above + 0.5 * (two.lower_from + two.lower_end)) / l->height, curve_colour[6]);
 }
 
-/* Draws the energies of a run over time, and below them the balance error if the history has it. Prints a message if
+/* Draws the energies of a run against time, and below them the balance error if the history has it. Prints a message if
  * all energies are 0 or the run has one equilibrium. Returns FAILED if gnuplot fails. */
 static status draw_energy(struct sheet sheet, const char *title, const struct series *s)
 {

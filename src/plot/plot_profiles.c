@@ -163,7 +163,7 @@ static bool profile_has_loose(const struct bar_profile *p)
 /* Returns the largest absolute value in the range `of`. */
 static double range_magnitude(struct value_range of) { return fmax(fabs(of.low), fabs(of.high)); }
 
-/* Plots value number `column` of profile[profiles] over the position, each with its time in the key. */
+/* Plots value number `column` of profile[profiles] against the position, each with its time in the key. */
 static void plot_profiles(FILE *to, const struct bar_profile *profile, int profiles, int column)
 {
     struct unit second = unit_for_largest_value(profile[profiles - 1].t, "s");

@@ -109,8 +109,8 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Appends to r the curves of force over displacement of the rigid bodies that carry a force and move. If `resting` is
- * true, also appends those of bodies that carry a force and do not move. Returns true if one of the appended bodies
+/* Appends to r the curves of force against displacement of the rigid bodies that carry a force and move. If `resting`
+ * is true, also appends those of bodies that carry a force and do not move. Returns true if one of the appended bodies
  * moves. */
 static bool reactions_add_rigids(struct reactions *r, const struct history *h, bool resting)
 {
@@ -130,9 +130,9 @@ static bool reactions_add_rigids(struct reactions *r, const struct history *h, b
     return moving;
 }
 
-/* Finds the curves of force over displacement: those of supports that move, and of rigid bodies that move under a
- * force. If none moves, uses all supports and rigid bodies with a force, over the displacement of the first point probe
- * that moves. Stores in *r the curves, the largest force, and the largest displacement while there is a force. */
+/* Finds the curves of force against displacement: those of supports that move, and of rigid bodies that move under a
+ * force. If none moves, uses all supports and rigid bodies with a force, against the displacement of the first point
+ * probe that moves. Stores in *r the curves, the largest force, and the largest displacement while there is a force. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -166,8 +166,8 @@ static void reactions_find(struct reactions *r, const struct history *h)
     }
 }
 
-/* Returns true if the curves a and b (force over displacement) are nowhere further apart than the width of a line. r:
- * all curves, for the ends of the axes; h: history with the values. */
+/* Returns true if the curves a and b (force against displacement) are nowhere further apart than the width of a line.
+ * r: all curves, for the ends of the axes; h: history with the values. */
 static bool curves_coincide(const struct reactions *r, const struct history *h, const struct reaction *a,
                             const struct reaction *b)
 {
@@ -211,7 +211,7 @@ static void reactions_send(FILE *to, const struct history *h, const struct react
     }
 }
 
-/* Plots the curves r of force over displacement, each with a ring at its largest force. newton, metre: units of the
+/* Plots the curves r of force against displacement, each with a ring at its largest force. newton, metre: units of the
  * vertical and the horizontal axis. */
 static void reactions_plot(FILE *to, const struct history *h, const struct reactions *r, struct unit newton,
                            struct unit metre)
@@ -231,7 +231,7 @@ static void reactions_plot(FILE *to, const struct history *h, const struct react
     putc('\n', to);
 }
 
-/* Prints the reason why the picture `path` of load over displacement is not drawn. r: the curves that were found.
+/* Prints the reason why the picture `path` of load against displacement is not drawn. r: the curves that were found.
  * Returns FAILED if standard output cannot be written. */
 static status say_missing_load(const char *path, const struct reactions *r)
 {
@@ -302,8 +302,8 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
-/* Plots the energy release rate over the crack area. Also plots as horizontal lines the mean rate `mean` [J/m^2] unless
- * it is NAN, and the critical rates toughness[n] [J/m^2] of the materials. rate: unit of the axis of rates. */
+/* Plots the energy release rate against the crack area. Also plots as horizontal lines the mean rate `mean` [J/m^2]
+ * unless it is NAN, and the critical rates toughness[n] [J/m^2] of the materials. rate: unit of the axis of rates. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
     fprintf(to, "plot $data with linespoints lw 2 pt 7 ps 0.7 lc rgb '%s' title 'release rate'", curve_colour[0]);

@@ -40,7 +40,7 @@ struct named {
     char text[64];
 };
 
-/* Returns the unit of q as text for a message. */
+/* Returns the unit of the quantity q as text for a message. */
 struct named quantity_unit_name(const struct quantity *q);
 
 /* Returns true if q has no dimension. */

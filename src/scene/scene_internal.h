@@ -148,7 +148,8 @@ status pilot_requirements_read(struct reader *r, const struct yaml_node *root, c
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
-/* Writes the shortest text that reads back to a number with identical bits to `text`, and returns it. */
+/* Writes the number `value` into `text` with the fewest digits from which the same value, bit for bit, is read again.
+ * Returns `text`. */
 const char *number_write_shortest(char text[32], real value);
 
 /* A number with its unit, which is given by exponents of m, kg and s. */

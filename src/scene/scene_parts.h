@@ -4,8 +4,9 @@
 
 #include "scene_internal.h"
 
-/* Reads a region, a list of solids, from the node `region_node` into *region. Solids may be names of other regions,
- * which are inserted. Returns REFUSED, with a message, if it is invalid. */
+/* Reads a region, a list of solids, from the node `region_node` of the scene into *region. An entry of the list may be
+ * the name of another region, whose solids are inserted. r: reader of the scene. Returns REFUSED, with a message, if
+ * the region is invalid. */
 status read_region(struct reader *r, const struct yaml_node *region_node, struct region *region);
 
 /* Reads the named regions of the scene with the tree `root` into r->scene. Returns REFUSED, with a message, if one is
@@ -118,8 +119,8 @@ status check_particle_count_fits_indices(struct reader *r, const struct yaml_nod
  * with a message, for an invalid interface. */
 status read_interfaces(struct reader *r, const struct yaml_node *root);
 
-/* Returns REFUSED, with a message, if a boundary condition applies to only one of several joined bodies. root: tree of
- * the scene. */
+/* Checks that each boundary condition that applies to one of several joined bodies applies to all of them. r: reader of
+ * the scene; root: tree of the scene. Returns REFUSED, with a message, if one does not. */
 status check_boundaries_of_joined_bodies(struct reader *r, const struct yaml_node *root);
 
 /* Returns the critical stretch of bonds [1] that follows from the energy release rate of material m, with the model,

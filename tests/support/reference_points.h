@@ -153,8 +153,8 @@ static inline void reference_given(const struct reference_step *s, int64_t i, re
     reference_tensor(given, s->p->dim, tensor);
 }
 
-/* Maps the momentum of the material points and, if with_mass, their mass to the nodes. FLIP: a point has one velocity;
- * APIC: its velocity varies in space with its gradient. */
+/* Sums the momentum of the material points of the step s to the nodes (s->momentum) and, if with_mass is true, their
+ * mass too (s->mass). With FLIP the velocity of a point is uniform; with APIC it varies linearly round the point. */
 static inline void reference_map(struct reference_step *s, bool with_mass)
 {
     const struct particles *p = s->p;
