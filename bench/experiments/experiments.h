@@ -116,7 +116,7 @@ struct branching {
  * spacing of the particles [m]. */
 struct branching branching_find_in_frame(const struct output_frame *frame, double spacing);
 
-/* Returns the coordinate x at which the crack branches, in the last frame of the run in `run_folder` [m]; NAN if it
+/* Returns the coordinate x [m] at which the crack branches, in the last frame of the run in `run_folder`; NAN if it
  * does not branch. spacing: spacing of the particles [m]. */
 double branching_x_coordinate(const char *run_folder, double spacing);
 

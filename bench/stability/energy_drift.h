@@ -36,9 +36,10 @@ struct lasting {
     double loudest;                    /* largest energy computed with the velocities after the step [1] */
     double rate;                       /* growth rate of the energy per step, fitted to its logarithm over the second
                                         * half */
-    double turn;      /* largest change of angular momentum over the initial sum of m |x| |v| [1]; NAN: not measured */
-    double converted; /* share of particles converted to peridynamics */
-    bool inverted;    /* the energy was negative at times: inverted points */
+    /* largest change of angular momentum, divided by the initial sum of m |x| |v| [1]; NAN: not measured */
+    double turn;
+    double converted;          /* share of particles converted to peridynamics */
+    bool inverted;             /* the energy was negative at times: inverted points */
     char why[NAME_MAX_LENGTH]; /* reason of a stop or a refusal */
     bool refused;
 };

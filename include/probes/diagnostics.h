@@ -60,9 +60,9 @@ void diagnostics_update_angular_momentum(struct diagnostics *w, const struct par
  * diagnostics_update_momentum; its first call defines the energy and momentum at the start. */
 void diagnostics_update_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
-/* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample [1]. E is the sum of all energies except
- * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if
- * E_0 is not positive. */
+/* Returns the relative energy change (E - E_0 - work)/E_0 [1] at the last sample. E is the sum of all energies except
+ * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if E_0
+ * is not positive. */
 real diagnostics_relative_energy_change(const struct diagnostics *w);
 
 /* Finds the groups of bonds that broke in this time step: clusters of particles whose flag FLAG_CRACKED is set and that
@@ -96,7 +96,7 @@ status diagnostics_save_or_load(struct diagnostics *w, struct archive *a);
  * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
 bool diagnostics_energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
-/* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
+/* Returns the energy [J] that breaking bonds have released in excess of the energy that they had stored, 0 if there is
  * no excess. Bonds of state-based models can have such an excess. */
 real diagnostics_energy_released_beyond_stored(const struct diagnostics *w);
 

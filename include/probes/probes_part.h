@@ -17,7 +17,7 @@ struct probing {
     real strain_stress;  /* for PATCH probes: largest component of the initial stress [Pa] */
 };
 
-/* Returns the largest absolute value of a stress component among all particles [Pa]. */
+/* Returns the largest absolute value [Pa] of a stress component among all particles. */
 real particles_largest_stress_component(const struct particles *p);
 
 /* Stores the wave pulses among the initial states of the scene s in probing->pulse, a new array, and their number in

@@ -14,7 +14,7 @@ struct family scene_family(const struct scene *s);
  * divided by the modulus E' of uniaxial tension. */
 struct softening_model scene_softening_model_of_bonds(const struct scene *s, const struct material *m);
 
-/* Returns the critical stretch of bonds between the materials a and b of the scene [1]. A crack along their joint
+/* Returns the critical stretch [1] of bonds between the materials a and b of the scene. A crack along their joint
  * releases the energy of the weaker of both materials: bonds of model bond have the stiffness of their two halves in
  * series, state-based ones the mean. If a material yields, the smaller one of both critical stretches. */
 real scene_critical_stretch_between_materials(const struct scene *s, const struct material *a,
@@ -22,9 +22,9 @@ real scene_critical_stretch_between_materials(const struct scene *s, const struc
 
 #define FREE_OF_TRAPPING 2 /* squared stretch ratio (below) above which the lattice hardly impedes cracks; measured */
 
-/* Returns the horizon with which bonds of material m have the given squared_stretch_ratio = (critical stretch/stretch
- * at which softening begins)^2 [m]. With smaller horizons the ratio is larger. The material must have an energy release
- * rate and a tensile strength. */
+/* Returns the horizon [m] with which bonds of material m have the given squared_stretch_ratio = (critical
+ * stretch/stretch at which softening begins)^2. With smaller horizons the ratio is larger. The material must have an
+ * energy release rate and a tensile strength. */
 real scene_softening_horizon_for_stretch_ratio(const struct scene *s, const struct material *m,
                                                real squared_stretch_ratio);
 

@@ -39,7 +39,7 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Returns the edge length of the box `a` along axis d [m]. The length is doubled if one end of the box is at a plane of
+/* Returns the edge length [m] of the box `a` along axis d. The length is doubled if one end of the box is at a plane of
  * symmetry of `source`, and INFINITY if both ends are. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
@@ -375,10 +375,10 @@ static void hint_model(const struct scene *s, struct warnings *to)
         s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns an upper estimate of the stress in a run [Pa]: REACHED (rho c v + traction) plus the stress of initial
- * strains, with v the range of initial and prescribed velocities. Returns INFINITY if no estimate is possible: for
- * body forces, tables in time, formulas, rotating supports, and runs in which waves cross the body more than
- * PASSAGES times. */
+/* Returns an upper estimate [Pa] of the stress in a run: REACHED (rho c v + traction) plus the stress of initial
+ * strains, with v the range of initial and prescribed velocities. Returns INFINITY if no estimate is possible: for body
+ * forces, tables in time, formulas, rotating supports, and runs in which waves cross the body more than PASSAGES times.
+ */
 static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -70,7 +70,7 @@ static status time_steps(struct run *e, struct quartiles *step)
     return OK;
 }
 
-/* Returns the processor time of one evaluation of the forces [s], the median of several. */
+/* Returns the processor time [s] of one evaluation of the forces, the median of several. */
 static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -83,8 +83,8 @@ static double time_force(struct run *e)
     return median_by_sorting(spent, n);
 }
 
-/* Returns the processor time of contact in one step of the present state [s]: search and forces, the median of
- * several. */
+/* Returns the processor time [s] of contact in one step of the present state: search and forces, the median of several.
+ */
 static double time_contact(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -160,7 +160,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the ratio r of the processor time of all steps of a scene to the time extrapolated from its first steps [1].
+/* Returns the ratio r [1] of the processor time of all steps of a scene to the time extrapolated from its first steps.
  * It is measured in the scene s with larger particles. Stores the factor by which the particles are larger in
  * c->coarser, and r in c->growth. a: arguments from which s was read; first: extrapolated time of s itself [s]. Returns
  * NAN if the ratio cannot be measured. */
@@ -183,7 +183,7 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
  * its neighbours) divided by that of a lattice cell. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Returns an estimate of the time for writing the output of a run [s]: all frames including the one at the start, two
+/* Returns an estimate [s] of the time for writing the output of a run: all frames including the one at the start, two
  * checkpoints, profiles and particle series. */
 static double output_seconds(const struct run *e)
 {
@@ -228,7 +228,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the processor time of one step per particle [s], measured with the scene that is read by the arguments `a`,
+/* Returns the processor time [s] of one step per particle, measured with the scene that is read by the arguments `a`,
  * but with all particles peridynamic and the spacing `spacing` [m]. Returns NAN if the steps fail. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {

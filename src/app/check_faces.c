@@ -85,8 +85,9 @@ static real slope_along(const struct ends *c, int64_t place, int k)
     return isnan(after) ? isnan(before) ? 0 : before : isnan(before) || after < before ? after : before;
 }
 
-/* Returns the cosine of the angle between the outward axis of the face of boundary b and the surface normal at particle
- * i [1]. Uses the normal of the body's shape if c->height is NULL, else the slopes of the column heights c->height. */
+/* Returns the cosine [1] of the angle between the outward axis of the face of boundary b and the surface normal at
+ * particle i. Uses the normal of the body's shape if c->height is NULL, else the slopes of the column heights
+ * c->height. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {

@@ -106,7 +106,7 @@ void print_bodies_of_separate_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns the smallest edge, diameter or wall thickness of the solid `solid` [m]. An edge that ends at a plane of
+/* Returns the smallest edge, diameter or wall thickness [m] of the solid `solid`. An edge that ends at a plane of
  * symmetry of the scene counts with its mirror image. Returns INFINITY if the solid has none of these. */
 real solid_smallest_edge(const struct run *e, const struct solid *solid);
 

@@ -38,7 +38,7 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_growth_why_impossible(e, NULL) == NULL;
 }
 
-/* Returns the distance from a crack tip to the end of the body in a straight line [m]. side: 1 for the distance ahead
+/* Returns the distance [m] from a crack tip to the end of the body in a straight line. side: 1 for the distance ahead
  * of the tip, -1 for the distance back along the crack. Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct crack_tip *tip, int side)
 {
@@ -54,7 +54,7 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Returns the length of that part of the pre-crack behind a crack tip that is inside bodies [m]. Returns INFINITY if
+/* Returns the length [m] of that part of the pre-crack behind a crack tip that is inside bodies. Returns INFINITY if
  * the pre-crack is bent, in 3D, or if none is found. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct crack_tip *tip)
 {

@@ -70,7 +70,7 @@ struct times {
     struct listed_frame *list;
 };
 
-/* Returns the mean time between the frames of a run [s]; INFINITY for fewer than two. */
+/* Returns the mean time [s] between the frames of a run; INFINITY for fewer than two. */
 static double interval(const struct times *t)
 {
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;

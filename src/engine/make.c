@@ -108,7 +108,7 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
-/* Returns the principal stress at which material points of material m convert to peridynamic particles [Pa]: the key
+/* Returns the principal stress [Pa] at which material points of material m convert to peridynamic particles: the key
  * conversion.stress times the factor conversion.alpha of the scene. By default conversion.stress is the uniaxial stress
  * at the stretch at which bonds break or, if they soften, begin to soften; with a larger stress, points may exceed the
  * strain at which bonds break. Returns INFINITY if points do not convert by stress. */
@@ -205,9 +205,9 @@ static status make_bonds(struct run *e, struct predecessor *before)
 
 #define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Returns the fraction of the relative velocity across the interface between peridynamic particles and material points
- * that is damped in a step, at most DAMPING_SHARE_MOST [1]. c: wave speed [m/s]; dt: time step [s]; h: spacing of the
- * grid [m]. */
+/* Returns the fraction [1] of the relative velocity across the interface between peridynamic particles and material
+ * points that is damped in a step, at most DAMPING_SHARE_MOST. c: wave speed [m/s]; dt: time step [s]; h: spacing of
+ * the grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);

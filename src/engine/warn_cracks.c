@@ -40,7 +40,7 @@ static real particle_distance(const struct particles *p, const real *X)
     return sqrt(least2);
 }
 
-/* Returns the least distance of a crack from a particle [m]. It is computed from sample positions on the segments of a
+/* Returns the least distance [m] of a crack from a particle. It is computed from sample positions on the segments of a
  * line or, for a polygon in 3D, on the triangles between its first corner and its sides. */
 static real crack_distance(const struct crack *c, const struct particles *p)
 {

@@ -55,7 +55,7 @@ static bool flies(const struct flight *f, int dim)
     return any;
 }
 
-/* Returns the time after which bodies a and b can meet [s]: when their ranges of positions, extended by `reach`,
+/* Returns the time [s] after which bodies a and b can meet: when their ranges of positions, extended by `reach`,
  * overlap along every axis. Returns INFINITY if they never do. reach: distance at which bodies meet [m]. */
 static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
 {

@@ -101,7 +101,7 @@ static bool initial_is_met(const struct scene *s, const struct particles *p, int
            region_holds_particle(s, p, &initial->region, initial->body < 0 ? -1 : s->body[initial->body].joined);
 }
 
-/* Returns the distance of the plane of symmetry that the boundary condition b describes from the nearest particle [m].
+/* Returns the distance [m] of the plane of symmetry that the boundary condition b describes from the nearest particle.
  */
 static real mirror_distance(const struct particles *p, const struct boundary *b)
 {

@@ -20,14 +20,14 @@ enum { RULES = ACCEPT_TIMES + 1 };
  * the unit, and the input that the user should check.
  *
  * Reasons for the ranges. Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch at which bonds break: a tenth is
- * the strength of crystals without flaws. Stress over the strength E s_c: cracks raise it tenfold. Strain: the load
- * over Young's modulus. Reach: distance of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more,
- * osmium 22,600. Yield stress over Young's modulus: 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves
- * across all bodies in the duration. Energy release rate: twice the surface energy of waxes is 0.04 J/m^2, tough steels
- * have 0.2 MJ/m^2. Specific heat at 293 K: uranium 116 J/(kg K), hydrogen 14,300. Growth: energy release rate of a
- * crack as long as the body, over that of the material (units_of_growth). Mass over volume: foams have 50 kg/m^3, no
- * material more than osmium. Brittleness: E G_c/strength^2 is below 1 m, except for concrete with fibres. Times:
- * largest load of the run over the largest at any time. */
+ * the strength of crystals without flaws. Stress divided by the strength E s_c: cracks raise it tenfold. Strain: the
+ * load divided by Young's modulus. Reach: distance of waves in the duration [spacings]. Density: aerogels have
+ * 1 kg/m^3 and more, osmium 22,600. Yield stress divided by Young's modulus: 2e-4 in annealed aluminium, 0.1 in
+ * polymers. Passages: of waves across all bodies in the duration. Energy release rate: twice the surface energy of
+ * waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Specific heat at 293 K: uranium 116 J/(kg K), hydrogen 14,300.
+ * Growth: energy release rate of a crack as long as the body, divided by that of the material (units_of_growth). Mass
+ * divided by volume: foams have 50 kg/m^3, no material more than osmium. Brittleness: E G_c/strength^2 is below 1 m,
+ * except for concrete with fibres. Times: largest load of the run divided by the largest load at any time. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -289,7 +289,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
-/* Returns the largest difference between the initial velocities of particles and rigid bodies, including 0 [m/s]. */
+/* Returns the largest difference [m/s] between the initial velocities of particles and rigid bodies, including 0. */
 static real units_speed_at_start(const struct scene *s, const struct particles *p)
 {
     real apart[DIM_MAX] = {0};
@@ -303,7 +303,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
     return sqrt(dot(apart, apart, s->dim));
 }
 
-/* Returns the largest absolute component of the initial stress of the particles [Pa]. */
+/* Returns the largest absolute component [Pa] of the initial stress of the particles. */
 static real units_stress_at_start(const struct particles *p)
 {
     real most = 0;
@@ -312,7 +312,7 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the smallest strength of the materials and interfaces that can break [Pa]; INFINITY if none can. The strength
+/* Returns the smallest strength [Pa] of the materials and interfaces that can break; INFINITY if none can. The strength
  * is Young's modulus times the critical stretch, or times the onset of softening for bonds that soften. */
 static real least_strength(const struct scene *s)
 {

@@ -53,7 +53,7 @@ static double bar_tics(const struct bar_scale *s, int length)
     return fmax(s->tics, tic_distance(s->high - s->low, length, picture_is_too_narrow_for_key() ? 22 : 28));
 }
 
-/* Returns the length of a vertical colour bar [pixel]: the height of the panels, but at most BAR_HIGHEST. The bar is
+/* Returns the length [pixel] of a vertical colour bar: the height of the panels, but at most BAR_HIGHEST. The bar is
  * longer than low panels if its label, without the unit, needs this length and the picture has the space. panels:
  * height of all rows of panels; room: height of the picture below the upper edge of the bar [pixel]. */
 static int bar_length(const struct bar_scale *s, int panels, int room)

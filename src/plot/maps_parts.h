@@ -52,7 +52,7 @@ struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count
 /* Returns true if a map of the kind `map` has a colour bar. */
 bool map_has_colour_bar(enum map map);
 
-/* Returns the width of the longest number at the tics (labelled marks) of an axis [pixel]. low, high: values at the
+/* Returns the width [pixel] of the longest number at the tics (labelled marks) of an axis. low, high: values at the
  * ends of the axis; tics: distance between tics, in the unit of the values; format: format of the numbers as in printf.
  */
 double tic_numbers_width(double low, double high, double tics, const char *format);
@@ -62,7 +62,7 @@ double tic_numbers_width(double low, double high, double tics, const char *forma
  * values at the ends of the axis; axis_width: length of the axis [pixel]. Returns the distance. */
 double tic_distance_on_horizontal_axis(double low, double high, double axis_width);
 
-/* Returns the width that a colour bar with its numbers and its label takes on the right of panels [pixel].
+/* Returns the width [pixel] that a colour bar with its numbers and its label takes on the right of panels.
  * panels_height: height of all rows of panels [pixel]. */
 int colour_bar_width_beside_panels(const struct maps_shown *shown, int panels_height);
 
@@ -94,11 +94,11 @@ void panel_write_margins(FILE *gnuplot, const struct layout *layout, double left
  * coordinates of the body. */
 struct unit panel_axis_unit(const struct view *view);
 
-/* Returns the width of the longest number at the tics of the horizontal axis of a panel [pixel]. view: rectangle of the
+/* Returns the width [pixel] of the longest number at the tics of the horizontal axis of a panel. view: rectangle of the
  * panel; width: width of the panel [pixel]. */
 double panel_numbers_width(const struct view *view, double width);
 
-/* Returns the width that the numbers and the label at the vertical axis of a panel take [pixel]. view: rectangle of the
+/* Returns the width [pixel] that the numbers and the label at the vertical axis of a panel take. view: rectangle of the
  * panel; height: height of the panel [pixel]. */
 double panel_margin_of_numbers(const struct view *view, double height);
 

@@ -25,7 +25,7 @@ static int64_t sample_count(int64_t n)
     return samples < n ? samples : n;
 }
 
-/* Returns the mean distance of particle i of frame f from its f->dim nearest neighbours [m]. On a lattice this is the
+/* Returns the mean distance [m] of particle i of frame f from its f->dim nearest neighbours. On a lattice this is the
  * spacing, because even a particle at a corner has as many neighbours at this distance. */
 static double near_distance(const struct output_frame *f, int64_t i)
 {

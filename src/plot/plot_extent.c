@@ -36,7 +36,7 @@ struct pairs {
     double spacing, limit, magnify;
 };
 
-/* Returns the relative elongation |x_j - x_i|/|X_j - X_i| - 1 of the particles i and j [1]. */
+/* Returns the relative elongation |x_j - x_i|/|X_j - X_i| - 1 [1] of the particles i and j. */
 static double elongation(const struct output_frame *f, int64_t i, int64_t j)
 {
     double now = 0, first = 0;

@@ -82,7 +82,7 @@ static struct value_range profiles_range(const struct bar_profile *profile, int 
     return e;
 }
 
-/* Returns the range of the axis along the bar [m]: it contains, with half a spacing at both ends, all particles that
+/* Returns the range [m] of the axis along the bar: it contains, with half a spacing at both ends, all particles that
  * are not loose (in a piece of at most LOOSE_MOST particles), and loose particles whose distance from these is at most
  * BESIDE of the extent of the others. */
 static struct value_range profiles_axis(const struct bar_profile *profile, int profiles, double spacing)

@@ -51,7 +51,7 @@ static double outline_reach(const struct outline *s, int k)
     return s->half * (s->square ? fabs(s->F[k][0]) + fabs(s->F[k][1]) : hypot(s->F[k][0], s->F[k][1]));
 }
 
-/* Returns the distance that a point of a particle has from the particle's centre before the deformation [m]. off[2]:
+/* Returns the distance [m] that a point of a particle has from the particle's centre before the deformation. off[2]:
  * position of the point relative to the centre after the deformation [m]. Returns INFINITY if the point is more than
  * `beside` [m] outside the particle. */
 static double distance_within(const struct outline *s, const double *off, double beside)

@@ -1,4 +1,4 @@
-/* Pictures of load steps: load over displacement, and energy release rate over crack growth (R-curve). */
+/* Pictures of load steps: load against displacement, and energy release rate against crack growth (R-curve). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

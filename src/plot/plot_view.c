@@ -47,7 +47,7 @@ static struct span values_extent(const float *value, int64_t n)
     return s;
 }
 
-/* Returns the range to be shown along axis k of the map [m]. It contains the initial body. For each of cloud[clouds] it
+/* Returns the range to be shown [m] along axis k of the map. It contains the initial body. For each of cloud[clouds] it
  * contains the range of the particles without the outermost 1 % at each end, extended by 20 % at both ends. It is
  * limited to the extent of all particles. */
 static struct span span_along(const struct plotted_particles *cloud, int clouds, int k)

@@ -146,10 +146,10 @@ struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the kinetic, strain and fracture energy of the particles of a probe [J]. */
+/* Returns the kinetic, strain and fracture energy [J] of the particles of a probe. */
 struct energies probe_energies(const struct probe *q, const struct observed_run *o);
 
-/* Returns the kinetic energy of the particles of a probe [J], with the velocities of probe_particle_velocity_component.
+/* Returns the kinetic energy [J] of the particles of a probe, with the velocities of probe_particle_velocity_component.
  */
 real probe_kinetic_energy(const struct probe *q, const struct particles *p);
 

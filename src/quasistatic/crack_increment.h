@@ -11,7 +11,7 @@
 real crack_energy_share_by_symmetry(const struct crack_tips *tips, const struct bond_source *bond_source,
                                     int plane_axis);
 
-/* Returns the crack area that is created if all cracks grow by one spacing along their whole fronts [m^2], halved on
+/* Returns the crack area [m^2] that is created if all cracks grow by one spacing along their whole fronts, halved on
  * planes of symmetry. Without a pre-crack the front in space is the shortest side of the body. */
 real crack_area_of_growth_by_one_spacing(const struct run *e);
 

@@ -12,15 +12,15 @@
  * pseudo-time. */
 real statics_time_of_load_size(const struct run *e, real load_size);
 
-/* Returns the load size (a measure proportional to the loads) at which the crack increments `increment` and
- * `other_increment` together release as much energy as they cost [m or N]: the square root of the sum of both costs
- * divided by the sum of both releases. The release of an increment is its released energy divided by the square of the
- * load size. Returns INFINITY if `increment` has no cost or the two release no energy. */
+/* Returns the load size (a measure proportional to the loads) [m or N] at which the crack increments `increment` and
+ * `other_increment` together release as much energy as they cost: the square root of the sum of both costs divided by
+ * the sum of both releases. The release of an increment is its released energy divided by the square of the load size.
+ * Returns INFINITY if `increment` has no cost or the two release no energy. */
 real increments_joint_energy_balance_load_size(const struct crack_increment *increment,
                                                const struct crack_increment *other_increment);
 
-/* Returns the load size (a measure proportional to the loads) at which the crack increment `increment` releases as much
- * energy as it costs [m or N]; INFINITY if it has no cost or releases no energy. */
+/* Returns the load size (a measure proportional to the loads) [m or N] at which the crack increment `increment`
+ * releases as much energy as it costs; INFINITY if it has no cost or releases no energy. */
 real increment_energy_balance_load_size(const struct crack_increment *increment);
 
 /* Returns a fictitious crack increment before the first one, as if the pre-crack had reached its length by increments.
@@ -29,7 +29,7 @@ real increment_energy_balance_load_size(const struct crack_increment *increment)
 struct crack_increment increment_extrapolate_before_first(const struct crack_increment *first,
                                                           const struct crack_increment *second);
 
-/* Returns the energy that the body has released since the start [J]: the fracture energy of broken bonds plus
+/* Returns the energy [J] that the body has released since the start: the fracture energy of broken bonds plus
  * s->balance.lost, the energy that the jumps between equilibria would have turned into motion and that is lost, since
  * load steps have no inertia. */
 real statics_energy_released(const struct statics *s, const struct bonds *b);

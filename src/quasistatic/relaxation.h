@@ -4,7 +4,7 @@
 
 #include "run/run.h"
 
-/* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps `time_step`
+/* Returns the time [s] over which loads grow to their full value: the smallest whole number of time steps `time_step`
  * [s] in which a wave with the speed wave_speed [m/s] travels twice the length of the body, `body_length` [m]. */
 real grid_relaxation_ramp_time(real body_length, real wave_speed, real time_step);
 

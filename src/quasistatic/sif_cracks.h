@@ -33,7 +33,7 @@ void sif_plane_project_particle(const struct sif_plane *plane, const struct part
 bool sif_plane_intersect_crack(const struct sif_plane *plane, const struct crack *precrack,
                                real segment_end[2][DIM_MAX]);
 
-/* Returns the width of the body along the crack front [m], averaged over the segment between the points `segment_start`
+/* Returns the width [m] of the body along the crack front, averaged over the segment between the points `segment_start`
  * and `segment_end` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
 real sif_plane_body_width_along_front(const struct sif_plane *plane, const struct particles *p,
                                       const real *segment_start, const real *segment_end);
@@ -55,7 +55,7 @@ static inline void sif_plane_compute_point_ahead(const real *start, real distanc
     for (int d = 0; d < 2; d++) ahead[d] = start[d] + distance * direction[d];
 }
 
-/* Returns the distance between the points `point` and `other_point` of the plane, two coordinates each [m]. */
+/* Returns the distance [m] between the points `point` and `other_point` of the plane, two coordinates each. */
 static inline real sif_plane_point_distance(const real *point, const real *other_point)
 {
     return hypot(point[0] - other_point[0], point[1] - other_point[1]);

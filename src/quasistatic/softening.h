@@ -27,8 +27,8 @@ struct softening_list {
 void softening_list_make(struct softening_list *l, const struct bonds *b, const struct particles *p,
                          real stretch_divisor);
 
-/* Returns the energy that the bonds of the list would have dissipated since the last equilibrium if their stretches
- * were `stretch_factor` times those stored in the list [J]. */
+/* Returns the energy [J] that the bonds of the list would have dissipated since the last equilibrium if their stretches
+ * were `stretch_factor` times those stored in the list. */
 real softening_list_dissipated_energy(const struct softening_list *l, real stretch_factor);
 
 /* Returns the smallest factor on the stretches of the list, between 0 and `max_factor`, at which the bonds have

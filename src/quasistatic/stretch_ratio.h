@@ -6,7 +6,7 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the largest ratio of stretch to critical stretch among all intact bonds [1]. limit: critical stretches. */
+/* Returns the largest ratio [1] of stretch to critical stretch among all intact bonds. limit: critical stretches. */
 real bonds_largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
 /* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the

@@ -10,7 +10,7 @@
  * the fracture energy G_c of the material. */
 real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
-/* Returns the crack energy per area between the particles `particle` and `other_particle` [J/m^2]: that of their common
+/* Returns the crack energy per area [J/m^2] between the particles `particle` and `other_particle`: that of their common
  * material; for two materials that of their interface if the scene defines it, else that of the weaker material. Where
  * the strength of bonds scatters, the value is multiplied by the square of the relative strength of the bond between
  * these particles. */

@@ -36,8 +36,8 @@ void image_compute_displacement_signs(const struct particles *p, const struct lo
  * each particle of the body [N]. Allocates these arrays on the first call. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real pseudo_time);
 
-/* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of
- * the contact forces of rigid bodies [N]. loads: the supports of the body. */
+/* Returns the Euclidean norm [N] of all applied forces on components of displacement that no boundary prescribes, and
+ * of the contact forces of rigid bodies. loads: the supports of the body. */
 real applied_forces_norm(const struct statics *s, const struct particles *p, const struct loads *loads,
                          const struct contact *contact);
 

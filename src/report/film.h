@@ -85,7 +85,7 @@ void film_free(struct film *f);
  * f->every is above 1, marks the groups that are not shown as hidden. */
 void film_particle_set_form_groups(struct film_set *particle_set, const struct film *f);
 
-/* Returns the edge with which the page draws group number `group` of the set `particle_set` [m]: the spacing of a
+/* Returns the edge [m] with which the page draws group number `group` of the set `particle_set`: the spacing of a
  * single particle or, for a group of merged particles, the edge of their cubic cell. The edge is enlarged if only one
  * of f->every groups is shown, so that the shown groups fill the body. */
 double film_edge_length_of_group(const struct film_set *particle_set, const struct film *f, int64_t group);

@@ -19,7 +19,7 @@ struct family scene_family(const struct scene *s)
     return f;
 }
 
-/* Returns the critical stretch of bonds that follows from the energy release rate of material m [1]: in closed form for
+/* Returns the critical stretch [1] of bonds that follows from the energy release rate of material m: in closed form for
  * the influence function for which there is one (bonds in 2D and 3D: 1, ospd: horizon/r), else from the energy of the
  * bonds of a lattice across a plane or, with state-based models, from the energy that separates its two halves. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)

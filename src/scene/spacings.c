@@ -14,7 +14,7 @@ struct lengths {
     real of[LENGTHS_MOST];
 };
 
-/* Returns the extent along an axis of the box that is the first solid of a body [m]; 0 if the first solid is no box.
+/* Returns the extent [m] along an axis of the box that is the first solid of a body; 0 if the first solid is no box.
  * body: index in the scene s; axis: 0 to 2. */
 static real box_extent(const struct scene *s, int body, int axis)
 {
@@ -115,7 +115,7 @@ real spacing_that_fits_box_edges(const struct scene *s, real h, bool even_edge_c
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
-/* Returns the largest spacing that resolves the extent of `shape` and the radii of its round solids [m]; INFINITY if
+/* Returns the largest spacing [m] that resolves the extent of `shape` and the radii of its round solids; INFINITY if
  * the shape is infinite. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
@@ -144,8 +144,8 @@ static double distance_to_face(const struct scene *s, const real *X)
     return least;
 }
 
-/* Returns the largest spacing that resolves the length of crack c and the distances of its ends from the faces of the
- * first body [m]; INFINITY in 1D. */
+/* Returns the largest spacing [m] that resolves the length of crack c and the distances of its ends from the faces of
+ * the first body; INFINITY in 1D. */
 static double crack_spacing(const struct scene *s, const struct crack *c)
 {
     double squares = 0, least = INFINITY;
@@ -159,8 +159,8 @@ static double crack_spacing(const struct scene *s, const struct crack *c)
     return least;
 }
 
-/* Returns the largest spacing that resolves the initial pulses, sinusoidal body forces and pulses in time of the scene
- * [m]; INFINITY if there are none. */
+/* Returns the largest spacing [m] that resolves the initial pulses, sinusoidal body forces and pulses in time of the
+ * scene; INFINITY if there are none. */
 static double load_spacing(const struct scene *s)
 {
     double least = INFINITY;
@@ -176,7 +176,7 @@ static double load_spacing(const struct scene *s)
     return least;
 }
 
-/* Returns the largest spacing that resolves the contours of a probe p of stress-intensity factors [m]; INFINITY for
+/* Returns the largest spacing [m] that resolves the contours of a probe p of stress-intensity factors; INFINITY for
  * other probes. */
 static double probe_spacing(const struct probe_request *p)
 {
@@ -187,7 +187,7 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing at which the bounding boxes of all bodies together contain `particles` particles [m]. */
+/* Returns the spacing [m] at which the bounding boxes of all bodies together contain `particles` particles. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];

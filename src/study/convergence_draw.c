@@ -343,7 +343,7 @@ static struct paths_layout paths_layout_make(int levels)
     return l;
 }
 
-/* Returns the height of a picture of crack paths in which the bounding box e of the paths fills the panel [pixel].
+/* Returns the height [pixel] of a picture of crack paths in which the bounding box e of the paths fills the panel.
  * width: width of the picture [pixel]. */
 static int paths_height(const struct extent *e, const struct paths_layout *l, int width)
 {

@@ -32,7 +32,7 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing of run number `run` of a level [m]. A level has several spacings that differ by a few per cent.
+/* Returns the spacing [m] of run number `run` of a level. A level has several spacings that differ by a few per cent.
  * Run 0 has the first of them, and further runs use them in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
@@ -107,7 +107,7 @@ static double cost_beside(const struct convergence_study *s, double spacing)
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
 
-/* Returns the predicted duration of all planned runs of the study s together [s], if `jobs` runs run at a time. */
+/* Returns the predicted duration [s] of all planned runs of the study s together, if `jobs` runs run at a time. */
 static double cost_of_all(const struct convergence_study *s, int jobs)
 {
     double sum = 0, longest = 0;

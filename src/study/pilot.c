@@ -83,7 +83,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Returns the time of the budget of pilot runs that is left [s], at least 0. */
+/* Returns the time [s] of the budget of pilot runs that is left, at least 0. */
 static double time_left(const struct pilot_search *p)
 {
     return fmax(p->wish.budget - (wall_clock_seconds() - p->begun), 0);

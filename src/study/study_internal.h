@@ -56,7 +56,7 @@ enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
  * ending of another picture format that picture_size_set has set. */
 void study_picture_name(char *name, const char *key);
 
-/* Returns the width of a character in the pictures of a study [pixel]. */
+/* Returns the width [pixel] of a character in the pictures of a study. */
 int study_character_width(void);
 
 /* Returns a distance between tics, 1, 2 or 5 times a power of ten, that divides an axis of length `range` > 0 into at

@@ -14,7 +14,7 @@ struct reference_point {
     real s[SYM_MAX], back[SYM_MAX], a;
 };
 
-/* Returns the yield stress at plastic strain a on the flow curve c [Pa]: linear between its points, constant beyond the
+/* Returns the yield stress [Pa] at plastic strain a on the flow curve c: linear between its points, constant beyond the
  * last. */
 static inline real reference_curve(const struct flow_curve *c, real a)
 {

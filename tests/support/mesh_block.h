@@ -182,7 +182,7 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
     return 0.5 * b->mesh.volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
 }
 
-/* Returns the elastic energy of all points of the mesh [J], computed point by point, to be compared with that of the
+/* Returns the elastic energy [J] of all points of the mesh, computed point by point, to be compared with that of the
  * engine. finite: true if the rotations of cells are removed from the strains. */
 static inline real plain_energy(const struct block *b, bool finite)
 {
@@ -200,7 +200,7 @@ static void forces(struct block *b, bool finite)
     mesh_force(&b->mesh, &b->c.p, b->elastic, finite);
 }
 
-/* Returns the largest magnitude of the components of all nodal forces [N]. */
+/* Returns the largest magnitude [N] of the components of all nodal forces. */
 static real largest_force(const struct block *b)
 {
     real most = 0;

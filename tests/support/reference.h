@@ -47,8 +47,8 @@ static inline real reference_shell(const struct family *f, const real *xi, real 
     return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
 }
 
-/* Returns the sum of r V beta times the shell weight over all neighbours of a particle in the middle of the lattice
- * [m^4]. r: length of the bond; V: volume of the neighbour; beta: fraction of V within the horizon. The micro-modulus
+/* Returns the sum [m^4] of r V beta times the shell weight over all neighbours of a particle in the middle of the
+ * lattice. r: length of the bond; V: volume of the neighbour; beta: fraction of V within the horizon. The micro-modulus
  * of bonds follows from this sum. */
 static inline real reference_sigma(const struct family *f)
 {
@@ -66,7 +66,7 @@ static inline real reference_sigma(const struct family *f)
     return sum;
 }
 
-/* Returns the micro-modulus c of the bonds of material m [N/m^6], with which a uniform dilatation of a full family (all
+/* Returns the micro-modulus c [N/m^6] of the bonds of material m, with which a uniform dilatation of a full family (all
  * neighbours within the horizon exist) stores the energy of the elastic material. */
 static inline real reference_modulus(const struct family *f, const struct material *m)
 {
@@ -83,8 +83,8 @@ static inline real reference_modulus(const struct family *f, const struct materi
     }
 }
 
-/* Returns the sum of the volumes of all neighbours of particle i, each multiplied by the fraction within the horizon
- * [m^3]. */
+/* Returns the sum [m^3] of the volumes of all neighbours of particle i, each multiplied by the fraction within the
+ * horizon. */
 static inline real reference_neighbour_volume(const struct particles *p, const struct family *f, int64_t i)
 {
     real xi[DIM_MAX], sum = 0;

@@ -393,7 +393,7 @@ static inline void reference_gather(struct reference_step *s)
     }
 }
 
-/* Returns the largest eigenvalue (principal stress) of a stored symmetric tensor, by Jacobi rotations [Pa]. symmetric:
+/* Returns the largest eigenvalue (principal stress) [Pa] of a stored symmetric tensor, by Jacobi rotations. symmetric:
  * components xx yy zz xy yz zx in 3D, xx yy xy in 2D. */
 static inline real reference_principal(const real *symmetric, int dim)
 {

@@ -37,7 +37,7 @@ static inline void soften_reference_free(struct soften_reference *r)
     memory_free(r->most), memory_free(r->onset), memory_free(r->critical), memory_free(r->ended), memory_free(r->due);
 }
 
-/* Returns the stretch at which the force of a softening bond has fallen to 0 [1]: s_c^2/s_0 for the linear law, s_0 +
+/* Returns the stretch [1] at which the force of a softening bond has fallen to 0: s_c^2/s_0 for the linear law, s_0 +
  * 9/5 (s_c^2 - s_0^2)/s_0 for the bilinear law. onset: stretch s_0 at which softening begins; critical: critical
  * stretch s_c of a brittle bond of equal energy. */
 static inline real soften_reference_end(enum softening law, real onset, real critical)
@@ -196,7 +196,7 @@ static inline void soften_reference_step(struct soften_reference *r, const struc
     }
 }
 
-/* Returns the energy that all bonds have dissipated so far [J]: bonds that have ended, bonds that soften, and the
+/* Returns the energy [J] that all bonds have dissipated so far: bonds that have ended, bonds that soften, and the
  * energy that bonds lost at once because they began to soften late. w, stiffness: as for soften_reference_begin. */
 static inline real soften_reference_fracture(const struct soften_reference *r, const struct particles *p, const real *w,
                                              real stiffness)
