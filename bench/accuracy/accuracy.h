@@ -30,7 +30,7 @@ enum {
     ACCURACY_SETTINGS = 5
 };
 
-/* A method. */
+/* A numerical method that is compared (bonds, material points, or both): its name and the scene keys that select it. */
 struct accuracy_method {
     const char *name; /* name in tables */
     enum accuracy_family family;
@@ -42,7 +42,8 @@ extern const int accuracy_methods;
 
 /* ---- problems (accuracy_plan.c) ---------------------------------------------------------------------------------- */
 
-/* Largest numbers of entries of the tables. */
+/* Largest numbers of entries of the lists in struct accuracy_problem: cases, resolutions, further horizons or time
+ * steps (variations), parts of the error, and remarks. */
 enum {
     ACCURACY_CASES = 6,
     ACCURACY_RESOLUTIONS = 6,
@@ -53,7 +54,7 @@ enum {
 
 struct accuracy_problem;
 
-/* A run of the table. */
+/* A run of the bench: the problem that it solves, by which method, and with which discretisation. */
 struct accuracy_point {
     const struct accuracy_problem *problem;
     const struct accuracy_method *method;
@@ -71,7 +72,7 @@ struct accuracy_scene {
     struct bench_overrides set;
 };
 
-/* A problem with known solution. */
+/* A problem with known solution, on which methods are compared, and the functions that run and measure it. */
 struct accuracy_problem {
     const char *name, *title;
     const char *error;                    /* definition of the error, for captions */
@@ -140,7 +141,7 @@ double accuracy_probe_value_of_run(const struct run *e, const char *probe, const
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
-/* Result of a point. */
+/* Result of one run of the bench: its error and its cost. */
 struct accuracy_result {
     bool known;                         /* measured, now or earlier */
     bool stable;                        /* the run reached its end */
@@ -150,14 +151,14 @@ struct accuracy_result {
     char settings[20]; /* hash of scene and machine; results with another hash are not reused */
 };
 
-/* A point of the complete table and its result. */
+/* A run of the complete table (point) and its result. */
 struct accuracy_entry {
     struct accuracy_point point;
     struct accuracy_result result;
     bool quick; /* also in the table of --quick */
 };
 
-/* All points of the complete table. */
+/* The complete table: entry[n], one for each run, and the machine on which the runs are timed. */
 struct accuracy_plan {
     int n;
     struct accuracy_entry *entry;

@@ -10,7 +10,7 @@
 
 enum { FRACTURE_RINGS = 4, FRACTURE_SPACINGS = 4, FRACTURE_QUARTER = 2 };
 
-/* Observed cracks. */
+/* Growth of the cracks that is observed in a run: start, speed, length and direction. */
 struct fracture {
     double start, speed, length;  /* time at which the growth exceeds a threshold [s]; speed afterwards [m/s]; length
                                    * at the end [m] */

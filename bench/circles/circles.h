@@ -10,7 +10,7 @@
 #define CIRCLE_TOUGHNESS 10.0
 #define CIRCLE_STRENGTH 40e6
 
-/* Horizon [spacings], the default of scenes. */
+/* Horizon of the bonds [spacings], the default of scenes. */
 #define CIRCLE_HORIZON 3.015
 
 struct circle_run;
@@ -66,7 +66,7 @@ struct circle_case {
 };
 extern const struct circle_case circle_cases[];
 
-/* Number of cases. */
+/* Number of entries of the table circle_cases. */
 extern const int circle_cases_count;
 
 /* A run of a case. of: the case; spacing [mm]; found: measured value in the unit of the case, NAN until the run has

@@ -19,7 +19,7 @@ struct bench_cell {
     double number;
 };
 
-/* A table of results. */
+/* A table of results of a bench: its name, the names of its columns, and its cells. */
 struct bench_table {
     const char *name;   /* "" for the main table of a bench */
     const char *header; /* names of the columns, separated by commas */
@@ -140,7 +140,7 @@ void bench_overrides_append(struct bench_overrides *o, const char *key, const ch
  * functions that read scenes expect it. The array is part of *list and valid until the next bench_overrides_append. */
 const struct scene_override *bench_overrides_as_array(struct bench_overrides *list);
 
-/* A quantity of a probe. */
+/* A result of a probe of a run: the names of the probe and of the quantity, and the value in SI units. */
 struct bench_figure {
     const char *probe, *quantity;
     double value;
@@ -239,7 +239,7 @@ struct target_figure {
 };
 enum { SPEED_TARGETS_MAX = 8 };
 
-/* All measured quantities, and the times of the sections of a step. */
+/* Measurements for the performance targets: all measured quantities, and the times of the sections of a step. */
 struct targets {
     int figures;
     struct target_figure figure[SPEED_TARGETS_MAX]; /* [figures] */

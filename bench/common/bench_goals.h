@@ -22,7 +22,7 @@ status bench_jobs_run(struct bench_job *job, int job_count, int parallel_jobs);
  * if there is no such number. */
 double bench_summary_figure(const char *folder, const char *key);
 
-/* A result and its goal. */
+/* A measured result of a bench and its goal, the largest value that it should have. */
 struct bench_goal {
     char name[96], unit[8]; /* "%": value [1] that is printed times 100 */
     double measured, asked; /* measured value; largest value that meets the goal */

@@ -2,7 +2,7 @@
 #ifndef CLEAVE_BENCH_HANDBOOK
 #define CLEAVE_BENCH_HANDBOOK
 
-/* Kinds of specimens. */
+/* Kinds of specimens with a crack for which handbooks state the stress-intensity factor. */
 enum specimen_kind {
     COMPACT_TENSION,     /* loaded at its pins; crack and width are measured from the line of the pins (ASTM E399) */
     EDGE_CRACK_IN_GRIPS, /* single-edge-notched plate between grips that do not rotate */
@@ -10,7 +10,7 @@ enum specimen_kind {
     THREE_POINT_BEND     /* edge crack opposite to the middle roller, span of four widths (ASTM E399) */
 };
 
-/* Kind, dimensions and material of a specimen. */
+/* A specimen with a crack: its kind, its dimensions and its material. */
 struct specimen {
     enum specimen_kind kind;
     double width;               /* width W; for double cantilevers the height of an arm [m] */

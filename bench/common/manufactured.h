@@ -14,7 +14,7 @@
 
 #include "base/base.h"
 
-/* Parameters of the motion. */
+/* Parameters of the manufactured motion, and elastic constants from which the required body force follows. */
 struct manufactured {
     int dim;
     real amplitude, period, length; /* U [m], T [s], L [m] */
@@ -22,7 +22,7 @@ struct manufactured {
     real c12, shear, density;       /* elastic constants of the space [Pa], rho [kg/m^3] */
 };
 
-/* Values of the solution at a point. */
+/* Displacement, velocity, strain and body force of the manufactured solution at one point and time. */
 struct manufactured_values {
     real displacement[DIM_MAX], velocity[DIM_MAX], strain[SYM_MAX]; /* [m] [m/s] [1] */
     real force[DIM_MAX];                                            /* [N/m^3] */

@@ -26,10 +26,10 @@ struct contact_case {
     } asked[CONTACT_FIGURES];
 };
 
-/* Table of the cases. */
+/* Cases of `cleave bench contact`, contact_cases_count entries. */
 extern const struct contact_case contact_cases[];
 
-/* Number of cases. */
+/* Number of entries of the table contact_cases. */
 extern const int contact_cases_count;
 
 /* Returns true if all quantities measured[CONTACT_FIGURES] of the case are within their required ranges. */

@@ -36,7 +36,7 @@ struct pulse_result {
 
 /* ---- bench_coupling.c: the bar ----------------------------------------------------------------------------------- */
 
-/* One run of the bar. */
+/* One run of a pulse in a bar of material points and bonds: how they are coupled, and the effect on the pulse. */
 struct bar_run {
     int variant;
     double width; /* width of the pulse [spacings] */
@@ -84,7 +84,7 @@ void patch_test_fill_file_table(const struct patch_table *table, struct bench_ta
 
 /* ---- coupling_plane.c: a plane wave meets a flat and an oblique interface ---------------------------------------- */
 
-/* Result of a plane wave at an interface. */
+/* Result of a plane wave that meets an interface between material points and bonds in two or three dimensions. */
 struct plane_row {
     const char *interface, *weights, *transfer;
     int variant;
@@ -112,7 +112,7 @@ void plane_wave_fill_file_table(const struct plane_table *table, struct bench_ta
 
 /* ---- coupling_draw.c: pictures ----------------------------------------------------------------------------------- */
 
-/* All results, drawn in one picture. */
+/* All results of `cleave bench coupling`, which one picture shows. */
 struct coupling_figures {
     struct bar_table pulses, places, variants;
     struct patch_table patch;

@@ -71,7 +71,7 @@ const char *efficiency_title(const struct scene_case *c, char *text, size_t capa
 /* Writes name, model and spacing of `scene` to the stream `gnuplot` as a quoted label, with one word per line. */
 void efficiency_write_tic_label(FILE *gnuplot, const struct scene_case *scene);
 
-/* Crack tips at the end of a run. */
+/* Crack tips at the end of a run, by which runs of different methods are compared. */
 struct crack_ends {
     struct crack_tip tip[TIPS_MAX];
     int tips, longest; /* number of tips; index of the longest crack, -1: none grew */

@@ -40,7 +40,7 @@ struct experiment_curve {
     double *x, *y, *error;
 };
 
-/* State of the bench. */
+/* Results of `cleave bench experiments` so far, numbers and curves for the pictures. */
 struct experiments {
     bool quick;
     int n, paths, curves;
@@ -164,7 +164,8 @@ status surf_run_and_measure_crack(double spacing, double energy_share, double sp
  * and their order of convergence to the results x of the bench. Returns REFUSED or FAILED if a run does. */
 status experiments_run_vortex(struct experiments *x);
 
-/* Numerical methods of the vortex. */
+/* Numerical methods of the vortex: material points in the reference frame, whose centre rotates by 1 rad; peridynamics,
+ * 0.5 rad; peridynamics, 1 rad (VORTEX_PD_FAR). */
 enum vortex_method { VORTEX_MESH, VORTEX_PD, VORTEX_PD_FAR, VORTEX_METHODS };
 
 /* Runs the vortex (experiments_run_vortex) with the numerical method `method` at the particle spacing `spacing` [m].

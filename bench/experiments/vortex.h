@@ -16,7 +16,7 @@
 enum vortex_law { VORTEX_BIOT, VORTEX_BONDS };
 enum { VORTEX_BONDS_MOST = 64 };
 
-/* Parameters of a vortex and its law. */
+/* Parameters of the prescribed vortex, its material law, and the bonds by which that law may be defined. */
 struct vortex {
     enum vortex_law law;
     double turn, period, density; /* A [rad], T [s], rho [kg/m^3] */

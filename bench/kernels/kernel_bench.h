@@ -7,7 +7,7 @@
 #include "bench/common/bench.h"
 #include "contact/contact.h"
 
-/* Kernels that are timed. */
+/* Kernels (inner loops of a time step) that are timed. */
 enum job_kind {
     BOND_FORCE,
     BOND_ENERGY,
@@ -29,7 +29,8 @@ enum job_kind {
     JOB_KINDS
 };
 
-/* A kernel instance to be timed. */
+/* A kernel to be timed, with the dimension, model, shape function or transfer for which it is compiled, and its time.
+ */
 struct job {
     enum job_kind kind;
     int dim;
@@ -53,12 +54,12 @@ struct ground {
     real *value, *field; /* arguments of the spread kernel */
 };
 
-/* Limits of the machine. */
+/* Measured limits of the machine, from which lower limits of the times of kernels are computed. */
 struct limits {
     double cell_stencil[DIM_MAX + 1], triad, points;
 }; /* [s/bond], [B/s], [s/point] */
 
-/* State of the bench. */
+/* State of `cleave bench kernels`: the bodies on which kernels are timed, the kernels, and the results. */
 struct kernel_bench {
     struct ground ground[DIM_MAX + 1];
     struct job *job;

@@ -26,10 +26,10 @@ struct laws_case {
     struct laws_figure asked[LAWS_FIGURES]; /* a quantity without a name ends the list */
 };
 
-/* Table of the cases. */
+/* Cases of `cleave bench laws`, laws_cases_count entries. */
 extern const struct laws_case laws_cases[];
 
-/* Number of cases. */
+/* Number of entries of the table laws_cases. */
 extern const int laws_cases_count;
 
 /* Returns true if the measured value `measured` is within the tolerance of expected->expected. */

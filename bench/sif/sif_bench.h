@@ -9,7 +9,7 @@
 
 enum { EDGE_RINGS = 3 };
 
-/* Result of a run. */
+/* Result of a run of a plate with an edge crack: its stress-intensity factor and its cost. */
 struct edge_row {
     int model; /* index in edge_model */
     int side;  /* particles along an edge */

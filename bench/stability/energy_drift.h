@@ -4,7 +4,7 @@
 
 #include "stability.h"
 
-/* Groups of cases. */
+/* Groups of cases whose energy is observed over many steps, by what the body consists of or how it moves. */
 enum drift_group {
     LASTING_NAMED,  /* scenes in which the energy grew in an earlier version (energy_drift_named.c) */
     LASTING_BODIES, /* only bonds, only states, or only cells of the reference frame */
@@ -17,7 +17,8 @@ enum drift_group {
 };
 extern const char *const drift_group_name[LASTING_GROUP];
 
-/* A case: a body that starts with random velocities, unless `moves`. */
+/* A case: an unbreakable body whose energy is observed over many steps. It starts with random velocities unless `moves`
+ * is true. */
 struct drift_case {
     enum drift_group group;
     const char *name; /* label; NULL: composed by drift_label */
@@ -75,7 +76,7 @@ typedef status drift_take(void *context, const struct drift_case *l);
  * quick: true for every fourth case only. Returns the first status that is not OK; OK if there is none. */
 status drift_call_for_all_cases(bool quick, drift_take *callback, void *context);
 
-/* Cases of the group LASTING_NAMED (energy_drift_named.c). */
+/* Cases of the group LASTING_NAMED, scenes in which the energy grew in an earlier version (energy_drift_named.c). */
 extern const struct drift_case drift_named[];
 extern const int drift_named_count;
 

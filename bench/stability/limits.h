@@ -7,7 +7,7 @@
 
 enum { FAILING_FIGURES = 3, FAILING_SET = 11 };
 
-/* A measured quantity: a correct method stays at or below the threshold. */
+/* A quantity that is measured in a failing scene: a correct method stays at or below the threshold. */
 struct limits_figure {
     const char *quantity;
     double threshold;
@@ -24,7 +24,7 @@ struct limits_row {
     } known[FAILING_FIGURES];
 };
 
-/* A scene in which methods fail. */
+/* A scene in which some numerical methods fail, with the quantities that show it and a row for each method. */
 struct limits_scene {
     const char *name, *given;                     /* given: printf format of the parameter; NULL: the method states
                                                    * it */

@@ -43,7 +43,7 @@ struct stability_case {
     double quoted_low, quoted_high; /* published limit in the unit of the case, 0: none */
 };
 
-/* Limits of a case; time steps in seconds. */
+/* Limits of the time step of a case, automatic, predicted and observed; time steps in seconds. */
 struct stability_limits {
     double automatic, critical; /* automatic time step; critical one predicted by Cleave */
     double observed, offset;    /* observed limit of growth, least over the offsets; its offset */
@@ -94,7 +94,7 @@ typedef status stability_take(void *context, const struct stability_case *c);
  * Returns the first status that is not OK; OK if there is none. */
 status stability_call_for_all_cases(bool quick, stability_take *callback, void *context);
 
-/* A row of the map. */
+/* A row of the map of stability limits: a free block with one method, and its limits of the time step. */
 struct stability_row {
     struct stability_case c;
     struct stability_limits l;
@@ -102,7 +102,7 @@ struct stability_row {
 };
 enum { STABILITY_ROWS_MAX = 400 };
 
-/* All rows. */
+/* The map of stability limits: n rows. */
 struct stability_map {
     int n;
     struct stability_row row[STABILITY_ROWS_MAX];

@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* Describes a kind of output folder and how it is recognised. */
+/* Describes a kind of output folder, such as that of a run, and how Cleave recognises it before it writes there. */
 struct folder_kind {
     const char *what; /* noun for messages: "run", "study", "export" */
     const char *sign; /* name of the file by which a folder of this kind is recognised */

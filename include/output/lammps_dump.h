@@ -5,7 +5,7 @@
 
 #include "base/base.h"
 
-/* Particles of one time step, sorted by id. */
+/* Particles of one time step in a dump of LAMMPS, sorted by id. */
 struct lammps_frame {
     int64_t n, step;
     double *x[DIM_MAX], *v[DIM_MAX]; /* position [m]; velocity [m/s], 0 if the dump has none */

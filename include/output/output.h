@@ -24,7 +24,7 @@ enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in add
  * files do not list it (output_remove_lost_frames_from_index). */
 #define FRAME_LOST (1u << 31)
 
-/* A frame that has been written. */
+/* A frame (state of the particles at one time) that has been written to its file. */
 struct frame_entry {
     real time;         /* [s] */
     int64_t rows;      /* particles and material points of coarse cells */
@@ -53,7 +53,7 @@ struct frame_series {
     int64_t rows_of;        /* number of particles and points from which the rows were selected */
 };
 
-/* State of the output of a run. */
+/* State of the output of a run: its folder, its series of frames, and the table history.csv. */
 struct output {
     struct folder_lock lock; /* excludes a second process from the folder; held while `folder` is not NULL */
     char *folder;            /* path of the run's folder */
@@ -123,7 +123,8 @@ status output_write_text(const struct output *o, const char *file_name, const ch
  * FAILED if an index file cannot be written. */
 status output_remove_lost_frames_from_index(struct output *o, int *lost_frame_count, char *message, size_t capacity);
 
-/* Beginning of the files of rigid bodies beside the frames (rigid/rigid_surface.h). */
+/* First lines of the files of rigid bodies, which are written beside the frames and by which Cleave recognises them
+ * (rigid/rigid_surface.h). */
 #define RIGID_FILE_BEGIN                                                                                               \
     "<?xml version=\"1.0\"?>\n<!-- rigid bodies of cleave -->\n<VTKFile type=\"PolyData\" version=\"0.1\" "            \
     "byte_order=\"LittleEndian\">\n"
@@ -244,7 +245,7 @@ void frame_free(struct output_frame *f);
 status frame_field_read(const struct output_frame *f, const char *path, const char *name, int *component_count,
                         float **value);
 
-/* Entry of frames.hdf.series. Numbers have gaps where files were lost. */
+/* Entry of frames.hdf.series, the list of the frames of a run. Numbers have gaps where files were lost. */
 struct listed_frame {
     int number; /* number in the file name */
     real time;  /* [s] */

@@ -8,7 +8,7 @@
 
 #include "base/base.h"
 
-/* Types of numbers in a file. */
+/* Types of the numbers in a dataset of an HDF5 file: floating point, unsigned and signed integers, with their bits. */
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
 
 /* Returns the size of one number of the given type [byte]. */

@@ -24,7 +24,7 @@ struct camera {
     double right[3], up[3], towards[3];
 };
 
-/* Directions of an isometric view. */
+/* The directions of the usual outside view of a solid, an isometric view. */
 extern const struct camera camera_isometric;
 
 /* Returns the directions (right, up, towards the viewer) of a view along the coordinate axis `axis`, 0 .. 2 for x, y,
@@ -91,7 +91,7 @@ bool folder_holds_study(const char *folder);
  * release, if the file cannot be read or is damaged. Release f with frame_free. */
 status run_read_frame(struct output_frame *f, const char *folder, int frame_number);
 
-/* All frames of a run, and those selected for a picture. */
+/* All frames (states at one time) of a run, and those selected for a picture. */
 struct run_frames {
     int listed;
     struct listed_frame *list; /* [listed] */
@@ -197,7 +197,7 @@ status plot_field_choose_default(const struct plot_field **field, const char *fo
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
-/* A rigid body in a frame. */
+/* A rigid body as a picture of one frame shows it: its shape at the start and its placement in the frame. */
 struct rigid_shown {
     const struct region *shape; /* at t = 0; borrowed from the scene */
     struct rigid_placement at;
@@ -275,7 +275,8 @@ status projection_complete_slice_from_particles(struct projection *projection, c
  * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
 double frame_particle_spacing(const struct output_frame *f);
 
-/* Quantity that a map shows. */
+/* Quantity that the colours of a map show: damage, kind or fragment of the particles, a field, named values, or cracks.
+ */
 enum map { MAP_DAMAGE, MAP_KIND, MAP_FRAGMENT, MAP_FIELD, MAP_CATEGORY, MAP_CRACKS };
 
 /* Returns the kind of map (MAP_...) that shows the field `field`, e.g. MAP_DAMAGE for the damage. */
@@ -295,7 +296,7 @@ void plotted_particles_add_rigid_bodies_at(struct plotted_particles *c, const st
 /* Number of named values that colour_of_material_or_body can distinguish. */
 enum { CATEGORIES_MOST = 9 };
 
-/* A named value and its colour. */
+/* A named value, such as a material or a body, and its colour in pictures. */
 struct category {
     struct colour colour;
     char name[NAME_MAX_LENGTH];
@@ -318,7 +319,7 @@ void categories_list_named_values(struct categories *k, const struct plot_field 
  * index of the body, material and so on. */
 struct colour category_colour(const struct plot_field *field, float category_value);
 
-/* Rectangle of a map and the options of its display. */
+/* What a map shows: the rectangle of the body, the range of the colours, and further options. */
 struct view {
     double from[2], to[2];               /* lower left and upper right corner [m] */
     double bottom, top;                  /* damage at the ends of the colour scale */
@@ -402,7 +403,7 @@ void rigids_paint_in_plane(struct colour *pixel, int width, int height, const st
 void rigids_paint_from_outside(struct colour *pixel, float *depth, int width, int height, const struct view *v,
                                const struct plotted_particles *c, enum map map);
 
-/* Output file of a picture. */
+/* Output file of a picture: its path and its format. */
 struct sheet {
     const char *path;
     enum picture_format format;

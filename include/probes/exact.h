@@ -41,7 +41,7 @@ struct exact_values {
  * at X and t. */
 struct exact_values exact_solution_at(const struct exact *e, real X, real t);
 
-/* A stress jump that moves along the bar. */
+/* A stress front of the closed-form solution, a jump that moves along the bar. */
 struct exact_front {
     real position;       /* position [m] */
     int ahead;           /* direction of its motion: -1 towards smaller x, +1 towards greater x */

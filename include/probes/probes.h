@@ -144,7 +144,7 @@ status probes_write_profiles(const struct probes *s, const struct observed_run *
  * with each frame. */
 int64_t probes_count_profiles(const struct probes *s);
 
-/* Longest name of a profile, with its terminator. */
+/* Capacity of the name of a profile that a probe writes, with its terminator [byte]. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
 /* Writes the file name of profile number `profile` >= 0 of frame number `frame_number` to file_name[PROFILE_NAME].

@@ -5,7 +5,7 @@
 
 #include "base/base.h"
 
-/* Request for a page. */
+/* Options of `cleave report`, which writes a page of HTML about a run or a study. */
 struct report_request {
     const char *folder; /* folder of a run, a sweep or a convergence study */
     const char *out;    /* file, or folder for report.html; NULL: FOLDER/report.html */

@@ -10,7 +10,7 @@
 
 /* ---- unlikely values that are intended --------------------------------------------------------------------------- */
 
-/* Words of the key `accept`, in the order of enum accept. */
+/* Words that the key `accept` of a scene may contain to silence warnings, in the order of enum accept. */
 #define ACCEPT_WORDS                                                                                                   \
     "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|heat|growth|mass|"      \
     "brittleness|times|contact|coupling|cell|speed|shock|rayleigh"

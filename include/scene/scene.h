@@ -33,7 +33,7 @@ struct scene_part {
     int material; /* index into scene.material */
 };
 
-/* A deformable or rigid body. */
+/* A body of the scene, deformable or rigid: its shape, materials and motion. */
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material; /* index into scene.material */
@@ -55,7 +55,7 @@ struct scene_body {
     const char *frame_reason;       /* reason why AUTO became CURRENT; NULL: the frame was not AUTO, or still is */
 };
 
-/* Interface between two bodies. */
+/* Interface between two bodies that touch: whether bonds join them, and how strong these bonds are. */
 struct scene_interface {
     int body[2];              /* indices into scene.body */
     bool joined;              /* bonds across the interface join the bodies */
@@ -92,7 +92,8 @@ struct scene_series {
     unsigned fields; /* bits of FRAME_FIELD_WORDS; 0: the fields of the scene's frames */
 };
 
-/* Quantity that controls a load step: pseudo-time, released energy, or an opening. */
+/* Quantity that is prescribed in each load step and determines its loads: the pseudo-time, the energy of the crack
+ * increment, or the opening, the distance of two points. */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
 
 /* Continuation after unstable crack growth: the next equilibrium, or explicit integration in time. */
@@ -102,7 +103,7 @@ enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
  */
 enum steps_path { PATH_AUTO, PATH_BONDS, PATH_HOOP };
 
-/* Settings of load steps, solver static (load_steps.c). */
+/* Settings of the load steps of a scene with `solver: static` (load_steps.c). */
 struct scene_steps {
     int number; /* number of steps: with control load equal parts of the duration, else the largest number */
     enum steps_control control;

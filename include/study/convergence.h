@@ -26,7 +26,7 @@ enum verdict {
     VERDICTS
 };
 
-/* Word for each verdict, for tables. */
+/* Words for the values of enum verdict, in their order, for tables. */
 extern const char *const verdict_name[VERDICTS];
 
 /* Convergence of a figure (a scalar result) over spacing levels; level 0 is the finest. All members but the orders are

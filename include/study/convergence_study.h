@@ -29,7 +29,7 @@ struct study_point {
     int run;                       /* index among the runs of its level, from 0 */
 };
 
-/* State of a convergence study. */
+/* State of a convergence study: its scene, its runs, and the parameters of each run. */
 struct convergence_study {
     struct scene scene; /* the scene as given by the user */
     struct study study;
@@ -57,7 +57,7 @@ struct scalar_result_study {
     double horizon_moves; /* change for a horizon one spacing longer, at level 1; NAN: unknown */
 };
 
-/* Request for a convergence study. */
+/* What the user requests of a convergence study (`cleave converge`). */
 struct convergence_request {
     const char *words;          /* text of study_options_compose_from_arguments; NULL: unknown */
     const char *scene, *folder; /* path of the scene; folder of the study, NULL: default */

@@ -22,7 +22,7 @@ enum case_state { CASE_WAITING, CASE_RUNNING, CASE_DONE, CASE_DONE_BEFORE, CASE_
 
 #define STUDY_SCENE "study.yaml" /* file in the folder of a study: its scene without the varied keys */
 
-/* One run of a study. */
+/* One run of a study: its overrides of the scene, and its state. */
 struct study_case {
     char name[CASE_NAME_ROOM];       /* name of its subfolder of the study's folder */
     struct scene_override *override; /* [overrides] owned, including the strings */
@@ -33,7 +33,7 @@ struct study_case {
     double seconds;           /* duration of the run in this study [s] */
 };
 
-/* A study: its runs and its folder. */
+/* A study, i.e. runs of one scene with different overrides, and its folder. */
 struct study {
     const char *scene; /* path of the scene; borrowed */
     char folder[4096]; /* folder of the study; runs are subfolders */
@@ -159,7 +159,7 @@ struct path study_case_folder(const struct study *s, const struct study_case *c)
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
 
-/* Options of the execution of studies. */
+/* Options by which the runs of a study are executed. */
 struct study_options {
     int jobs, threads;     /* parallel runs; threads of each run; 0: determined from the number of cores */
     bool overwrite, quiet; /* replace older runs; print nothing */

@@ -138,7 +138,7 @@ void print_advice_on_widths_of_narrow_parts(const struct run *e, FILE *out);
  * symmetry, with the distance at which the grid stops it there [m] (check_walls.c). */
 void print_wall_advice(const struct run *e, FILE *out);
 
-/* Text of a length, returned by value. */
+/* Text of a length with its unit, for messages; a struct, so that functions can return it by value. */
 struct length_text {
     char text[32];
 };

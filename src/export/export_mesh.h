@@ -20,7 +20,7 @@ struct export_mesh {
  * id. Returns REFUSED if the scene is faulty. Release *m with export_mesh_free, also after a failure. */
 status export_mesh_make(struct export_mesh *m, const struct export_request *request);
 
-/* Name of a set of nodes, returned by value. */
+/* Name of a set of nodes in the exported mesh; a struct, so that functions can return it by value. */
 struct set_name {
     char text[NAME_MAX_LENGTH];
 };

@@ -75,7 +75,7 @@ struct lammps_column {
 };
 enum { LOADS_MOST = 28, COLUMNS_MOST = DIM_MAX * (LOADS_MOST + 1) }; /* LAMMPS has 32 groups */
 
-/* State of an export of a scene to LAMMPS. */
+/* State of an export of a scene to LAMMPS: the scene, its run, and what the files of LAMMPS will contain. */
 struct exported {
     const struct scene *s;
     struct run *e;

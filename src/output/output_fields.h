@@ -32,7 +32,7 @@ struct frame_field {
  * FRAME_FIELDS: number of its entries. */
 enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 26 };
 
-/* Table of all fields, in the order of their bits. */
+/* Table of all fields that frames may contain, in the order of the bits of field sets. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
 /* Lists of the cells, one vertex for each particle, in the particles file. */

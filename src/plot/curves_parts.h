@@ -19,7 +19,7 @@ struct series {
  * values. */
 double history_largest_magnitude(const struct history *history, int column_index);
 
-/* Smallest and largest value of a set of numbers. */
+/* Range of a set of numbers: its smallest and its largest value. */
 struct value_range {
     double low, high;
 };

@@ -6,7 +6,7 @@
 #include "probes/probes.h"
 
 enum { RIGID_FIGURES = 5 };
-/* State of a RIGID probe. */
+/* State of a RIGID probe, which observes the motion of a rigid body: its values at the start, and extremes so far. */
 struct rigid_memory {
     /* at the start: angular momentum, sum of |m r x v| [kg m^2/s]; kinetic energy [J] */
     real spin, spin_scale, kinetic;

@@ -35,7 +35,7 @@ struct film_set {
     bool *hidden;             /* [groups] */
 };
 
-/* A frame of a run that a page shows. */
+/* A frame (state at one time) of a run that a page shows. */
 struct film_frame {
     struct listed_frame listed;
     int64_t step;

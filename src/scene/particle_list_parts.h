@@ -7,7 +7,7 @@
 
 enum { PARTICLES_MAX = INT32_MAX - 64, NAMES_MAX = 256, UNIT_TEXT = 40 };
 
-/* Columns of a list; coordinates come first. */
+/* Columns that the file of a particle list may have; coordinates come first. */
 enum list_column {
     COLUMN_X,
     COLUMN_Y,
@@ -23,7 +23,7 @@ enum list_column {
     COLUMNS,
     COLUMN_NONE
 };
-/* Name and kind of unit of a column of a particle list. */
+/* A column that the file of a particle list may have: its name and its kind of unit. */
 struct list_quantity {
     const char *name;
     enum unit unit;

@@ -13,7 +13,7 @@ struct operand {
     bool constant;
 };
 
-/* State of the compilation of one expression. */
+/* State of the compilation of one expression of a scene from its text to a list of steps. */
 struct compile {
     struct reader *r;
     unsigned of;                /* allowed variables: EXPRESS_SPACE | EXPRESS_TIME */
@@ -35,7 +35,7 @@ bool compile_write_fault_and_return_false(struct compile *c, const char *format,
 /* Returns the number of the character at `character` in c->text, from 1. */
 int compile_character_number(const struct compile *c, const char *character);
 
-/* Text of a unit for a message, returned by value. */
+/* Text of a unit for a message; a struct, so that functions can return it by value. */
 struct named {
     char text[64];
 };

@@ -39,7 +39,7 @@ struct key;
 
 enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
 
-/* State of the reading of one scene. */
+/* State of the reading of one scene file: its overrides, and the scene that is being filled. */
 struct reader {
     const char *name; /* name of the scene file, for messages */
     const struct scene_override *override;
@@ -265,13 +265,14 @@ enum key_type {
     KEY_GROUP   /* not a key: heads the keys of solids                          */
 };
 
-/* Bounds of a value; open: `least` itself is excluded. */
+/* Allowed range of the value of a key. open: `least` itself is excluded. */
 struct range {
     real least, most;
     bool open, given;
 };
 
-/* A row of the table of keys. */
+/* A row of the table of keys: a key that scenes may contain, its type, unit and range, and where its value is stored.
+ */
 struct key {
     const char *path; /* keys from the top of the scene, joined by dots */
     enum key_type type;
@@ -435,9 +436,9 @@ status expect_list_of_valid_length(struct reader *r, const struct key *k, const 
 status read_input_file_path(struct reader *r, const struct yaml_node *name_node, const char *file_kind, char **path,
                             uint64_t *contents_hash);
 
-/* Words of scenes for the values of enum space, in their order. */
+/* Words by which a scene names the values of enum space, in the order of that enum. */
 extern const char *const space_names[];
-/* Words of scenes for the values of enum probe_kind, in their order. */
+/* Words by which a scene names the values of enum probe_kind, in the order of that enum. */
 extern const char *const probe_names[PROBES];
 
 #endif

@@ -29,7 +29,7 @@ struct pilot_candidate {
     bool unknown;                      /* the runs have no figure of the requested name */
 };
 
-/* State of the choice of method and spacing by pilot runs. */
+/* State of the choice of method and spacing by pilot runs: what is required, the candidates, and their results. */
 struct pilot_search {
     const char *scene;
     const struct scene_override *override; /* [overrides] of the user; borrowed */

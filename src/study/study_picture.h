@@ -41,7 +41,8 @@ struct study_point {
     int runs;
 };
 
-/* One picture: study, figures, roles of the keys, layout. */
+/* One picture of a study: the study, the figures (scalar results) that it shows, the roles of the varied keys, and the
+ * layout. */
 struct study_picture {
     const struct study_table *table;
     const struct study *study;

@@ -43,7 +43,7 @@ static void complain(const char *format, ...)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* A run: its folder, its scene and the file with its messages. */
+/* Paths of a run of Cleave: its folder, its scene and the file that receives its messages. */
 struct place {
     char folder[NAME], scene[NAME], said[NAME];
 };

@@ -33,7 +33,7 @@ enum fault_call {
 /* Action at the call. DO_STOP: SIGINT; DO_KILL: SIGKILL; DO_BREAK: an internal invariant fails. */
 enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL, DO_BREAK };
 
-/* Which call is disturbed, and how. */
+/* Which call of a system or engine function by the tested run is disturbed, and how. */
 struct fault_plan {
     enum fault_call call;
     enum fault_deed deed;
