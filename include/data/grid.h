@@ -113,6 +113,10 @@ void grid_clear_constraints(struct grid *g);
  * particle. */
 #define GRID_MASS_SMALLEST 1e-30
 
+/* Nodes that one of two bodies reaches with less than this share of the mass of a full node are not in contact [1].
+ * Round-off leaves such masses where the shape of a point just ends, and normals would depend on it. */
+#define GRID_MASS_CONTACT 1e-8
+
 /* The acceleration of nodes whose mass, divided by the mass of a full node, is below this value is extrapolated from
  * heavier neighbours (struct follower). Empirical: with values below 1e-6, motions of a hundredth of a spacing act
  * across gaps; with values above 1e-3, rotating bodies gain more than 1e-3 of their energy in four turns. */

@@ -36,7 +36,7 @@ struct grid_contact {
     /* coefficient of friction [1]; distance of points of two bodies in contact [m]; length by which the shape function
      * of a point extends beyond a cell [m] */
     real friction, spacing, half_width;
-    real smallest_mass; /* of a node that moves [kg] */
+    real smallest_mass; /* of a node in contact, of either body [kg] */
     int64_t nodes;
     struct grid_contact_node *node; /* [nodes] of the present step */
     real begun;                     /* sum of impulse . relative velocity before the step, divided by 2 [J] */

@@ -16,6 +16,11 @@
 
 #define AROUND 2 /* range over which normals are smoothed [cells] */
 
+/* Gap up to which two bodies count as touching [spacings], and least overlap of the shape of a point with a node that
+ * counts [cells]. They are above the round-off of positions: bodies that touch exactly at the start, or points whose
+ * shapes end at a node, would otherwise be in contact or not by the last digit (3.8 % of the momentum of a rebound). */
+#define TOUCHING 1e-6
+
 /* ---- nodes shared by two bodies ---------------------------------------------------------------------------------- */
 
 /* Box of nodes that two grids share. first, count: first node and number of nodes along each axis, counted from the
@@ -128,7 +133,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, k[DIM_MAX];
     for (int d = 0; d < g->dim; d++) {
-        const real at = grid_coordinate_in_cells(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h;
+        const real at = grid_coordinate_in_cells(g, d, p->x[d][i]), reach = 1 + c->half_width / g->h - TOUCHING;
         low[d] = (int64_t)ceil(at - reach) - s->first[d], high[d] = (int64_t)floor(at + reach) - s->first[d];
         if (low[d] < 0) low[d] = 0;
         if (high[d] >= s->count[d]) high[d] = s->count[d] - 1;
@@ -236,7 +241,7 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
                         const real *now, int dim, real *taken)
 {
     real slide[DIM_MAX] = {0}, speed = 0;
-    if (node->reach[1] - node->reach[0] - c->spacing > 0) return false;
+    if (node->reach[1] - node->reach[0] > (1 + TOUCHING) * c->spacing) return false;
     const bool strict = c->dissipated[node->side[0] * c->sides + node->side[1]] < 0;
     const real approach = speed_taken(before, now, node->normal, strict, dim), along = dot(now, node->normal, dim);
     if (!(approach > 0)) return false;

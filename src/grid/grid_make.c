@@ -96,7 +96,7 @@ void background_grids_make(struct grid_method *mpm, const struct scene *s, const
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
                                          .spacing = s->spacing,
                                          .half_width = shape_reach(s),
-                                         .smallest_mass = mpm->smallest_mass,
+                                         .smallest_mass = GRID_MASS_CONTACT * full,
                                          .began = NAN,
                                          .ended = NAN};
     grid_contact_make(&mpm->contact, mpm->fields);
