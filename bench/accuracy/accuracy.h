@@ -169,7 +169,7 @@ struct accuracy_plan {
  * point (accuracy_plan.c). Returns REFUSED or FAILED if a scene cannot be read. Release with accuracy_plan_free. */
 status accuracy_plan_make(struct accuracy_plan *plan);
 
-/* Releases the memory of the plan. */
+/* Releases the entries of the plan, the complete table of runs. */
 void accuracy_plan_free(struct accuracy_plan *plan);
 
 /* Composes the scene of the run `point` in *scene: the scene of its problem, with the keys of its method, its horizon
@@ -181,7 +181,7 @@ void accuracy_compose_scene_of_point(const struct accuracy_point *point, struct 
  * Returns FAILED if the file cannot be read or written. */
 status accuracy_read_earlier_results(struct accuracy_plan *plan);
 
-/* Returns true if results/bench/accuracy.csv exists. */
+/* Returns true if the file results/bench/accuracy.csv, the results of an earlier bench, exists. */
 bool accuracy_results_file_exists(void);
 
 /* Reads the results of bench/accuracy/cost_accuracy.csv into the points of the plan. This file is the stored copy of

@@ -40,7 +40,7 @@ void bench_table_append_text(struct bench_table *t, const char *text);
  * JSON. */
 void bench_table_append_number(struct bench_table *t, double number);
 
-/* Releases the memory of t. */
+/* Releases the cells of the table t (bench_table_make). */
 void bench_table_free(struct bench_table *t);
 
 /* Creates the folder results/bench unless it exists. Returns REFUSED if it is a symbolic link, FAILED if it cannot be
@@ -105,7 +105,7 @@ status bench_results_copy_table(const char *file_name, const char *text);
 status bench_engine_make(struct run *e, struct scene *s, const char *path, const char *text,
                          const struct scene_override *override, int override_count);
 
-/* Releases the run e and its scene s. */
+/* Releases the run e and its scene s, which bench_engine_make has created. */
 void bench_engine_free(struct run *e, struct scene *s);
 
 /* Type of a function that computes the velocity v[dim] [m/s] at the reference position X[dim] [m]. context: the

@@ -273,7 +273,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
  * if both files are damaged or missing, or if the checkpoint belongs to another scene or format version. */
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *save_or_load_all, void *context);
 
-/* Returns true if the folder of a run holds checkpoint.h5 or checkpoint.previous.h5. */
+/* Returns true if `folder`, the folder of a run, holds a checkpoint: checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);
 
 /* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive a if

@@ -73,7 +73,8 @@ status file_check_replaceable(const char *path);
  * there is no such file; REFUSED if no beginning agrees. */
 status file_check_is_from_cleave(const char *path, const char *const *beginning, size_t beginnings);
 
-/* Type of a function that acts on the file `path`. */
+/* Type of a function that is called for a file. path: the file. Its status is returned to the caller that visits the
+ * files. */
 typedef status file_visit_fn(const char *path);
 
 /* Calls visit(path) for every file in `folder` for whose name name_is_chosen(name, ending) returns true. ending: passed

@@ -46,7 +46,7 @@ struct colour colour_on_damage_scale(double position);
  * values are treated as 0 and 1, NaN and infinity as 1. */
 struct colour colour_of_peridynamic_particle(double position);
 
-/* Returns the colour of material points in maps of the particle kind. */
+/* Returns the colour of material points in maps that distinguish them from peridynamic particles (MAP_KIND). */
 struct colour colour_of_material_points(void);
 
 /* Returns the colour of the fragment with the index `fragment`, 0 for the heaviest one. -1 denotes particles without

@@ -42,7 +42,8 @@ enum {
     PICTURE_DPI = 144
 }; /* a picture of 1000 pixels is as wide as a text page, with letters of the size of the text */
 
-/* Sets the size of all pictures that this process draws from now on. */
+/* Sets the size of all pictures that this process draws from now on. size: width and height [pixel], resolution and,
+ * for pictures of studies, the format. */
 void picture_size_set(struct picture_size size);
 
 /* Returns the size that picture_size_set has set; width and height are 0 if it was not called. */

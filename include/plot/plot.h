@@ -81,7 +81,7 @@ status field_draw_picture_or_film(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the folder of a run holds a file called `name`. */
+/* Returns true if `folder`, the folder of a run, holds a file called `name`. */
 bool run_has_file(const char *folder, const char *name);
 
 /* Returns true if `folder` is that of a sweep or a convergence study, which is recognised by its table. */
@@ -262,7 +262,7 @@ float *deformation_gradients_fit_to_displacements(const struct output_frame *f, 
  * is 0 or not a number. */
 bool matrix_invert_3x3(const double matrix[3][3], double inverse[3][3]);
 
-/* Releases the arrays of *c. */
+/* Releases the arrays of the drawn particles *c. */
 void plotted_particles_free(struct plotted_particles *c);
 
 /* Completes the slice *projection through a body in three dimensions from the particles of the frame f: sets the normal

@@ -240,7 +240,7 @@ static inline bool scene_is_single_equilibrium(const struct scene *s)
     return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
 }
 
-/* Returns true if the run solves a sequence of load steps. */
+/* Returns true if a run of the scene s solves a sequence of load steps (solver: static). */
 static inline bool scene_has_load_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
 /* Returns true if a rigid body of the scene has a velocity, from the start or prescribed. */
@@ -287,7 +287,7 @@ static inline bool scene_probes_broken_bonds(const struct scene *s)
     return any;
 }
 
-/* Returns true if the scene silences a warning by its key `accept`. */
+/* Returns true if the scene s silences the warning `warning` by its key `accept`. */
 static inline bool scene_silences_warning(const struct scene *s, enum accept warning)
 {
     return s->accept >> warning & 1;

@@ -25,7 +25,8 @@ const char *number_text_with_unit_of(char *joined, size_t capacity, const char *
  * materials.glass.young; "" if the key has no unit or is unknown. */
 const char *scene_key_unit(const char *path);
 
-/* Returns the index of `text` in the words a|b|c, or -1. */
+/* Returns the index of `text`, from 0, in the list `words`, whose entries are separated by `|`; -1 if it is not in the
+ * list. */
 int word_index_in_list(const char *words, const char *text);
 
 /* Text for a message between an unknown word and the next part of the sentence. */

@@ -57,7 +57,7 @@ struct newton_solver {
  * tolerances are set by the caller. Release with newton_solver_free. */
 void newton_solver_make(struct newton_solver *q, int dim, int64_t node_count);
 
-/* Frees the vectors of q. */
+/* Frees the vectors of the solver q, which newton_solver_make has allocated. */
 void newton_solver_free(struct newton_solver *q);
 
 /* Finds the static equilibrium under the present loads by Newton's method. On entry q->u and q->f are displacement and

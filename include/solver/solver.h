@@ -62,7 +62,8 @@ status static_solver_make(struct static_solver *s, const struct static_body *bod
 void static_solver_make_iteration_vectors(struct static_solver *s, const struct static_body *body,
                                           bool conjugate_gradients);
 
-/* Frees the vectors of s and sets all members to 0. */
+/* Frees the vectors of the solver *s, which static_solver_make and static_solver_make_iteration_vectors have allocated,
+ * and sets all its members to 0. */
 void static_solver_free(struct static_solver *s);
 
 /* Type of a function that does step number `step`, from 0, of an iteration for static equilibrium: relaxation_step by

@@ -34,7 +34,7 @@ status pilot_scene_read_or_choose_method(struct scene *s, struct pilot *p, const
                                          const struct scene_override *override, int overrides, const char *folder,
                                          struct study_options options);
 
-/* Frees the overrides in *p. */
+/* Frees the overrides in *p, which pilot_scene_read_or_choose_method has stored. */
 void pilot_free(struct pilot *p);
 
 #endif

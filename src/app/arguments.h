@@ -59,7 +59,7 @@ status arguments_read(struct run_arguments *a, int argc, char **argv, const char
  * allocated memory for one more entry. Returns REFUSED, with a message, if the text is malformed. */
 status arguments_add_override(struct run_arguments *a, const char *text);
 
-/* Releases the overrides in *a. */
+/* Releases the overrides (-s KEY=VALUE) in *a, which arguments_read has stored. */
 void arguments_free(struct run_arguments *a);
 
 #endif

@@ -37,7 +37,7 @@ bool piece_cell_coverage_make(struct cover *c, const struct piece *piece);
 /* Computes the indices index[DIM_MAX] of the cell number `cell` of c along the axes. */
 void piece_coverage_compute_cell_indices(const struct cover *c, int64_t cell, int64_t *index);
 
-/* Frees the arrays of *c. */
+/* Frees the arrays of the covered cells *c, which piece_cell_coverage_make has allocated. */
 void piece_cell_coverage_free(struct cover *c);
 
 #endif

@@ -80,7 +80,7 @@ void hint_precrack_ends_exactly_on_bonds(const struct run *e, struct warnings *w
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints the solver of load steps and the rule by which cracks grow. */
+/* Prints the solver of the load steps of run e and the rule by which cracks grow. */
 void print_load_step_solver(const struct run *e);
 
 /* Writes a line to `out` for each setting that reduces the accuracy of load steps: loads, supports, lengths of
@@ -149,7 +149,7 @@ struct length_text length_text_with_unit(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
-/* Prints a line for each load and support: particles, area, force and moment. */
+/* Prints a line for each load and support of run e: its number of particles, area, force and moment. */
 void print_loads(const struct run *e);
 
 /* Prints which share of the loaded or supported face of boundary b is not perpendicular to the axis of the boundary,

@@ -34,7 +34,7 @@ struct set_name export_node_set_name_of_load(const struct export_mesh *m, int lo
  * releases the array with memory_free. */
 int32_t *export_node_set_particles_of_load(const struct export_mesh *m, int load_number);
 
-/* Releases the memory of *m. */
+/* Releases the arrays of the mesh *m, which export_mesh_make has allocated. */
 void export_mesh_free(struct export_mesh *m);
 
 /* Checks that the file `path` may be written: it must not exist or, if `overwrite` is true, be an export of Cleave.

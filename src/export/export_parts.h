@@ -51,7 +51,7 @@ struct touched {
 enum { COLOURS_MOST = 3000 };
 enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 
-/* Releases the arrays of *touched. */
+/* Releases the list of particles *touched, which lammps_find_bonds_to_cut has made. */
 void touched_particles_free(struct touched *touched);
 
 /* Assigns a colour, a number from 0 on, to each particle of the list `touched`. For any two colours, the neighbouring
@@ -111,7 +111,7 @@ struct lammps_types {
  * *types. Returns REFUSED if too many types are needed. Release *types with lammps_types_free. */
 status lammps_types_assign_to_particles(struct lammps_types *types, struct exported *exported);
 
-/* Releases the arrays of *types. */
+/* Releases the arrays of the particle types *types of LAMMPS. */
 void lammps_types_free(struct lammps_types *types);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */

@@ -75,7 +75,7 @@ void netcdf_write_text_row(struct netcdf_writer *w, const char *text, int row_by
  * numbers belong to the next array. */
 void netcdf_end_array(struct netcdf_writer *w);
 
-/* Releases the memory of *w. */
+/* Releases the definitions of the netCDF file *w. Does not close the file. */
 void netcdf_free(struct netcdf_writer *w);
 
 #endif

@@ -22,7 +22,7 @@ status frame_index_files_compose(struct frame_indices *index, const char *folder
 status frame_index_files_write(const struct frame_indices *index, const char *folder,
                                const struct frame_series *series);
 
-/* Releases the texts of *index. */
+/* Releases the texts of the index files *index of a series of frames. */
 void frame_index_files_free_texts(struct frame_indices *index);
 
 /* Writes the file name of frame number `frame_number` of a series, relative to the folder of the run, to

@@ -38,7 +38,7 @@ void particles_file_collect_contents(struct particles_file *f, const struct fram
  * HDF5 failed and must not be called again. Returns FAILED if the file cannot be written. */
 status particles_file_write(const struct particles_file *f, bool *hdf5_failed);
 
-/* Releases the contents of *f. */
+/* Releases the contents of *f, which particles_file_collect_contents has copied. */
 void particles_file_free(struct particles_file *f);
 
 /* Creates in the file `frame` a link to each of its fields that is stored in the particles file f. field_bits: fields

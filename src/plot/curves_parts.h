@@ -116,7 +116,7 @@ status sif_curves_draw(const char *title, const struct series *series);
  * fails. */
 status crack_paths_draw(const char *folder, const char *title, const struct series *series);
 
-/* Returns true if the run in `folder` consists of load steps. */
+/* Returns true if the run in `folder` consists of load steps, not of steps in time. */
 bool run_has_load_steps(const char *folder);
 
 /* Draws the force against the displacement of each support and rigid body that carries a force, with the largest force

@@ -49,7 +49,8 @@ static const double KEY_LETTER = 8.2, KEY_LETTER_NARROW = 6.6;
  * of panels; height_over_width: height of a panel divided by its width. */
 struct layout maps_layout_choose(const struct maps_shown *shown, int panel_count, double height_over_width);
 
-/* Returns true if a map of the kind `map` has a colour bar. */
+/* Returns true if a map of the quantity `map` has a colour bar, as all maps except those of fragments and of named
+ * values have. */
 bool map_has_colour_bar(enum map map);
 
 /* Returns the width [pixel] of the longest number at the tics (labelled marks) of an axis. low, high: values at the

@@ -32,7 +32,7 @@ void marks_add_point(struct marks *m, const real *position, const double *arrow)
  * for no entry. */
 void marks_end_data_block(struct marks *m, const char *plot_style, const char *key_entry);
 
-/* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
+/* Adds symbols for loads, supports, mirrors and absorbing faces of the scene to the marks *m of its picture. */
 void marks_draw_symbols_of_loads(struct marks *m);
 
 /* Draws arrows for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
@@ -41,13 +41,13 @@ void marks_draw_arrows_of_velocities(struct marks *m);
 /* Draws the pre-cracks of the scene as lines, and an arrow where each crack with prescribed growth starts. */
 void marks_draw_lines_of_precracks(struct marks *m);
 
-/* Draws symbols at the positions of the probes of the scene. */
+/* Adds symbols at the positions of the probes of the scene to the marks *m of its picture. */
 void marks_draw_symbols_of_probes(struct marks *m);
 
 /* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each size of cells. */
 void marks_draw_outlines_of_coarse_cells(struct marks *m);
 
-/* Draws boxes around the named regions of the scene. */
+/* Adds boxes around the named regions of the scene to the marks *m of its picture. */
 void marks_draw_boxes_of_named_regions(struct marks *m);
 
 /* Adds an entry to the key (legend) of the picture: a square in the colour `colour` and the text `text`. */

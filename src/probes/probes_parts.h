@@ -101,7 +101,8 @@ void probe_motion_interpolate_to_sample_time(struct probe *q, const struct obser
  * probe_particle_velocity_component return the present values again. */
 void probe_motion_discard_interpolation(struct probe *q);
 
-/* Frees the copies of positions and velocities of a probe. */
+/* Frees the copies of positions and velocities in the probe q, which its interpolation to the time of a sample needs.
+ */
 void probe_motion_free(struct probe *q);
 
 /* Returns component `axis` of the position of particle q->list[list_index] of a probe [m]. After
@@ -243,7 +244,7 @@ struct bar {
  * the bar or its loads differ from what the closed-form solution describes. */
 status bar_probe_find_bar_and_load(struct probe *q, const struct observed_run *o);
 
-/* Frees a bar and its arrays. `bar` may be NULL. */
+/* Frees the bar that an EXACT probe observes, and its arrays. `bar` may be NULL. */
 void bar_probe_free_bar(struct bar *bar);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the

@@ -76,7 +76,7 @@ void film_select_within_byte_budget(struct film *f, int64_t byte_budget);
  * Returns FAILED if a frame cannot be read again. */
 status film_write(struct page *page, const struct film *f);
 
-/* Releases the memory of *f. */
+/* Releases the lists and values of *f, which film_read_frames_of_run has allocated. */
 void film_free(struct film *f);
 
 /* Divides the particles of the set `particle_set` into groups, each of which the page shows as one particle. Particles

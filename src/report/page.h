@@ -47,7 +47,7 @@ void page_add_text_file(struct page *p, const char *entry_name, const char *fold
  * REFUSED if it is an input of this command. */
 status page_complete_and_write_file(struct page *p, const char *path, const char *title, int64_t *file_size);
 
-/* Releases the memory of *p. */
+/* Releases the texts and arrays of the composed page *p. */
 void page_release(struct page *p);
 
 #endif

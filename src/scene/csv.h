@@ -21,7 +21,7 @@ struct csv_file {
  * texts are kept by reference. Returns REFUSED, with a message, if the file cannot be read. Close c with csv_close. */
 status csv_open(struct csv_file *c, const char *path, const char *line_description);
 
-/* Closes the CSV file c. */
+/* Closes the CSV file of c. */
 void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text. Sets *line_was_read to false at the end of the file, and

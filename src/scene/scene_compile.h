@@ -32,7 +32,7 @@ struct compile {
 bool compile_write_fault_and_return_false(struct compile *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Returns the number of the character at `character` in c->text, from 1. */
+/* Returns the number, from 1, of the character to which `character` points in the text c->text of the expression. */
 int compile_character_number(const struct compile *c, const char *character);
 
 /* Text of a unit for a message; a struct, so that functions can return it by value. */
@@ -43,7 +43,7 @@ struct named {
 /* Returns the unit of the quantity q as text for a message. */
 struct named quantity_unit_name(const struct quantity *q);
 
-/* Returns true if q has no dimension. */
+/* Returns true if the quantity q is a pure number, i.e. all exponents of its unit are 0. */
 bool quantity_is_dimensionless(const struct quantity *q);
 
 /* Returns the operand that is `entries_below_top` entries below the top of the stack of c; 0 for the topmost one. */

@@ -24,10 +24,10 @@ void writer_begin_list_item(struct writer *w);
 /* Writes a number to the YAML text with so many digits that it reads back to identical bits. */
 void yaml_write_real(struct writer *w, real value);
 
-/* Writes a text in double quotes. */
+/* Writes the text `text` in double quotes to the YAML text of w. */
 void yaml_write_quoted_text(struct writer *w, const char *text);
 
-/* Writes the numbers value[count] to the YAML text as a list in brackets. */
+/* Writes the numbers value[count] to the YAML text of w as a list in brackets. */
 void yaml_write_number_list(struct writer *w, const real *value, int count);
 
 /* Writes the value of key k to the YAML text, in the form that the type of the key requires. value_address: address of
@@ -49,17 +49,17 @@ void yaml_write_group_as_mapping(struct writer *w, const char *key, const char *
  * contents_hash: hash of the file, which is written as a comment. */
 void yaml_write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents_hash);
 
-/* Writes all boundary conditions of the scene to the YAML text. */
+/* Writes all boundary conditions (loads, supports, mirrors) of the scene to the YAML text of w. */
 void yaml_write_boundaries(struct writer *w);
 
 /* Writes the key `key` with a vector: component d is formula[d] if it is given, else the number value[d]. */
 void yaml_write_vector_of_formulas(struct writer *w, const char *key, const real *value,
                                    const struct expression *formula);
 
-/* Writes a region to the YAML text, as a list of its solids. */
+/* Writes the region `region` to the YAML text of w, as a list of its solids. */
 void yaml_write_region(struct writer *w, const struct region *region);
 
-/* Writes the named regions of the scene to the YAML text. */
+/* Writes the named regions of the scene to the YAML text of w. */
 void yaml_write_named_regions(struct writer *w);
 
 /* Writes the solid `solid`, which was read from a file, to the YAML text, for example as `stl: {..}`. */

@@ -71,7 +71,7 @@ void *arena_new(struct reader *r, size_t byte_count);
  * releases. */
 char *arena_copy_text(struct reader *r, const char *text, size_t length);
 
-/* Releases all memory of the arena. */
+/* Releases the nodes and texts that arena_new and arena_copy_text have allocated for the reader r, all at once. */
 void arena_free(struct reader *r);
 
 /* Parses the YAML text text[length] to a tree of nodes in memory of the reader and stores its root in *root; NULL if
@@ -82,7 +82,7 @@ status tree_parse_yaml(struct reader *r, const char *text, size_t length, int or
 /* Appends the node `child` to the entries of the list or mapping `parent`. */
 void yaml_node_append(struct yaml_node *parent, struct yaml_node *child);
 
-/* Returns the entry of the mapping `map` with the key `key`, or NULL. */
+/* Returns the entry of the mapping `map` with the key `key`; NULL if it has none. */
 struct yaml_node *yaml_node_find(const struct yaml_node *map, const char *key);
 
 /* Removes the node `child` from the entries of the list or mapping `parent`. */

@@ -148,7 +148,7 @@ void dense_factorise(struct dense *d, const struct multigrid_level *l);
  * receives x, d->n values. */
 void dense_solve(const struct dense *d, const real *load, real *solution);
 
-/* Frees the arrays of the factorisation *d. */
+/* Frees the arrays of the factorisation *d of the matrix of the coarsest level. */
 void dense_free(struct dense *d);
 
 /* Computes the residual l->t = l->b - K l->x of level l with its matrix K. */

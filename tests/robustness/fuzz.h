@@ -5,15 +5,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-void fuzz_scene(const uint8_t *bytes, size_t n);    /* the text of a scene */
-void fuzz_override(const uint8_t *bytes, size_t n); /* lines KEY=VALUE over a good scene */
-/* a particle list in CSV; the first byte is the dimension */
+/* Reads bytes[n] as the text of a scene. */
+void fuzz_scene(const uint8_t *bytes, size_t n);
+
+/* Reads a valid scene with bytes[n] as overrides, lines KEY=VALUE. */
+void fuzz_override(const uint8_t *bytes, size_t n);
+
+/* Reads bytes[n] as a particle list in CSV; the first byte determines the dimension. */
 void fuzz_list(const uint8_t *bytes, size_t n);
-/* an Exodus II file: a mesh, and a list of particles */
+
+/* Reads bytes[n] as an Exodus II file, both as a mesh and as a list of particles. */
 void fuzz_exodus(const uint8_t *bytes, size_t n);
-/* a checkpoint; its footer is corrected */
+
+/* Reads bytes[n] as a checkpoint, after its footer, which holds a hash, has been corrected. */
 void fuzz_checkpoint(const uint8_t *bytes, size_t n);
-/* choices that compose a scene which may be run */
+
+/* Composes a scene from the choices bytes[n], and runs it if it is valid. */
 void fuzz_valid(const uint8_t *bytes, size_t n);
 
 /* Creates a valid checkpoint as the first input of fuzz_checkpoint. Returns its bytes, to be released with free, and

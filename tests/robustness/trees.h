@@ -16,7 +16,7 @@ static inline int remove_one(const char *path, const struct stat *s, int type, s
     return remove(path);
 }
 
-/* Removes a folder with all that is in it. */
+/* Removes the folder `path` with all that is in it. Failures are ignored. */
 static inline void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
 
 /* Makes the folder `name` in the folder of the test program the working folder, for all files of the test; creates it

@@ -8,7 +8,7 @@
 
 #include "tests/support/near.h"
 
-/* Calls a function of netCDF; the test fails unless it returns NC_NOERR. */
+/* Evaluates `call`, a call of a function of netCDF; the test fails unless it returns NC_NOERR. */
 #define NC(call) assert_int_equal(call, NC_NOERR)
 
 /* Defines a dimension of the open netCDF file `file` with the name `name` followed by `number` (0: `name` alone) and

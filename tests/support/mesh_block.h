@@ -56,7 +56,8 @@ static void block_make_with(struct block *b, enum space space, bool hole, bool c
     assert_true(b->mesh.runs > 0 && b->mesh.partial_cells > 0);
 }
 
-/* Creates the block b as block_make_with does, without further arrays. */
+/* Creates the block b of material points as block_make_with does, without further arrays. space, hole, cubic: as there.
+ */
 static inline void block_make(struct block *b, enum space space, bool hole, bool cubic)
 {
     block_make_with(b, space, hole, cubic, 0);

@@ -34,7 +34,7 @@ static inline void status_check(status got, status wanted, const char *part, con
 }
 
 #define assert_near(a, b, tolerance) near_check(a, b, tolerance, #a, __FILE__, __LINE__)
-/* Asserts |a - b| <= share |b|, a relative tolerance. */
+/* Asserts |a - b| <= share |b|; share: relative tolerance [1]. The test fails otherwise. */
 #define assert_close(a, b, share) near_check(a, b, fabs((double)(b)) * (share), #a, __FILE__, __LINE__)
 #define assert_exact(a, b) near_check(a, b, 0, #a, __FILE__, __LINE__)
 #define assert_ok(call) status_check(call, OK, NULL, __FILE__, __LINE__)

@@ -110,7 +110,8 @@ static inline void operator_unknowns(struct operator* o)
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Sets the displacement of the unknown q to u [m]. */
+/* Moves the particle or node of the unknown q in the run of the operator o, such that its displacement component q.d is
+ * u [m]. */
 static inline void operator_place(struct operator* o, struct unknown q, real u)
 {
     struct run *e = &o->e;

@@ -170,7 +170,7 @@ struct reference_bond {
     real stretch, length, n[DIM_MAX], y[DIM_MAX];
 };
 
-/* Returns the bond from particle i to j in their present positions. */
+/* Returns stretch, length and direction of the bond from particle i to particle j of p at their present positions. */
 static inline struct reference_bond reference_bond(const struct particles *p, int64_t i, int64_t j)
 {
     struct reference_bond q;

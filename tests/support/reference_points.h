@@ -74,7 +74,7 @@ struct reference_step {
     real *more; /* [n] change of mean stress or rate of dilatation by the mean of the cell */
 };
 
-/* Computes the position x[dim] of a node of the grid [m]. */
+/* Computes the position x[dim] [m] of the node with the index `node` of the grid g. */
 static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
 {
     for (int d = 0; d < g->dim; d++) {

@@ -31,7 +31,7 @@ static inline struct soften_reference soften_reference_make(enum softening law, 
     return r;
 }
 
-/* Frees the arrays of r. */
+/* Frees the arrays of r, the states of all bonds. */
 static inline void soften_reference_free(struct soften_reference *r)
 {
     memory_free(r->most), memory_free(r->onset), memory_free(r->critical), memory_free(r->ended), memory_free(r->due);

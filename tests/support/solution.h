@@ -57,7 +57,7 @@ static inline void solution_done(const struct solution *a)
     if (a->ran != OK) fail_msg("%s", status_message());
 }
 
-/* Frees the run and the scene of *a. */
+/* Frees the run and the scene of *a, if they were created. */
 static inline void solution_free(struct solution *a)
 {
     engine_free_run(&a->e);
