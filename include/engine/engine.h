@@ -13,7 +13,7 @@
  * engine_free_run whatever is returned. */
 status engine_set_up_run(struct run *e, const struct scene *s, struct output *output);
 
-/* Releases all memory of a run. Waits first for the thread that may still be writing a frame. */
+/* Releases all memory of the run e. Waits first for the thread that may still be writing a frame. */
 void engine_free_run(struct run *e);
 
 /* Writes a line on standard error if the bodies of a scene have so many lattice positions that its set-up takes longer

@@ -34,7 +34,7 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define BONDS_MOST 2e8             /* of a body that is tried with all particles peridynamic */
 #define BONDS_TRIED 2e7            /* of a coarser body that is tried in its place */
 
-/* Returns the quartiles of n measured times. Sorts spent[n] in place. */
+/* Returns the quartiles of the n measured times spent[n] [s], which are sorted in place. */
 static struct quartiles quartiles_of(double *spent, int n)
 {
     const double median = median_by_sorting(spent, n);

@@ -21,7 +21,7 @@ static bool without_time_steps(const struct scene *s)
     return scene_is_single_equilibrium(s) || (scene_has_load_steps(s) && s->steps.then != THEN_EXPLICIT);
 }
 
-/* Returns true if no peridynamic particles can be in contact. */
+/* Returns true if no peridynamic particles of the scene s can be in contact, so that keys of contact have no effect. */
 static bool without_contact(const struct scene *s)
 {
     return s->method == METHOD_MPM || (s->contact_between == CONTACT_NONE && s->rigids == 0);

@@ -25,7 +25,7 @@ enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies ro
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of crack tips that belong to pre-cracks. */
+/* Returns the number of crack tips in `fracture` that belong to pre-cracks, which are in the scene from the start. */
 static int tips_of_cracks(const struct fracture_state *fracture)
 {
     int n = 0;

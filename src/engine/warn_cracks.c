@@ -5,7 +5,7 @@
 
 enum { ALONG = 32 }; /* positions along a segment, or along each of two sides of a triangle, of a crack */
 
-/* Returns true if pre-cracks have cut at least one bond. */
+/* Returns true if pre-cracks have cut at least one of the bonds b. */
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
@@ -27,7 +27,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
     return meets;
 }
 
-/* Returns the distance of position X[dim] from the nearest particle [m]. */
+/* Returns the distance [m] of the position X[dim] [m] from the nearest particle of p. */
 static real particle_distance(const struct particles *p, const real *X)
 {
     real least2 = INFINITY;

@@ -37,7 +37,8 @@ static double value_size(const real *value, int dim)
     return sqrt(sum);
 }
 
-/* Returns true if boundary b holds particles: it prescribes zero velocity. */
+/* Returns true if the boundary condition b is a support at rest, i.e. prescribes a velocity of 0. dim: dimension of the
+ * scene. */
 static bool is_support(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && value_size(b->value, dim) == 0;
@@ -347,7 +348,7 @@ void marks_draw_symbols_of_loads(struct marks *m)
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */
 
-/* Returns the initial speed of particle i [m/s]. */
+/* Returns the initial speed [m/s] of particle i of p. */
 static double speed_at_start(const struct particles *p, int64_t i)
 {
     double sum = 0;

@@ -87,7 +87,7 @@ static status check_variable_name(struct reader *r, const struct yaml_node *n)
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
 }
 
-/* Returns true if `text` contains `name` as a whole word. */
+/* Returns true if `text` contains `name` as a whole word, not only as a part of a longer word. */
 static bool has_word(const char *text, const char *name)
 {
     const size_t length = strlen(name);

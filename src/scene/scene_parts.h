@@ -29,7 +29,7 @@ status read_image_solid(struct reader *r, const struct yaml_node *solid_node, st
  * shape. Returns REFUSED, with a message, for an unknown material or invalid grey values. */
 status read_body_parts_by_grey_value(struct reader *r, const struct yaml_node *shape_node, struct scene_body *body);
 
-/* Returns true if node n is a key that moves, turns or repeats a solid. */
+/* Returns true if the node n is a key that moves, rotates or repeats a solid (such as `rotate`), no solid itself. */
 bool node_is_motion_key_of_solid(const struct yaml_node *n);
 
 /* Reads the keys of the node `solid_node` that move, turn and repeat a solid, and stores these motions in *solid.

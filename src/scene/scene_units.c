@@ -505,7 +505,7 @@ const char *number_write_shortest(char text[32], real value)
 
 /* ---- cleave help units ------------------------------------------------------------------------------------------- */
 
-/* Prints the page about units of `cleave help`. */
+/* Prints the page `cleave help units`, the units that numbers in scenes may have, to `out`. */
 void scene_print_units(FILE *out)
 {
     fputs(

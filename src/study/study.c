@@ -197,7 +197,7 @@ status study_folder_check_is_usable_for_scene(const char *folder, const char *te
 
 /* ---- cases of a study -------------------------------------------------------------------------------------------- */
 
-/* Releases the overrides of a case, with their texts. */
+/* Releases the overrides of the run *c of a study, with their texts. */
 static void case_free(struct study_case *c)
 {
     for (int k = 0; k < c->overrides; k++) memory_free((char *)c->override[k].key);

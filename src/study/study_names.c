@@ -82,7 +82,7 @@ void study_choose_case_name(const struct study *s, char *name, const char *wante
 
 /* ---- names of combinations --------------------------------------------------------------------------------------- */
 
-/* Returns the last part of a key, after its last point. */
+/* Returns the last part of the key `key`, after its last dot, such as young of material.young. */
 static const char *key_last(const char *key)
 {
     const char *dot = strrchr(key, '.');
